@@ -1,0 +1,14 @@
+# Debian ships fftw3.pc but no FFTW3Config.cmake; other distributions ship the config file, which is preferred.
+find_package(FFTW3 CONFIG QUIET)
+if(NOT TARGET FFTW3::fftw3)
+  find_path(FFTW3_INCLUDE_DIR fftw3.h)
+  find_library(FFTW3_LIBRARY fftw3)
+  mark_as_advanced(FFTW3_INCLUDE_DIR FFTW3_LIBRARY)
+  include(FindPackageHandleStandardArgs)
+  find_package_handle_standard_args(FFTW3 REQUIRED_VARS FFTW3_LIBRARY FFTW3_INCLUDE_DIR)
+  if(FFTW3_FOUND)
+    add_library(FFTW3::fftw3 UNKNOWN IMPORTED)
+    set_target_properties(FFTW3::fftw3 PROPERTIES
+      IMPORTED_LOCATION ${FFTW3_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${FFTW3_INCLUDE_DIR})
+  endif()
+endif()

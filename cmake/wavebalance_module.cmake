@@ -1,0 +1,51 @@
+# wavebalance_add_module(name SOURCES <files> HEADERS <files> [MODULES <sibling modules>]
+#                        [PUBLIC <targets>] [PRIVATE <targets>] [FIND "<arguments of find_dependency>"...])
+# declares the library wavebalance::<name> and the package component <name>.
+function(wavebalance_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "SOURCES;HEADERS;MODULES;PUBLIC;PRIVATE;FIND")
+  set(target wavebalance_${name})
+  list(TRANSFORM M_MODULES PREPEND wavebalance:: OUTPUT_VARIABLE siblings)
+  add_library(${target})
+  add_library(wavebalance::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_sources(${target} PRIVATE ${M_SOURCES}
+    PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
+  target_link_libraries(${target} PUBLIC ${siblings} ${M_PUBLIC} PRIVATE ${M_PRIVATE})
+  wavebalance_set_warnings(${target})
+
+  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wavebalance)
+  install(TARGETS ${target} EXPORT ${target}-targets COMPONENT ${name} FILE_SET HEADERS COMPONENT ${name})
+  install(EXPORT ${target}-targets NAMESPACE wavebalance:: DESTINATION ${package_dir} COMPONENT ${name})
+  set(text "")
+  foreach(module IN LISTS M_MODULES)
+    string(APPEND text "include(\${CMAKE_CURRENT_LIST_DIR}/wavebalance_${module}.cmake)\n")
+  endforeach()
+  foreach(dependency IN LISTS M_FIND)
+    string(APPEND text "find_dependency(${dependency})\n")
+  endforeach()
+  string(APPEND text "include(\${CMAKE_CURRENT_LIST_DIR}/${target}-targets.cmake)\n")
+  string(APPEND text "set(wavebalance_${name}_FOUND TRUE)\n")
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/wavebalance_${name}.cmake "include_guard()\n${text}")
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalance_${name}.cmake DESTINATION ${package_dir} COMPONENT ${name})
+  set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_INSTALLED_MODULES ${name})
+endfunction()
+
+# wavebalance_set_warnings(target): the warnings that all of our targets are held to.
+function(wavebalance_set_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    $<$<BOOL:${WAVEBALANCE_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
+# wavebalance_install_package(): the package file that finds components, called once, last.
+function(wavebalance_install_package)
+  get_property(WAVEBALANCE_INSTALLED_MODULES GLOBAL PROPERTY WAVEBALANCE_INSTALLED_MODULES)
+  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wavebalance)
+  configure_package_config_file(cmake/wavebalanceConfig.cmake.in wavebalanceConfig.cmake
+    INSTALL_DESTINATION ${package_dir})
+  write_basic_package_version_file(wavebalanceConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfig.cmake
+    ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfigVersion.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake DESTINATION ${package_dir} COMPONENT package)
+endfunction()
