@@ -1,0 +1,78 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace wavebalance::solvers {
+
+/// What the solvers ask of a contact law: a force that depends on the displacement of one contact degree of freedom.
+/// A law of one's own is a struct with these four const members.
+template <class Law>
+concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, double displacement) {
+  { law.force(displacement) } -> std::convertible_to<double>;      // N, opposes a positive displacement
+  { law.tangent(displacement) } -> std::convertible_to<double>;    // N/m; at the kink the right-hand slope
+  { law.potential(displacement) } -> std::convertible_to<double>;  // J, the integral of the force
+  { law.gap() } -> std::convertible_to<double>;                    // m, where the force starts
+};
+
+/// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which makes
+/// the indirection free; copies share the (immutable) law and may be used from several threads.
+class AnyContactLaw {
+ public:
+  /// No contact: force, tangent and potential are zero and the gap is infinite.
+  AnyContactLaw();
+
+  template <ContactLaw Law>
+    requires(!std::same_as<Law, AnyContactLaw>)
+  AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
+      : model_(std::make_shared<Model<Law>>(std::move(law))) {}
+
+  double force(double displacement) const;
+  double tangent(double displacement) const;
+  double potential(double displacement) const;
+  double gap() const { return model_->gap(); }
+
+  /// Force (N) and tangent (N/m) at each displacement (m); the three spans have one length. O(n).
+  void evaluate(std::span<const double> displacement, std::span<double> force, std::span<double> tangent) const {
+    model_->evaluate(displacement, force, tangent);
+  }
+  /// Force (N) at each displacement (m). O(n).
+  void evaluate(std::span<const double> displacement, std::span<double> force) const {
+    model_->evaluate(displacement, force);
+  }
+
+ private:
+  struct Interface {
+    virtual ~Interface() = default;
+    virtual double force(double displacement) const = 0;
+    virtual double tangent(double displacement) const = 0;
+    virtual double potential(double displacement) const = 0;
+    virtual double gap() const = 0;
+    virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const = 0;
+    virtual void evaluate(std::span<const double>, std::span<double>) const = 0;
+  };
+
+  template <class Law>
+  struct Model final : Interface {
+    explicit Model(Law law) : law_(std::move(law)) {}
+    double force(double displacement) const override { return law_.force(displacement); }
+    double tangent(double displacement) const override { return law_.tangent(displacement); }
+    double potential(double displacement) const override { return law_.potential(displacement); }
+    double gap() const override { return law_.gap(); }
+    void evaluate(std::span<const double> u, std::span<double> f, std::span<double> slope) const override {
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        f[i] = law_.force(u[i]);
+        slope[i] = law_.tangent(u[i]);
+      }
+    }
+    void evaluate(std::span<const double> u, std::span<double> f) const override {
+      for (std::size_t i = 0; i < u.size(); ++i) f[i] = law_.force(u[i]);
+    }
+    Law law_;
+  };
+
+  std::shared_ptr<const Interface> model_;
+};
+
+}  // namespace wavebalance::solvers
