@@ -1,0 +1,118 @@
+#include "wavebalance/spectral/fft.hpp"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::spectral {
+namespace {
+
+// FFTW's planner is one per process and not thread-safe; only execution is.
+std::mutex& planner_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+struct FreeBuffer {
+  void operator()(void* buffer) const { fftw_free(buffer); }
+};
+
+template <class T>
+std::unique_ptr<T[], FreeBuffer> make_buffer(int count) {
+  void* memory = fftw_malloc(sizeof(T) * static_cast<std::size_t>(count));
+  if (memory == nullptr) throw std::bad_alloc();
+  return std::unique_ptr<T[], FreeBuffer>(static_cast<T*>(memory));
+}
+
+int require_positive(int size) {
+  if (size >= 1) return size;
+  throw std::invalid_argument("RealFft: size is " + std::to_string(size) + "; it must be at least 1");
+}
+
+void require_length(const char* call, const char* span, std::size_t found, int wanted, int size) {
+  if (found == static_cast<std::size_t>(wanted)) return;
+  throw std::invalid_argument("RealFft::" + std::string(call) + ": " + span + " has " +
+                              std::to_string(found) + " entries; a transform of size " +
+                              std::to_string(size) + " needs " + std::to_string(wanted));
+}
+
+fftw_complex* as_fftw(std::complex<double>* values) { return reinterpret_cast<fftw_complex*>(values); }
+
+}  // namespace
+
+struct RealFft::Plan {
+  explicit Plan(int size);
+  ~Plan();
+  Plan(const Plan&) = delete;
+  Plan& operator=(const Plan&) = delete;
+
+  // FFTW's vector code needs the alignment that the plan was made with.
+  bool fits(const double* values) const {
+    return fftw_alignment_of(const_cast<double*>(values)) == fftw_alignment_of(real.get());
+  }
+  bool fits(const std::complex<double>* values) const {
+    return fits(reinterpret_cast<const double*>(values));
+  }
+
+  std::unique_ptr<double[], FreeBuffer> real;
+  std::unique_ptr<std::complex<double>[], FreeBuffer> complex;
+  fftw_plan forward = nullptr;
+  fftw_plan inverse = nullptr;
+};
+
+RealFft::Plan::Plan(int size)
+    : real(make_buffer<double>(size)), complex(make_buffer<std::complex<double>>(size / 2 + 1)) {
+  const std::lock_guard lock(planner_mutex());
+  forward =
+      fftw_plan_dft_r2c_1d(size, real.get(), as_fftw(complex.get()), FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+  inverse =
+      fftw_plan_dft_c2r_1d(size, as_fftw(complex.get()), real.get(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+  if (forward != nullptr && inverse != nullptr) return;
+  fftw_destroy_plan(forward);
+  fftw_destroy_plan(inverse);
+  throw std::runtime_error("RealFft: FFTW has no plan for size " + std::to_string(size));
+}
+
+RealFft::Plan::~Plan() {
+  const std::lock_guard lock(planner_mutex());
+  fftw_destroy_plan(forward);
+  fftw_destroy_plan(inverse);
+}
+
+RealFft::RealFft(int size) : size_(require_positive(size)), plan_(std::make_unique<Plan>(size)) {}
+RealFft::~RealFft() = default;
+RealFft::RealFft(RealFft&&) noexcept = default;
+RealFft& RealFft::operator=(RealFft&&) noexcept = default;
+
+// One plan serves aligned and unaligned spans, so that the result does not depend on where the caller's data
+// lie.
+void RealFft::forward(std::span<const double> in, std::span<std::complex<double>> out) {
+  require_length("forward", "in", in.size(), size_, size_);
+  require_length("forward", "out", out.size(), harmonics(), size_);
+  double* source = const_cast<double*>(in.data());  // kept by FFTW_PRESERVE_INPUT
+  if (!plan_->fits(in.data())) source = std::copy(in.begin(), in.end(), plan_->real.get()) - size_;
+  const bool direct = plan_->fits(out.data());
+  std::complex<double>* target = direct ? out.data() : plan_->complex.get();
+  fftw_execute_dft_r2c(plan_->forward, source, as_fftw(target));
+  if (!direct) std::copy_n(target, harmonics(), out.begin());
+}
+
+void RealFft::inverse(std::span<const std::complex<double>> in, std::span<double> out) {
+  require_length("inverse", "in", in.size(), harmonics(), size_);
+  require_length("inverse", "out", out.size(), size_, size_);
+  std::complex<double>* source = plan_->complex.get();  // the fast complex-to-real plans destroy their input
+  std::copy(in.begin(), in.end(), source);
+  source[0] = source[0].real();
+  if (size_ % 2 == 0) source[size_ / 2] = source[size_ / 2].real();
+  const bool direct = plan_->fits(out.data());
+  double* target = direct ? out.data() : plan_->real.get();
+  fftw_execute_dft_c2r(plan_->inverse, as_fftw(source), target);
+  if (!direct) std::copy_n(target, size_, out.begin());
+}
+
+}  // namespace wavebalance::spectral
