@@ -1,0 +1,36 @@
+#pragma once
+#include <span>
+
+#include "wavebalance/contact/response.hpp"
+
+namespace wavebalance::contact {
+
+/// A linear spring at a gap, without adhesion: f_c(u) = k max(u - g0, 0).
+///
+/// No result exceeds the largest double, so force and potential are finite for every finite displacement. A
+/// displacement that is not a number gives results that are not a number. O(1). Immutable, may be shared
+/// between threads.
+class LinearLaw {
+ public:
+  /// stiffness: k > 0, N/m; gap: g0, m. Throws std::invalid_argument unless both are finite and k positive.
+  LinearLaw(double stiffness, double gap);
+
+  double stiffness() const { return stiffness_; }
+  double gap() const { return gap_; }
+
+  double force(double displacement) const { return evaluate(displacement).force; }  ///< N, >= 0
+  /// N/m; at the kink u = g0 the right-hand slope k.
+  double tangent(double displacement) const { return evaluate(displacement).tangent; }
+  double potential(double displacement) const;  ///< J, k/2 max(u - g0, 0)^2
+
+  Response evaluate(double displacement) const;
+  /// Force and tangent of arrays of one length. O(n). Throws std::invalid_argument if the lengths differ.
+  void evaluate(std::span<const double> displacement, std::span<double> force,
+                std::span<double> tangent) const;
+
+ private:
+  double stiffness_;
+  double gap_;
+};
+
+}  // namespace wavebalance::contact

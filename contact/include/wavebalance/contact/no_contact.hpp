@@ -1,0 +1,17 @@
+#pragma once
+#include <limits>
+
+#include "wavebalance/contact/response.hpp"
+
+namespace wavebalance::contact {
+
+/// No obstacle: no force at any displacement, and an infinite gap.
+struct NoContact {
+  double force(double) const { return 0.0; }
+  double tangent(double) const { return 0.0; }
+  double potential(double) const { return 0.0; }
+  double gap() const { return std::numeric_limits<double>::infinity(); }
+  Response evaluate(double) const { return {}; }
+};
+
+}  // namespace wavebalance::contact
