@@ -1,0 +1,76 @@
+#include "wavebalance/wavelets/connection.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "refinable.hpp"
+
+namespace wavebalance::wavelets {
+namespace {
+
+// result[n] = sum_{k - j = n} left_j right_k, n = -(left.size() - 1)..right.size() - 1
+Eigen::VectorXd correlation(const Eigen::VectorXd& left, const Eigen::VectorXd& right) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(left.size() + right.size() - 1);
+  for (Eigen::Index j = 0; j < left.size(); ++j)
+    result.segment(left.size() - 1 - j, right.size()) += left[j] * right;
+  return result;
+}
+
+Eigen::VectorXd convolution(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(a.size() + b.size() - 1);
+  for (Eigen::Index k = 0; k < a.size(); ++k) result.segment(k, b.size()) += a[k] * b;
+  return result;
+}
+
+std::string describe(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
+  return "the inner product of " + weight.name() + " with derivative " + std::to_string(derivative) + " of " +
+         trial.name() + " does not exist: Sobolev exponents " + std::to_string(weight.sobolev_exponent()) +
+         " + " + std::to_string(trial.sobolev_exponent()) + ", allowed: a sum above " +
+         std::to_string(derivative);
+}
+
+}  // namespace
+
+InadmissiblePairError::InadmissiblePairError(const ScalingFunction& trial, const ScalingFunction& weight,
+                                             int derivative)
+    : std::domain_error(describe(trial, weight, derivative)),
+      trial_exponent_(trial.sobolev_exponent()),
+      weight_exponent_(weight.sobolev_exponent()),
+      derivative_(derivative) {}
+
+bool connection_exists(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
+  // The exponents are computed to about 1e-9; a sum that is an integer is critical and excluded.
+  return trial.sobolev_exponent() + weight.sobolev_exponent() > derivative + 1e-6;
+}
+
+ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, const ScalingFunction& weight,
+                                               int derivative) {
+  detail::require_in_range("connection_coefficients: derivative", derivative, 0, 12);
+  if (!connection_exists(trial, weight, derivative)) throw InadmissiblePairError(trial, weight, derivative);
+  ConnectionCoefficients result;
+  result.first = 1 - static_cast<int>(weight.filter().size());
+  result.values = detail::values_at_integers(0.5 * correlation(weight.filter(), trial.filter()), result.first,
+                                             derivative);
+  if (trial.coefficients().size() == 1 && weight.coefficients().size() == 1) return result;
+  // \int B_w(x - l - a) B_t^(d)(x - b) dx = C^(d)(l + a - b): shifts by b - a.
+  result.values = convolution(result.values, correlation(weight.coefficients(), trial.coefficients()));
+  result.first += trial.first_coefficient() - weight.first_coefficient() -
+                  static_cast<int>(weight.coefficients().size() - 1);
+  return result;
+}
+
+Eigen::VectorXd periodic_inner_products(const PeriodicBasis& trial, const PeriodicBasis& weight,
+                                        int derivative) {
+  if (trial.level() != weight.level())
+    throw std::invalid_argument("periodic_inner_products: trial has " + std::to_string(trial.functions()) +
+                                " functions and weight " + std::to_string(weight.functions()) +
+                                ", allowed: the same number");
+  const ConnectionCoefficients line =
+      connection_coefficients(trial.scaling_function(), weight.scaling_function(), derivative);
+  const int period = trial.functions();
+  Eigen::VectorXd circle = Eigen::VectorXd::Zero(period);
+  for (int l = line.first; l <= line.last(); ++l) circle[((l % period) + period) % period] += line(l);
+  return circle * std::ldexp(1.0, trial.level() * (derivative - 1));
+}
+
+}  // namespace wavebalance::wavelets

@@ -1,0 +1,83 @@
+#include "wavebalance/wavelets/periodic_basis.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "refinable.hpp"
+#include "wavebalance/wavelets/bspline.hpp"
+
+namespace wavebalance::wavelets {
+namespace {
+
+Eigen::Index modulo(Eigen::Index n, Eigen::Index period) { return ((n % period) + period) % period; }
+
+Eigen::VectorXd wrapped_coefficients(const ScalingFunction& function, int period) {
+  Eigen::VectorXd wrapped = Eigen::VectorXd::Zero(period);
+  for (Eigen::Index k = 0; k < function.coefficients().size(); ++k)
+    wrapped[modulo(function.first_coefficient() + k, period)] += function.coefficients()[k];
+  return wrapped;
+}
+
+}  // namespace
+
+PeriodicBasis::PeriodicBasis(ScalingFunction scaling_function, int level)
+    : scaling_function_(std::move(scaling_function)), level_(level) {
+  detail::require_in_range("PeriodicBasis: level", level, 0, 24);
+}
+
+Eigen::VectorXd PeriodicBasis::samples(int points, int derivative) const {
+  if (points < 1)
+    throw std::invalid_argument("PeriodicBasis::samples: points = " + std::to_string(points) +
+                                ", allowed: >= 1");
+  detail::require_in_range(("PeriodicBasis::samples: derivative of " + scaling_function_.name()).c_str(),
+                           derivative, 0, pointwise_derivatives());
+  const Eigen::VectorXd values = scaling_function_.spline_degree() ? spline_samples(points, derivative)
+                                                                   : dyadic_samples(points, derivative);
+  return values * std::ldexp(1.0, level_ * derivative);
+}
+
+// g(l/points) = sum_j c~[i - j mod M] B(x - i + j) with x = M l/points, i = floor(x), c~ the wrapped
+// coefficients.
+Eigen::VectorXd PeriodicBasis::spline_samples(int points, int derivative) const {
+  const Eigen::Index period = functions();
+  const int degree = *scaling_function_.spline_degree();
+  const Eigen::VectorXd wrapped = wrapped_coefficients(scaling_function_, functions());
+  Eigen::VectorXd result(points);
+  for (Eigen::Index l = 0; l < points; ++l) {
+    const Eigen::Index cell = l * period / points;
+    const double fraction = static_cast<double>(l * period % points) / points;
+    const Eigen::VectorXd values = bspline_values(degree, fraction, derivative);
+    double sum = 0.0;
+    for (int j = 0; j <= degree; ++j) sum += wrapped[modulo(cell - j, period)] * values[j];
+    result[l] = sum;
+  }
+  return result;
+}
+
+Eigen::VectorXd PeriodicBasis::dyadic_samples(int points, int derivative) const {
+  if ((points & (points - 1)) != 0)
+    throw std::invalid_argument("PeriodicBasis::samples: points = " + std::to_string(points) + " for " +
+                                scaling_function_.name() +
+                                ", which is known on dyadic points only; allowed: powers of two");
+  const int period = functions();
+  int refinement = 0;
+  while ((static_cast<long long>(period) << refinement) < points) ++refinement;
+  const Eigen::VectorXd table = scaling_function_.values(refinement, derivative);
+  // x = n 2^-refinement is t = n / fine on the circle; fewer points than functions keep every stride-th.
+  const Eigen::Index fine = static_cast<Eigen::Index>(period) << refinement, stride = fine / points;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(points);
+  for (Eigen::Index n = 0; n < table.size(); ++n) {
+    const Eigen::Index wrapped = n % fine;
+    if (wrapped % stride == 0) result[wrapped / stride] += table[n];
+  }
+  return result;
+}
+
+std::complex<double> PeriodicBasis::fourier_coefficient(int harmonic) const {
+  return scaling_function_.fourier_transform_at_cycles(std::ldexp(static_cast<double>(harmonic), -level_)) /
+         static_cast<double>(functions());
+}
+
+}  // namespace wavebalance::wavelets
