@@ -6,8 +6,8 @@
 
 namespace wavebalance::solvers {
 
-/// What the solvers ask of a contact law: a force that depends on the displacement of one contact degree of freedom.
-/// A law of one's own is a struct with these four const members.
+/// What the solvers ask of a contact law: a force that depends on the displacement of one contact degree of
+/// freedom. A law of one's own is a struct with these four const members.
 template <class Law>
 concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, double displacement) {
   { law.force(displacement) } -> std::convertible_to<double>;      // N, opposes a positive displacement
@@ -16,16 +16,15 @@ concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, do
   { law.gap() } -> std::convertible_to<double>;                    // m, where the force starts
 };
 
-/// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which makes
-/// the indirection free; copies share the (immutable) law and may be used from several threads.
+/// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which
+/// makes the indirection free; copies share the (immutable) law and may be used from several threads.
 class AnyContactLaw {
  public:
   /// No contact: force, tangent and potential are zero and the gap is infinite.
   AnyContactLaw();
 
   template <ContactLaw Law>
-    requires(!std::same_as<Law, AnyContactLaw>)
-  AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
+  requires(!std::same_as<Law, AnyContactLaw>) AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
       : model_(std::make_shared<Model<Law>>(std::move(law))) {}
 
   double force(double displacement) const;
@@ -34,7 +33,8 @@ class AnyContactLaw {
   double gap() const { return model_->gap(); }
 
   /// Force (N) and tangent (N/m) at each displacement (m); the three spans have one length. O(n).
-  void evaluate(std::span<const double> displacement, std::span<double> force, std::span<double> tangent) const {
+  void evaluate(std::span<const double> displacement, std::span<double> force,
+                std::span<double> tangent) const {
     model_->evaluate(displacement, force, tangent);
   }
   /// Force (N) at each displacement (m). O(n).

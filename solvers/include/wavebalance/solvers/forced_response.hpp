@@ -1,0 +1,68 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "wavebalance/solvers/contact_system.hpp"
+
+namespace wavebalance::solvers {
+
+enum class SolveStatus {
+  converged,        ///< the residual meets the tolerance
+  stalled,          ///< no descent along the Newton direction, and the homotopy did not get through either
+  iteration_limit,  ///< iterations used up
+  singular          ///< the Newton matrix is singular
+};
+
+std::string to_string(SolveStatus status);
+
+struct NewtonOptions {
+  double tolerance = 1e-11;  ///< on ||R|| / (||u0|| + ||K f||)
+  int max_iterations = 60;
+  double smallest_step = 1.0 / 4096;  ///< of the line search, relative to the Newton step
+};
+
+struct NewtonResult {
+  SolveStatus status = SolveStatus::iteration_limit;
+  int iterations = 0;
+  double residual = 0.0;                 ///< relative, see NewtonOptions
+  std::vector<double> residual_history;  ///< one entry an iteration, the first before any step
+};
+
+/// Semismooth Newton with line search on ||R||^2 from the displacement samples in `u`, which it improves in
+/// place and leaves at the smallest residual found. O(active^3 + N log N) an iteration.
+NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options);
+
+/// Told after each iteration or homotopy step: what is done, how often, and the current relative residual.
+/// Returns false to stop.
+using SolveObserver = std::function<bool(const std::string& phase, int step, double residual)>;
+
+struct ForcedResponseOptions {
+  NewtonOptions newton;
+  bool homotopy = true;  ///< when Newton stalls, follow the solution in the contact stiffness by arc length
+  int homotopy_steps = 400;  ///< at most
+  SolveObserver observer;
+};
+
+/// A periodic response at one frequency.
+struct PeriodicResponse {
+  SolveStatus status = SolveStatus::iteration_limit;
+  double frequency = 0.0;  ///< Hz
+  double residual = 0.0;   ///< ||R|| / (||u0|| + ||K f||)
+  int iterations = 0;      ///< Newton iterations, those of the homotopy included
+  bool used_homotopy = false;
+  std::vector<double> residual_history;  ///< of the last Newton run
+  Eigen::VectorXd displacement;          ///< m, N samples at the contact degree of freedom
+  Eigen::VectorXd contact_force;         ///< N, N samples
+  Eigen::VectorXcd coefficients;         ///< spectrum over translates (M/2 + 1) of the trial coefficients
+
+  bool converged() const { return status == SolveStatus::converged; }
+};
+
+/// The periodic response of `problem` (frequency set before) under `law`, from the contact-free response or
+/// from `guess` (N samples) when it is not empty. Never throws for want of convergence: read the status.
+PeriodicResponse forced_response(CondensedProblem& problem, const AnyContactLaw& law,
+                                 const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {});
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,196 @@
+#include "wavebalance/solvers/arc_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wavebalance::solvers {
+
+void FrequencyParameter::set(ContactSystem& system, double p) const { system.problem().set_frequency(p); }
+
+void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
+  system.problem().apply_slope(system.force(), slope);
+  slope -= system.problem().free_response_slope();
+}
+
+void StiffnessParameter::set(ContactSystem& system, double p) const {
+  system.set_stiffness_factor(std::exp(p));
+}
+
+void StiffnessParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
+  system.problem().apply(system.force(), slope);
+}
+
+ArcLength::ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options)
+    : system_(system), parameter_(parameter), options_(options), step_(options.initial_step) {}
+
+Eigen::VectorXd ArcLength::scaled(const Eigen::VectorXd& tangent) const {
+  return tangent / (double(tangent.size()) * options_.displacement_scale * options_.displacement_scale);
+}
+
+double ArcLength::inner(const CurvePoint& a, const CurvePoint& b) const {
+  return scaled(a.displacement_tangent).dot(b.displacement_tangent) +
+         a.parameter_tangent * b.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+}
+
+void ArcLength::normalize(CurvePoint& point) const {
+  const double length = std::sqrt(inner(point, point));
+  point.displacement_tangent /= length;
+  point.parameter_tangent /= length;
+}
+
+// The tangent at an evaluated point, oriented along that of `along`.
+bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
+  parameter_.slope(system_, slope_);
+  const double corner = along.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+  if (!system_.factorize_bordered(slope_, scaled(along.displacement_tangent), corner)) return false;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slope_.size());
+  system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent);
+  if (!point.displacement_tangent.allFinite() || !std::isfinite(point.parameter_tangent)) return false;
+  normalize(point);
+  return true;
+}
+
+ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p, double direction) {
+  point_ = {};
+  point_.displacement = displacement;
+  point_.parameter = p;
+  parameter_.set(system_, p);
+  point_.residual = system_.evaluate(displacement);
+  CurvePoint along;
+  along.displacement_tangent = Eigen::VectorXd::Zero(displacement.size());
+  along.parameter_tangent = direction * options_.parameter_scale;
+  previous_ = point_;
+  return tangent_at(point_, along) ? Status::advanced : Status::no_point;
+}
+
+// Newton on R = 0 in the plane at distance `step` along the tangent of `from`.
+bool ArcLength::correct(const CurvePoint& from, double step, CurvePoint& to, int& corrections) {
+  to = {};
+  to.displacement = from.displacement + step * from.displacement_tangent;
+  to.parameter = from.parameter + step * from.parameter_tangent;
+  const Eigen::VectorXd row = scaled(from.displacement_tangent);
+  const double corner = from.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+  double parameter_change = 0.0;
+  for (corrections = 0; corrections <= options_.max_corrections; ++corrections) {
+    if (!std::isfinite(to.parameter)) return false;
+    parameter_.set(system_, to.parameter);
+    to.residual = system_.evaluate(to.displacement);
+    if (!std::isfinite(to.residual)) return false;
+    if (to.residual <= options_.tolerance) return tangent_at(to, from);
+    parameter_.slope(system_, slope_);
+    if (!system_.factorize_bordered(slope_, row, corner)) return false;
+    const double plane =
+        row.dot(to.displacement - from.displacement) + corner * (to.parameter - from.parameter) - step;
+    system_.solve_bordered(system_.residual(), plane, change_, parameter_change);
+    to.displacement -= change_;
+    to.parameter -= parameter_change;
+  }
+  return false;
+}
+
+bool ArcLength::accept_angle(const CurvePoint& candidate) const {
+  return inner(point_, candidate) >= std::cos(options_.largest_angle);
+}
+
+ArcLength::Status ArcLength::advance() {
+  constexpr int comfortable_corrections = 3;
+  CurvePoint candidate;
+  int corrections = 0;
+  for (double step = step_; step >= options_.smallest_step; step *= 0.5) {
+    if (!correct(point_, step, candidate, corrections) || !accept_angle(candidate)) continue;
+    previous_ = std::move(point_);
+    point_ = std::move(candidate);
+    last_step_ = step;
+    const double growth = corrections < comfortable_corrections    ? 1.6
+                          : corrections == comfortable_corrections ? 1.1
+                                                                   : 0.6;
+    step_ = std::clamp(step * growth, options_.smallest_step, options_.largest_step);
+    return Status::advanced;
+  }
+  return turn_corner();
+}
+
+bool ArcLength::intermediate(double fraction, CurvePoint& point) {
+  int corrections = 0;
+  return correct(previous_, fraction * last_step_, point, corrections);
+}
+
+// The sample that the tangent takes through the gap first; -1 when none within the largest step.
+int ArcLength::crossing_ahead(double& distance) const {
+  const double gap = system_.law().gap();
+  int sample = -1;
+  distance = options_.largest_step;
+  for (int l = 0; l < point_.displacement.size(); ++l) {
+    const double rate = point_.displacement_tangent[l];
+    const double ahead = (gap - point_.displacement[l]) / rate;
+    // A sample that has just been turned at a corner lies at the gap up to rounding.
+    const double rounding = 1e-9 * options_.displacement_scale / std::abs(rate);
+    if (!(ahead > rounding) || ahead >= distance) continue;
+    distance = ahead;
+    sample = l;
+  }
+  return sample;
+}
+
+// Newton on R = 0 with the sample held at the gap, from the side on which the curve arrives.
+bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
+  corner = {};
+  corner.corner = true;
+  corner.displacement = point_.displacement + distance * point_.displacement_tangent;
+  corner.parameter = point_.parameter + distance * point_.parameter_tangent;
+  const double gap = system_.law().gap();
+  const bool arrives_free = point_.displacement_tangent[sample] > 0.0;
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());
+  row[sample] = 1.0;
+  double parameter_change = 0.0;
+  for (int i = 0; i <= options_.max_corrections; ++i) {
+    parameter_.set(system_, corner.parameter);
+    corner.residual = system_.evaluate(corner.displacement);
+    const double miss = corner.displacement[sample] - gap;
+    if (corner.residual <= options_.tolerance && std::abs(miss) <= 1e-9 * options_.displacement_scale)
+      return true;
+    system_.set_tangent(sample, arrives_free ? 0.0 : system_.law().tangent(gap));
+    parameter_.slope(system_, slope_);
+    if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
+    system_.solve_bordered(system_.residual(), miss, change_, parameter_change);
+    corner.displacement -= change_;
+    corner.parameter -= parameter_change;
+    if (!std::isfinite(corner.parameter)) return false;
+  }
+  return false;
+}
+
+// The tangent with every sample that reaches the gap together taken on the far side.
+bool ArcLength::leave_corner(int sample, CurvePoint& corner) {
+  const double gap = system_.law().gap();
+  const double direction = point_.displacement_tangent[sample] > 0.0 ? 1.0 : -1.0;
+  for (int l = 0; l < corner.displacement.size(); ++l) {
+    const bool together = std::abs(corner.displacement[l] - gap) <= 1e-8 * options_.displacement_scale;
+    if (together) system_.set_tangent(l, direction > 0.0 ? system_.law().tangent(gap) : 0.0);
+  }
+  parameter_.slope(system_, slope_);
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());
+  row[sample] = 1.0;
+  if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(row.size());
+  system_.solve_bordered(zero, direction, corner.displacement_tangent, corner.parameter_tangent);
+  if (!corner.displacement_tangent.allFinite() || !std::isfinite(corner.parameter_tangent)) return false;
+  normalize(corner);
+  return true;
+}
+
+ArcLength::Status ArcLength::turn_corner() {
+  double distance = 0.0;
+  const int sample = crossing_ahead(distance);
+  CurvePoint corner;
+  if (sample < 0 || !solve_corner(sample, distance, corner) || !leave_corner(sample, corner))
+    return Status::no_point;
+  previous_ = std::move(point_);
+  point_ = std::move(corner);
+  last_step_ = 0.0;
+  step_ = options_.initial_step;
+  return Status::advanced;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,55 @@
+#include "wavebalance/solvers/condensation.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "condensation_method.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+bool is_tridiagonal(const Eigen::SparseMatrix<double>& matrix) {
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
+      if (std::abs(entry.row() - entry.col()) > 1 && entry.value() != 0.0) return false;
+  return true;
+}
+
+void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name) {
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  constexpr double tolerance = 1e-12;
+  if ((matrix - transposed).norm() <= tolerance * matrix.norm()) return;
+  throw std::invalid_argument("Condensation: " + std::string(name) +
+                              " is not symmetric (relative asymmetry " +
+                              std::to_string((matrix - transposed).norm() / matrix.norm()) + ")");
+}
+
+std::unique_ptr<Condensation::Method> choose_method(const LinearStructure& structure) {
+  structure.validate();
+  require_symmetric(structure.mass, "mass");
+  require_symmetric(structure.damping, "damping");
+  require_symmetric(structure.stiffness, "stiffness");
+  const bool banded = is_tridiagonal(structure.mass) && is_tridiagonal(structure.damping) &&
+                      is_tridiagonal(structure.stiffness);
+  return banded ? make_tridiagonal_method(structure) : make_sparse_method(structure);
+}
+
+}  // namespace
+
+Condensation::Condensation(const LinearStructure& structure) : method_(choose_method(structure)) {}
+Condensation::Condensation(Condensation&&) noexcept = default;
+Condensation& Condensation::operator=(Condensation&&) noexcept = default;
+Condensation::~Condensation() = default;
+
+int Condensation::size() const { return method_->size(); }
+
+CondensedPoint Condensation::at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+  return method_->at(factors, rates);
+}
+
+Eigen::VectorXcd Condensation::recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+                                       std::complex<double> contact_force) {
+  return method_->recover(factors, load_amplitude, contact_force);
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,136 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "condensation_method.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// std::complex division guards against overflow at a cost that dominates the elimination; pivots are far from
+// it.
+Complex reciprocal(Complex z) {
+  const double scale = 1.0 / (z.real() * z.real() + z.imag() * z.imag());
+  return {z.real() * scale, -z.imag() * scale};
+}
+Complex multiply(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+struct Bands {
+  Eigen::VectorXd diagonal;  // n
+  Eigen::VectorXd off;       // n - 1
+
+  explicit Bands(const Eigen::SparseMatrix<double>& matrix)
+      : diagonal(matrix.diagonal()), off(matrix.rows() - 1) {
+    for (Eigen::Index i = 0; i + 1 < matrix.rows(); ++i) off[i] = matrix.coeff(i + 1, i);
+  }
+};
+
+class TridiagonalMethod final : public Condensation::Method {
+ public:
+  explicit TridiagonalMethod(const LinearStructure& structure)
+      : mass_(structure.mass),
+        damping_(structure.damping),
+        stiffness_(structure.stiffness),
+        load_(structure.load),
+        contact_(structure.contact_dof),
+        load_at_contact_(load_.cwiseAbs().sum() == std::abs(load_[contact_])),
+        diagonal_(load_.size()),
+        off_(load_.size()),
+        inverse_pivot_(load_.size()),
+        unit_(load_.size()),
+        loaded_(load_.size()) {}
+
+  int size() const override { return static_cast<int>(load_.size()); }
+
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
+    factorize(factors);
+    unit_.setZero();
+    unit_[contact_] = 1.0;
+    solve(unit_);
+    CondensedPoint point;
+    point.compliance = unit_[contact_];
+    point.compliance_slope = -product(unit_, rates, unit_);
+    if (load_at_contact_) {
+      point.load_response = load_[contact_] * point.compliance;
+      point.load_response_slope = load_[contact_] * point.compliance_slope;
+      return point;
+    }
+    loaded_ = load_.cast<Complex>();
+    solve(loaded_);
+    point.load_response = loaded_[contact_];
+    point.load_response_slope = -product(unit_, rates, loaded_);
+    return point;
+  }
+
+  Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
+                           Complex contact_force) override {
+    factorize(factors);
+    Eigen::VectorXcd response = load_ * load_amplitude;
+    response[contact_] -= contact_force;
+    solve(response);
+    return response;
+  }
+
+ private:
+  // L D L^T without pivoting, as for a definite matrix; a vanishing pivot is an error, not a division.
+  void factorize(const StiffnessFactors& s) {
+    const int n = size();
+    for (int i = 0; i < n; ++i)
+      diagonal_[i] = s[0] * mass_.diagonal[i] + s[1] * damping_.diagonal[i] + s[2] * stiffness_.diagonal[i];
+    for (int i = 0; i + 1 < n; ++i)
+      off_[i] = s[0] * mass_.off[i] + s[1] * damping_.off[i] + s[2] * stiffness_.off[i];
+    for (int i = 0; i < n; ++i) {
+      Complex pivot = diagonal_[i];
+      if (i > 0) pivot -= multiply(multiply(off_[i - 1], off_[i - 1]), inverse_pivot_[i - 1]);
+      const double scale = std::abs(s[0] * mass_.diagonal[i]) + std::abs(s[1] * damping_.diagonal[i]) +
+                           std::abs(s[2] * stiffness_.diagonal[i]);
+      constexpr double tiny = 4.0 * std::numeric_limits<double>::epsilon();
+      if (!(std::norm(pivot) > tiny * tiny * scale * scale)) throw_singular(i);
+      inverse_pivot_[i] = reciprocal(pivot);
+    }
+  }
+
+  [[noreturn]] static void throw_singular(int row) {
+    throw SingularSystem("the dynamic stiffness is singular (pivot of row " + std::to_string(row) +
+                         " vanishes): no damping at a natural frequency, or a pair whose symbol vanishes");
+  }
+
+  void solve(Eigen::VectorXcd& x) const {
+    const int n = size();
+    for (int i = 1; i < n; ++i) x[i] -= multiply(multiply(off_[i - 1], inverse_pivot_[i - 1]), x[i - 1]);
+    x[n - 1] = multiply(x[n - 1], inverse_pivot_[n - 1]);
+    for (int i = n - 2; i >= 0; --i) x[i] = multiply(x[i] - multiply(off_[i], x[i + 1]), inverse_pivot_[i]);
+  }
+
+  // x^T (d2 M + d1 C + d0 K) y, no conjugation.
+  Complex product(const Eigen::VectorXcd& x, const StiffnessFactors& d, const Eigen::VectorXcd& y) const {
+    Complex sum = 0.0;
+    for (int i = 0; i < size(); ++i) {
+      const Complex entry =
+          d[0] * mass_.diagonal[i] + d[1] * damping_.diagonal[i] + d[2] * stiffness_.diagonal[i];
+      sum += multiply(entry, multiply(x[i], y[i]));
+      if (i + 1 == size()) break;
+      const Complex off = d[0] * mass_.off[i] + d[1] * damping_.off[i] + d[2] * stiffness_.off[i];
+      sum += multiply(off, multiply(x[i], y[i + 1]) + multiply(x[i + 1], y[i]));
+    }
+    return sum;
+  }
+
+  Bands mass_, damping_, stiffness_;
+  Eigen::VectorXd load_;
+  int contact_;
+  bool load_at_contact_;
+  Eigen::VectorXcd diagonal_, off_, inverse_pivot_, unit_, loaded_;
+};
+
+}  // namespace
+
+std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStructure& structure) {
+  return std::make_unique<TridiagonalMethod>(structure);
+}
+
+}  // namespace wavebalance::solvers
