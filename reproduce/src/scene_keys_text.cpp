@@ -1,0 +1,123 @@
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "number_text.hpp"
+#include "wavebalance/reproduce/scene_keys.hpp"
+
+namespace wavebalance::reproduce {
+namespace {
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+/// `"a", "b" or "c"`; the twenty Daubechies names are said in one.
+std::string alternatives(const std::vector<std::string_view>& values) {
+  std::vector<std::string> names;
+  bool daubechies = false;
+  for (const auto value : values) {
+    if (!value.starts_with("daubechies"))
+      names.push_back(quoted(value));
+    else if (!std::exchange(daubechies, true))
+      names.push_back("\"daubechiesN\" with an even N in 2..40");
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
+/// `text` broken at spaces, each line opened by `indent` spaces.
+std::string wrapped(const std::string& text, int indent, int width) {
+  std::istringstream words(text);
+  const std::string margin(static_cast<std::size_t>(indent), ' ');
+  std::string result;
+  std::string line = margin;
+  for (std::string word; words >> word;) {
+    const bool empty = line.size() == margin.size();
+    if (!empty && static_cast<int>(line.size() + 1 + word.size()) > width) {
+      result += line + "\n";
+      line = margin;
+    }
+    if (line.size() > margin.size()) line += ' ';
+    line += word;
+  }
+  return result + line + "\n";
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += std::string("\\") + c;
+    else if (c == '\n')
+      result += "\\n";
+    else if (c == '\t')
+      result += "\\t";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      constexpr char digits[] = "0123456789ABCDEF";
+      result += std::string("\\u00") + digits[static_cast<unsigned char>(c) >> 4] + digits[c & 15];
+    } else
+      result += c;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string toml_text(const SceneValue& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+  if (const auto* text = std::get_if<std::string>(&value)) return "\"" + escaped(*text) + "\"";
+  const std::string number = number_text(std::get<double>(value));
+  return number.find_first_of(".en") == std::string::npos ? number + ".0" : number;
+}
+
+std::string Bounds::text() const {
+  if (!std::isfinite(lower)) return "";
+  if (std::isfinite(upper))
+    return (lower_excluded ? "> " + number_text(lower) + " and <= " : "in " + number_text(lower) + "..") +
+           number_text(upper);
+  return (lower_excluded ? "> " : ">= ") + number_text(lower);
+}
+
+std::string Condition::text() const {
+  return key.empty() ? "" : std::string(key) + " = " + alternatives(values);
+}
+
+std::string SceneKey::expected() const {
+  if (type == Type::text) return alternatives(choices);
+  std::string text = type == Type::integer ? "an integer" : "a number";
+  if (!unit.empty()) text += " in " + std::string(unit);
+  const std::string range = bounds.text();
+  return range.empty() ? text : text + ", " + range;
+}
+
+std::string SceneKey::default_text() const {
+  switch (fallback) {
+    case Default::value:
+      return toml_text(get(Scene{}));
+    case Default::derived:
+      return std::string(derived_text);
+    case Default::required:
+      break;
+  }
+  return needed.key.empty() ? "required" : "required with " + needed.text();
+}
+
+std::string describe_scene_keys(int width) {
+  std::string text;
+  std::string_view section;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.section != section) text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    section = key.section;
+    const std::string status =
+        key.fallback == SceneKey::Default::required ? key.default_text() : "default " + key.default_text();
+    text += "  " + std::string(key.name) + "\n";
+    text += wrapped(std::string(key.help) + ".", 6, width);
+    text += wrapped(
+        key.expected() + "; " + status + (key.belongs.key.empty() ? "" : "; only with " + key.belongs.text()),
+        6, width);
+  }
+  return text;
+}
+
+}  // namespace wavebalance::reproduce

@@ -1,0 +1,208 @@
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "scene_document.hpp"
+#include "spelling.hpp"
+#include "wavebalance/reproduce/scene_keys.hpp"
+
+namespace wavebalance::reproduce {
+namespace {
+
+std::string message_of(const SceneError::Details& details) {
+  std::string text = !details.override.empty() ? details.override : details.file;
+  if (details.override.empty() && details.line > 0) text += ":" + std::to_string(details.line);
+  text += ": ";
+  if (!details.key.empty()) text += details.key + (details.found.empty() ? "" : " = " + details.found) + ": ";
+  return text + details.allowed;
+}
+
+[[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
+  throw SceneError(
+      {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
+}
+
+[[noreturn]] void fail_missing(const Document& document, const SceneKey& key) {
+  const std::string section(key.section);
+  const std::string where = document.section_line(section) == 0 ? ", in a section [" + section + "]" : "";
+  throw SceneError({document.name, document.section_line(section), "", key.full_name(), "",
+                    "missing; expected " + key.expected() + where});
+}
+
+/// Names of `section`'s keys; of all sections when there is no such section.
+std::vector<std::string> known_names(const std::string& section) {
+  std::vector<std::string> names;
+  for (const SceneKey& key : scene_keys())
+    if (key.section == section) names.emplace_back(key.name);
+  if (!names.empty()) return names;
+  for (const SceneKey& key : scene_keys())
+    if (std::find(names.begin(), names.end(), key.section) == names.end()) names.emplace_back(key.section);
+  return names;
+}
+
+bool is_section(const std::string& name) {
+  const auto keys = scene_keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.section == name; });
+}
+
+[[noreturn]] void fail_unknown(const Document& document, const DocumentEntry& entry) {
+  if (entry.section.empty() && is_section(entry.key))
+    fail_at(document, entry, "expected a section [" + entry.key + "] of keys");
+  if (entry.section.empty()) fail_at(document, entry, "unknown key outside of any section");
+  const bool section_known = is_section(entry.section);
+  const auto names = known_names(entry.section);
+  const std::string close = closest(section_known ? entry.key : entry.section, names);
+  std::string text = section_known ? "unknown key" : "unknown section [" + entry.section + "]";
+  if (!close.empty())
+    text += "; did you mean " + (section_known ? entry.section + "." + close : "[" + close + "]") + "?";
+  else
+    text += "; known are " + joined(names);
+  fail_at(document, entry, text);
+}
+
+void reject_unknown(const Document& document) {
+  for (const DocumentEntry& entry : document.entries)
+    if (find_scene_key(entry.full_name()) == nullptr) fail_unknown(document, entry);
+  for (const DocumentSection& section : document.sections)
+    if (!is_section(section.name))
+      throw SceneError({document.name, section.line, "", "[" + section.name + "]", "",
+                        "unknown section; known are " + joined(known_names(section.name))});
+}
+
+SceneValue checked_text(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* text = std::get_if<std::string>(&entry.value);
+  if (text != nullptr && std::find(key.choices.begin(), key.choices.end(), *text) != key.choices.end())
+    return *text;
+  std::string allowed = "expected " + key.expected();
+  if (text != nullptr) {
+    const std::string close = closest(*text, {key.choices.begin(), key.choices.end()});
+    if (!close.empty()) allowed += "; did you mean \"" + close + "\"?";
+  }
+  fail_at(document, entry, allowed);
+}
+
+SceneValue checked_number(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* integer = std::get_if<std::int64_t>(&entry.value);
+  const auto* number = std::get_if<double>(&entry.value);
+  const bool right_type = integer != nullptr || (number != nullptr && key.type == SceneKey::Type::number);
+  if (!right_type) fail_at(document, entry, "expected " + key.expected());
+  const double value = integer != nullptr ? static_cast<double>(*integer) : *number;
+  if (!std::isfinite(value)) fail_at(document, entry, "expected " + key.expected() + "; it must be finite");
+  if (!key.bounds.contain(value)) fail_at(document, entry, "out of range; expected " + key.expected());
+  if (key.type == SceneKey::Type::integer) return *integer;
+  return value;
+}
+
+SceneValue checked(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  return key.type == SceneKey::Type::text ? checked_text(document, entry, key)
+                                          : checked_number(document, entry, key);
+}
+
+/// Whether other keys belong or are needed depends on this one, which must therefore be read before them.
+bool governs(const SceneKey& key) {
+  const auto keys = scene_keys();
+  const std::string name = key.full_name();
+  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& other) {
+    return other.belongs.key == name || other.needed.key == name;
+  });
+}
+
+void read_key(const Document& document, const SceneKey& key, Scene& scene) {
+  const DocumentEntry* entry = document.find(key.section, key.name);
+  const bool belongs = key.belongs.holds(scene);
+  if (entry != nullptr && !belongs)
+    fail_at(document, *entry,
+            "does not belong to a scene with " + std::string(key.belongs.key) + " = " +
+                toml_text(find_scene_key(key.belongs.key)->get(scene)) + "; only with " + key.belongs.text());
+  if (entry != nullptr)
+    key.set(scene, checked(document, *entry, key));
+  else if (belongs && key.fallback == SceneKey::Default::derived)
+    key.set(scene, key.derived(scene));
+  else if (belongs && key.fallback == SceneKey::Default::required && key.needed.holds(scene))
+    fail_missing(document, key);
+}
+
+/// Reports a rule between keys at the one of `names` that stands last, since it is the likelier to be wrong.
+[[noreturn]] void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
+                            const std::string& rule) {
+  for (const auto name : names) {
+    const SceneKey& key = *find_scene_key(name);
+    if (const auto* entry = document.find(key.section, key.name)) fail_at(document, *entry, rule);
+  }
+  throw SceneError({document.name, 0, "", std::string(*names.begin()), "", rule});
+}
+
+void check_time(const Document& document, const Time& time) {
+  if (time.functions == 0 || time.trial.empty() || time.weight.empty()) return;
+  const bool wavelets = is_wavelet(time.trial) || is_wavelet(time.weight);
+  const std::string functions = std::to_string(time.functions);
+  if (wavelets && (time.functions & (time.functions - 1)) != 0)
+    fail_rule(document, {"time.functions"},
+              "expected a power of two, since \"" + (is_wavelet(time.trial) ? time.trial : time.weight) +
+                  "\" is a wavelet basis");
+  if (time.quadrature_points < time.functions)
+    fail_rule(
+        document, {"time.quadrature_points", "time.functions"},
+        "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
+  if (wavelets && time.quadrature_points % time.functions != 0)
+    fail_rule(
+        document, {"time.quadrature_points", "time.functions"},
+        "expected quadrature_points to be a multiple of functions = " + functions + " for a wavelet basis");
+}
+
+void check_rules(const Document& document, const Scene& scene) {
+  check_time(document, scene.time);
+  const Analysis& analysis = scene.analysis;
+  if (analysis.type != AnalysisType::frequency_sweep) return;
+  if (analysis.frequency_from == analysis.frequency_to)
+    fail_rule(document, {"analysis.frequency_to"}, "expected another frequency than frequency_from");
+  if (analysis.first_step > analysis.largest_step)
+    fail_rule(document, {"analysis.first_step", "analysis.largest_step"},
+              "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  const auto fail = [&](const std::string& reason) {
+    throw SceneError({file.string(), 0, "", "", "", "cannot be read: " + reason});
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) fail("it is a directory");
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(std::strerror(errno));
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (stream.bad()) fail(std::strerror(errno));
+  return text.str();
+}
+
+}  // namespace
+
+SceneError::SceneError(Details details)
+    : std::runtime_error(message_of(details)), details_(std::move(details)) {}
+
+Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides) {
+  Document document = parse_document(text, name);
+  apply_overrides(document, overrides);
+  reject_unknown(document);
+  Scene scene;
+  for (const SceneKey& key : scene_keys())
+    if (governs(key)) read_key(document, key, scene);
+  for (const SceneKey& key : scene_keys())
+    if (!governs(key)) read_key(document, key, scene);
+  check_rules(document, scene);
+  return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_scene(read_text(file), file.string(), overrides);
+}
+
+Scene complete_scene(const Scene& scene) { return parse_scene(write_scene(scene), "scene"); }
+
+}  // namespace wavebalance::reproduce
