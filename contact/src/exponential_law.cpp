@@ -43,12 +43,11 @@ Response ExponentialLaw::in_contact(double displacement) const {
 
 double ExponentialLaw::potential_in_contact(double displacement) const {
   const double argument = exponent_ * (displacement - gap_);
-  const double scale = constant_ / exponent_;
-  if (!(argument > linear_beyond)) return saturate(scale * exponential_remainder(argument));
+  if (!(argument > linear_beyond)) return saturate(constant_ * (exponential_remainder(argument) / exponent_));
   const double edge = std::expm1(linear_beyond);
   const double beyond = argument - linear_beyond;
   const double energy = (edge - linear_beyond) + beyond * (edge + 0.5 * (edge + 1.0) * beyond);
-  return saturate(scale * energy);
+  return saturate(constant_ * (energy / exponent_));
 }
 
 void ExponentialLaw::evaluate(std::span<const double> displacement, std::span<double> force,

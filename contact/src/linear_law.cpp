@@ -13,7 +13,7 @@ LinearLaw::LinearLaw(double stiffness, double gap) : stiffness_(stiffness), gap_
 
 Response LinearLaw::evaluate(double displacement) const {
   if (displacement < gap_) return {};
-  const double penetration = displacement - gap_;
+  const double penetration = displacement - gap_;  // if not a number, passed on in both results
   return {saturate(stiffness_ * penetration), penetration >= 0.0 ? stiffness_ : penetration};
 }
 

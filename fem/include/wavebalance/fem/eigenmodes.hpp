@@ -1,0 +1,47 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace wavebalance::fem {
+
+struct EigenmodesOptions {
+  double tolerance = 1e-12;  ///< of the sparse iteration, relative to 1/(omega^2 - shift), in (0, 1)
+  int max_restarts = 1000;   ///< of the sparse iteration, >= 1
+  int dense_up_to = 200;     ///< unknowns up to which a dense solver takes all modes at once, >= 0
+  double shift = 0.0;        ///< (rad/s)^2, <= 0; below zero where the stiffness is singular (free bodies)
+};
+
+enum class EigenmodesStatus {
+  converged,
+  /// The sparse iteration ended early, or a count of the modes below the highest one says that some are
+  /// missing; the result holds what was found.
+  not_converged
+};
+
+/// Modes of K phi = omega^2 M phi in ascending order of omega.
+struct EigenmodesResult {
+  EigenmodesStatus status = EigenmodesStatus::not_converged;
+  Eigen::VectorXd omega;           ///< rad/s; 0 where rounding made omega^2 negative
+  Eigen::VectorXd frequencies_hz;  ///< omega / (2 pi)
+  Eigen::MatrixXd shapes;          ///< n x modes, phi^T M phi = 1, the entry of largest modulus positive
+  Eigen::VectorXd residuals;       ///< |K phi - omega^2 M phi|_2 / (|K|_1 |phi|_2)
+};
+
+/// The `count` lowest modes of a structure with symmetric stiffness K, positive definite (or semidefinite,
+/// with a negative shift), and symmetric positive semidefinite mass M; both n x n with both triangles stored,
+/// 1 <= count <= rank M.
+///
+/// Small problems, and those that ask for half of the modes or more, go to a dense solver, O(n^3). The others
+/// go to restarted Lanczos iteration with (K - shift M)^-1 M (Spectra): one sparse factorisation and O(count)
+/// solves, for a bar O(n count^2). The signs of the factors of K - s M with s below the highest mode count
+/// the modes under s (Sylvester's law of inertia), so that a missed copy of a multiple mode is noticed and
+/// sought again.
+///
+/// Throws std::invalid_argument if sizes, count or options do not fit, an entry is not finite or a matrix is
+/// not symmetric, std::domain_error if K - shift M is not positive definite or M has too low a rank or is
+/// indefinite (the latter is noticed by the dense solver only).
+EigenmodesResult eigenmodes(const Eigen::SparseMatrix<double>& stiffness,
+                            const Eigen::SparseMatrix<double>& mass, int count,
+                            const EigenmodesOptions& options = {});
+
+}  // namespace wavebalance::fem

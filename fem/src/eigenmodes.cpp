@@ -1,0 +1,223 @@
+#include "wavebalance/fem/eigenmodes.hpp"
+
+#include <Spectra/MatOp/SparseSymMatProd.h>
+#include <Spectra/SymGEigsShiftSolver.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::fem {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Factor = Eigen::SimplicialLDLT<Sparse>;
+
+// Squares of the angular frequencies, ascending, and the mass-normalised shapes.
+struct Modes {
+  Eigen::VectorXd squares;
+  Eigen::MatrixXd shapes;
+  bool complete = true;
+};
+
+void require(bool valid, const std::string& message) {
+  if (!valid) throw std::invalid_argument("eigenmodes: " + message);
+}
+
+void require_symmetric(const Sparse& matrix, const char* name) {
+  const Eigen::Map<const Eigen::VectorXd> entries(matrix.valuePtr(), matrix.nonZeros());
+  require(entries.allFinite(), std::string(name) + " has an entry that is not finite");
+  const Sparse difference = matrix - Sparse(matrix.transpose());
+  const double scale = entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0.0;
+  const double asymmetry = difference.nonZeros() > 0 ? difference.coeffs().abs().maxCoeff() : 0.0;
+  require(asymmetry <= 1e-10 * scale, std::string(name) + " is not symmetric: entries differ by " +
+                                          std::to_string(asymmetry / scale) +
+                                          " of the largest; store both triangles");
+}
+
+void validate(const Sparse& stiffness, const Sparse& mass, int count, const EigenmodesOptions& options) {
+  const auto shape = [](const Sparse& matrix) {
+    return std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols());
+  };
+  require(stiffness.rows() >= 1 && stiffness.rows() == stiffness.cols(),
+          "stiffness is " + shape(stiffness) + "; it must be square and not empty");
+  require(mass.rows() == stiffness.rows() && mass.cols() == stiffness.cols(),
+          "mass is " + shape(mass) + "; the stiffness is " + shape(stiffness));
+  require(count >= 1 && count <= stiffness.rows(),
+          "count is " + std::to_string(count) + "; it must be in 1.." + std::to_string(stiffness.rows()));
+  require(options.tolerance > 0.0 && options.tolerance < 1.0,
+          "tolerance is " + std::to_string(options.tolerance) + "; it must be in (0, 1)");
+  require(options.max_restarts >= 1,
+          "max_restarts is " + std::to_string(options.max_restarts) + "; it must be at least 1");
+  require(options.dense_up_to >= 0,
+          "dense_up_to is " + std::to_string(options.dense_up_to) + "; it must not be negative");
+  require(std::isfinite(options.shift) && options.shift <= 0.0,
+          "shift is " + std::to_string(options.shift) + "; it must be finite and not positive");
+}
+
+[[noreturn]] void reject_stiffness(double shift) {
+  throw std::domain_error("eigenmodes: stiffness - shift mass is not positive definite with shift " +
+                          std::to_string(shift) +
+                          "; a structure that can move freely needs a negative shift");
+}
+
+// M phi = mu (K - shift M) phi: with the inverse of omega^2 as the eigenvalue, rounding is relative to the
+// lowest mode, and a singular mass is no exception.
+Modes dense_modes(const Sparse& shifted, const Sparse& mass, int count, double shift) {
+  const Eigen::MatrixXd right(shifted);
+  const Eigen::LLT<Eigen::MatrixXd> factor(right);
+  if (factor.info() != Eigen::Success) reject_stiffness(shift);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(mass), right);
+  const Eigen::VectorXd inverse = solver.eigenvalues().reverse();  // descending
+  const double rounding = 1e-14 * static_cast<double>(mass.rows()) * inverse[0];
+  if (!(inverse[0] > 0.0) || inverse.tail(1)[0] < -rounding)
+    throw std::domain_error("eigenmodes: mass is not positive semidefinite");
+  if (inverse[count - 1] <= 0.0)
+    throw std::domain_error("eigenmodes: the rank of mass is below the count of modes");
+  return {inverse.head(count).cwiseInverse().array() + shift,
+          solver.eigenvectors().rowwise().reverse().leftCols(count)};
+}
+
+// The operator scale (K - shift M)^-1 as Spectra asks for it. The scale makes the largest eigenvalue about 1:
+// Spectra's tolerance has an absolute part.
+class ScaledInverse {
+ public:
+  using Scalar = double;
+  ScaledInverse(const Factor& factor, double scale) : factor_(&factor), scale_(scale) {}
+  Eigen::Index rows() const { return factor_->rows(); }
+  Eigen::Index cols() const { return factor_->cols(); }
+  void set_shift(double) {}
+  void perform_op(const double* in, double* out) const {
+    const Eigen::Map<const Eigen::VectorXd> given(in, rows());
+    Eigen::Map<Eigen::VectorXd>(out, rows()) = scale_ * factor_->solve(given);
+  }
+
+ private:
+  const Factor* factor_;
+  double scale_;
+};
+
+// A vector in the range of (K - shift M)^-1 M, and an estimate of that operator's largest eigenvalue.
+struct Start {
+  Eigen::VectorXd vector;
+  double eigenvalue;
+};
+
+Start power_iteration(const Factor& factor, const Sparse& mass, unsigned seed) {
+  std::mt19937 generator(seed);
+  const double range = 0.5 * static_cast<double>(std::mt19937::max());
+  Eigen::VectorXd vector(mass.rows());
+  for (double& entry : vector) entry = static_cast<double>(generator()) / range - 1.0;
+  double eigenvalue = 0.0;
+  for (int step = 0; step < 4; ++step) {
+    const Eigen::VectorXd next = factor.solve(mass * vector);
+    eigenvalue = next.norm() / vector.norm();
+    if (!(eigenvalue > 0.0)) throw std::domain_error("eigenmodes: mass is zero");
+    vector = next / next.norm();
+  }
+  return {vector, eigenvalue};
+}
+
+Modes lanczos_modes(const Factor& factor, const Sparse& mass, int count, const EigenmodesOptions& options,
+                    unsigned seed) {
+  const Start start = power_iteration(factor, mass, seed);
+  ScaledInverse inverse(factor, 1.0 / start.eigenvalue);
+  Spectra::SparseSymMatProd<double> product(mass);
+  const Eigen::Index subspace = std::min<Eigen::Index>(mass.rows(), std::max(2 * count + 1, 20));
+  Spectra::SymGEigsShiftSolver<ScaledInverse, Spectra::SparseSymMatProd<double>,
+                               Spectra::GEigsMode::ShiftInvert>
+      solver(inverse, product, count, subspace, 0.0);
+  solver.init(start.vector.data());
+  solver.compute(Spectra::SortRule::LargestMagn, options.max_restarts, options.tolerance,
+                 Spectra::SortRule::SmallestAlge);
+  return {solver.eigenvalues().array() / start.eigenvalue + options.shift, solver.eigenvectors(),
+          solver.info() == Spectra::CompInfo::Successful};
+}
+
+// How many modes below the highest one are not among those found.
+int missing_modes(const Sparse& stiffness, const Sparse& mass, const Modes& modes) {
+  if (modes.squares.size() == 0) return 0;
+  const double highest = modes.squares.tail(1)[0];
+  const double below = highest - 1e-7 * std::abs(highest);
+  const Factor factor(stiffness - below * mass);
+  if (factor.info() != Eigen::Success) return 0;  // a zero pivot: no count to be had
+  const auto expected = (factor.vectorD().array() < 0.0).count();
+  return static_cast<int>(std::max<Eigen::Index>(0, expected - (modes.squares.array() < below).count()));
+}
+
+Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& shifted, int count,
+                   const EigenmodesOptions& options) {
+  const Factor factor(shifted);
+  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0))
+    reject_stiffness(options.shift);
+  const int most = static_cast<int>(mass.rows()) - 1;
+  int wanted = count;
+  Modes modes;
+  for (unsigned attempt = 0; attempt < 4; ++attempt) {
+    modes = lanczos_modes(factor, mass, wanted, options, attempt);
+    const int missing = missing_modes(stiffness, mass, modes);
+    modes.complete = modes.complete && missing == 0;
+    if (missing == 0) break;
+    wanted = std::min(wanted + missing, most);
+  }
+  const Eigen::Index kept = std::min<Eigen::Index>(count, modes.squares.size());
+  return {modes.squares.head(kept), modes.shapes.leftCols(kept), modes.complete};
+}
+
+// phi^T M phi = 1 and a sign that does not depend on the solver.
+void normalise(Eigen::MatrixXd& shapes, const Sparse& mass) {
+  for (Eigen::Index mode = 0; mode < shapes.cols(); ++mode) {
+    auto shape = shapes.col(mode);
+    Eigen::Index largest = 0;
+    shape.cwiseAbs().maxCoeff(&largest);
+    const double length = std::sqrt(shape.dot(mass * shape));
+    shape /= shape[largest] < 0.0 ? -length : length;
+  }
+}
+
+double column_sum_norm(const Sparse& matrix) {
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
+  return (matrix.cwiseAbs().transpose() * ones).maxCoeff();
+}
+
+EigenmodesResult make_result(Modes modes, const Sparse& stiffness, const Sparse& mass) {
+  normalise(modes.shapes, mass);
+  EigenmodesResult result;
+  result.status = modes.complete ? EigenmodesStatus::converged : EigenmodesStatus::not_converged;
+  result.omega = modes.squares.cwiseMax(0.0).cwiseSqrt();
+  result.frequencies_hz = result.omega / (2.0 * std::numbers::pi);
+  const Eigen::MatrixXd residual =
+      stiffness * modes.shapes - (mass * modes.shapes) * modes.squares.asDiagonal();
+  result.residuals = residual.colwise()
+                         .norm()
+                         .cwiseQuotient(column_sum_norm(stiffness) * modes.shapes.colwise().norm())
+                         .transpose();
+  result.shapes = std::move(modes.shapes);
+  return result;
+}
+
+}  // namespace
+
+EigenmodesResult eigenmodes(const Sparse& given_stiffness, const Sparse& given_mass, int count,
+                            const EigenmodesOptions& options) {
+  validate(given_stiffness, given_mass, count, options);
+  Sparse stiffness = given_stiffness;
+  Sparse mass = given_mass;
+  stiffness.makeCompressed();
+  mass.makeCompressed();
+  require_symmetric(stiffness, "stiffness");
+  require_symmetric(mass, "mass");
+  const Sparse shifted = stiffness - options.shift * mass;
+  const Eigen::Index size = stiffness.rows();
+  const bool dense = size <= options.dense_up_to || 2 * static_cast<Eigen::Index>(count) >= size;
+  Modes modes = dense ? dense_modes(shifted, mass, count, options.shift)
+                      : sparse_modes(stiffness, mass, shifted, count, options);
+  return make_result(std::move(modes), stiffness, mass);
+}
+
+}  // namespace wavebalance::fem
