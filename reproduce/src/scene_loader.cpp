@@ -80,7 +80,8 @@ SceneValue checked_text(const Document& document, const DocumentEntry& entry, co
     return *text;
   std::string allowed = "expected " + key.expected();
   if (text != nullptr) {
-    const std::string close = closest(*text, {key.choices.begin(), key.choices.end()});
+    const std::string close =
+        closest(*text, std::vector<std::string>(key.choices.begin(), key.choices.end()));
     if (!close.empty()) allowed += "; did you mean \"" + close + "\"?";
   }
   fail_at(document, entry, allowed);

@@ -22,8 +22,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-template <class Names>
-std::string closest_of(std::string_view word, const Names& names) {
+}  // namespace
+
+std::string closest(std::string_view word, const std::vector<std::string>& names) {
   if (word.size() > 100) return "";
   std::string best;
   std::size_t smallest = std::max<std::size_t>(2, word.size() / 3) + 1;
@@ -35,15 +36,6 @@ std::string closest_of(std::string_view word, const Names& names) {
     }
   }
   return best;
-}
-
-}  // namespace
-
-std::string closest(std::string_view word, const std::vector<std::string>& names) {
-  return closest_of(word, names);
-}
-std::string closest(std::string_view word, const std::vector<std::string_view>& names) {
-  return closest_of(word, names);
 }
 
 std::string joined(const std::vector<std::string>& names) {

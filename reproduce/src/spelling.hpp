@@ -7,7 +7,6 @@ namespace wavebalance::reproduce {
 
 /// The one of `names` that `word` was probably meant to be; empty if none is near. O(length^2) per name.
 std::string closest(std::string_view word, const std::vector<std::string>& names);
-std::string closest(std::string_view word, const std::vector<std::string_view>& names);
 
 /// "a, b, c".
 std::string joined(const std::vector<std::string>& names);
