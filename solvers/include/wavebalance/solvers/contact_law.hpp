@@ -16,6 +16,14 @@ concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, do
   { law.gap() } -> std::convertible_to<double>;                    // m, where the force starts
 };
 
+/// A law that also answers force and tangent at once, `evaluate(u)` with members `force` and `tangent`, is asked
+/// that way where both are needed: an exponential law then takes one exponential, not two.
+template <class Law>
+concept EvaluatesTogether = requires(const Law& law, double displacement) {
+  { law.evaluate(displacement).force } -> std::convertible_to<double>;    // N
+  { law.evaluate(displacement).tangent } -> std::convertible_to<double>;  // N/m
+};
+
 /// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which
 /// makes the indirection free; copies share the (immutable) law and may be used from several threads.
 class AnyContactLaw {
@@ -62,8 +70,14 @@ class AnyContactLaw {
     double gap() const override { return law_.gap(); }
     void evaluate(std::span<const double> u, std::span<double> f, std::span<double> slope) const override {
       for (std::size_t i = 0; i < u.size(); ++i) {
-        f[i] = law_.force(u[i]);
-        slope[i] = law_.tangent(u[i]);
+        if constexpr (EvaluatesTogether<Law>) {
+          const auto both = law_.evaluate(u[i]);
+          f[i] = both.force;
+          slope[i] = both.tangent;
+        } else {
+          f[i] = law_.force(u[i]);
+          slope[i] = law_.tangent(u[i]);
+        }
       }
     }
     void evaluate(std::span<const double> u, std::span<double> f) const override {
