@@ -9,8 +9,9 @@ namespace wavebalance::wavelets {
 namespace {
 
 // result[n] = sum_{k - j = n} left_j right_k, n = -(left.size() - 1)..right.size() - 1
-Eigen::VectorXd correlation(const Eigen::VectorXd& left, const Eigen::VectorXd& right) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(left.size() + right.size() - 1);
+template <class Vector>
+Vector correlation(const Vector& left, const Vector& right) {
+  Vector result = Vector::Zero(left.size() + right.size() - 1);
   for (Eigen::Index j = 0; j < left.size(); ++j)
     result.segment(left.size() - 1 - j, right.size()) += left[j] * right;
   return result;
@@ -20,6 +21,11 @@ Eigen::VectorXd convolution(const Eigen::VectorXd& a, const Eigen::VectorXd& b) 
   Eigen::VectorXd result = Eigen::VectorXd::Zero(a.size() + b.size() - 1);
   for (Eigen::Index k = 0; k < a.size(); ++k) result.segment(k, b.size()) += a[k] * b;
   return result;
+}
+
+detail::ExtendedVector extended_filter(const ScalingFunction& function) {
+  if (function.spline_degree()) return function.filter().cast<long double>();
+  return detail::extended_daubechies_filter(static_cast<int>(function.filter().size()));
 }
 
 std::string describe(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
@@ -49,8 +55,8 @@ ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, con
   if (!connection_exists(trial, weight, derivative)) throw InadmissiblePairError(trial, weight, derivative);
   ConnectionCoefficients result;
   result.first = 1 - static_cast<int>(weight.filter().size());
-  result.values = detail::values_at_integers(0.5 * correlation(weight.filter(), trial.filter()), result.first,
-                                             derivative);
+  const detail::ExtendedVector mask = correlation(extended_filter(weight), extended_filter(trial)) / 2.0L;
+  result.values = detail::values_at_integers(mask, result.first, derivative);
   if (trial.coefficients().size() == 1 && weight.coefficients().size() == 1) return result;
   // \int B_w(x - l - a) B_t^(d)(x - b) dx = C^(d)(l + a - b): shifts by b - a.
   result.values = convolution(result.values, correlation(weight.coefficients(), trial.coefficients()));

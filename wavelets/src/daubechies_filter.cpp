@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "refinable.hpp"
 #include "wavebalance/wavelets/filter.hpp"
 
 namespace wavebalance::wavelets {
@@ -84,7 +85,7 @@ void multiply_by(std::vector<Complex>& polynomial, Complex constant, Complex lin
 
 }  // namespace
 
-Eigen::VectorXd daubechies_filter(int coefficients) {
+detail::ExtendedVector detail::extended_daubechies_filter(int coefficients) {
   if (coefficients < 2 || coefficients > 40 || coefficients % 2 != 0)
     throw std::invalid_argument("daubechies_filter: coefficients = " + std::to_string(coefficients) +
                                 ", allowed: even numbers 2..40");
@@ -96,9 +97,13 @@ Eigen::VectorXd daubechies_filter(int coefficients) {
   for (int k = 0; k < zeros; ++k) multiply_by(product, {1, 0}, {1, 0});
   Extended sum = 0;
   for (const Complex& value : product) sum += value.re;
-  Eigen::VectorXd filter(coefficients);
-  for (int k = 0; k < coefficients; ++k) filter[k] = static_cast<double>(2 * product[k].re / sum);
+  ExtendedVector filter(coefficients);
+  for (int k = 0; k < coefficients; ++k) filter[k] = static_cast<long double>(2 * product[k].re / sum);
   return filter;
+}
+
+Eigen::VectorXd daubechies_filter(int coefficients) {
+  return detail::extended_daubechies_filter(coefficients).cast<double>();
 }
 
 }  // namespace wavebalance::wavelets

@@ -9,12 +9,11 @@ namespace wavebalance::wavelets::detail {
 namespace {
 
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 // [2^d mask - I; moments 0..d] over the interior integers. The moments are taken about the middle of the
 // support and in units of its half length, which changes none of the conditions and keeps the rows of
 // order 1.
-Matrix eigenvector_equations(const Eigen::VectorXd& mask, int first, int derivative) {
+Matrix eigenvector_equations(const ExtendedVector& mask, int first, int derivative) {
   const int length = static_cast<int>(mask.size()), interior = length - 2;
   const long double half = 0.5L * (length - 1), middle = first + half, scale = std::ldexp(1.0L, derivative);
   Matrix equations = Matrix::Zero(interior + derivative + 1, interior);
@@ -33,11 +32,11 @@ Matrix eigenvector_equations(const Eigen::VectorXd& mask, int first, int derivat
 
 }  // namespace
 
-Eigen::VectorXd values_at_integers(const Eigen::VectorXd& mask, int first, int derivative) {
+Eigen::VectorXd values_at_integers(const ExtendedVector& mask, int first, int derivative) {
   const int length = static_cast<int>(mask.size()), interior = length - 2;
   if (interior == 0) return Eigen::Vector2d(1.0, 0.0);
   const Matrix equations = eigenvector_equations(mask, first, derivative);
-  Vector right_side = Vector::Zero(equations.rows());
+  ExtendedVector right_side = ExtendedVector::Zero(equations.rows());
   // (-1)^d d! / half^d, factor by factor
   right_side[interior + derivative] = 1;
   for (int k = 1; k <= derivative; ++k) right_side[interior + derivative] *= -k / (0.5L * (length - 1));
@@ -46,9 +45,10 @@ Eigen::VectorXd values_at_integers(const Eigen::VectorXd& mask, int first, int d
   return values;
 }
 
-Eigen::VectorXd values_at_dyadics(const Eigen::VectorXd& filter, int level, int derivative) {
+Eigen::VectorXd values_at_dyadics(const ExtendedVector& extended, int level, int derivative) {
+  const Eigen::VectorXd filter = extended.cast<double>();
   const Eigen::Index support = filter.size() - 1;
-  Eigen::VectorXd table = values_at_integers(filter, 0, derivative);
+  Eigen::VectorXd table = values_at_integers(extended, 0, derivative);
   for (int j = 0; j < level; ++j) {
     Eigen::VectorXd finer = Eigen::VectorXd::Zero(2 * table.size() - 1);
     for (Eigen::Index n = 0; n < table.size(); ++n) finer[2 * n] = table[n];

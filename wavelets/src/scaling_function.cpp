@@ -103,8 +103,11 @@ Eigen::VectorXd ScalingFunction::values(int level, int derivative) const {
   detail::require_in_range("ScalingFunction::values: level", level, 0, 24);
   detail::require_in_range(("ScalingFunction::values: derivative of " + name_).c_str(), derivative, 0,
                            pointwise_derivatives_);
-  const Eigen::VectorXd table = spline_degree_ ? spline_table(*spline_degree_, level, derivative)
-                                               : detail::values_at_dyadics(filter_, level, derivative);
+  const Eigen::VectorXd table =
+      spline_degree_
+          ? spline_table(*spline_degree_, level, derivative)
+          : detail::values_at_dyadics(detail::extended_daubechies_filter(static_cast<int>(filter_.size())),
+                                      level, derivative);
   if (coefficients_.size() == 1) return table;
   const Eigen::Index one = Eigen::Index{1} << level;
   Eigen::VectorXd result = Eigen::VectorXd::Zero((coefficients_.size() - 1) * one + table.size());
