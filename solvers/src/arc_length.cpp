@@ -111,9 +111,24 @@ ArcLength::Status ArcLength::advance() {
   return turn_corner();
 }
 
-bool ArcLength::intermediate(double fraction, CurvePoint& point) {
+bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
+  double low = 0.0, high = 1.0;
+  double low_value = value(previous_), high_value = value(point_);
+  if (low_value * high_value > 0.0 || last_step_ == 0.0) return false;
+  constexpr int limit = 60;
+  constexpr double width = 1e-10;
   int corrections = 0;
-  return correct(previous_, fraction * last_step_, point, corrections);
+  for (int i = 0; i < limit && high - low > width; ++i) {
+    // Every third cut halves, so that a kink cannot hold false position on one side.
+    const double regula = low + (high - low) * low_value / (low_value - high_value);
+    const double fraction = i % 3 == 2 ? 0.5 * (low + high) : std::clamp(regula, low, high);
+    if (!correct(previous_, fraction * last_step_, point, corrections)) return false;
+    const double middle = value(point);
+    if (middle == 0.0) return true;
+    (low_value * middle > 0.0 ? low : high) = fraction;
+    (low_value * middle > 0.0 ? low_value : high_value) = middle;
+  }
+  return true;
 }
 
 // The sample that the tangent takes through the gap first; -1 when none within the largest step.
@@ -188,7 +203,7 @@ ArcLength::Status ArcLength::turn_corner() {
     return Status::no_point;
   previous_ = std::move(point_);
   point_ = std::move(corner);
-  last_step_ = 0.0;
+  last_step_ = distance;
   step_ = options_.initial_step;
   return Status::advanced;
 }

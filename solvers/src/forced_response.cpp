@@ -41,9 +41,9 @@ bool follow_stiffness(ContactSystem& system, Eigen::VectorXd& u, const ForcedRes
     if (options.observer && !options.observer("homotopy", step, point.residual)) return false;
     if (point.parameter < softest) return false;
     if (point.parameter < 0.0) continue;
-    const CurvePoint& before = curve.previous();
-    const double fraction = before.parameter / (before.parameter - point.parameter);
-    u = before.displacement + fraction * (point.displacement - before.displacement);
+    CurvePoint landed;
+    const bool located = curve.locate([](const CurvePoint& p) { return p.parameter; }, landed);
+    u = located ? landed.displacement : point.displacement;
     return true;
   }
   return false;

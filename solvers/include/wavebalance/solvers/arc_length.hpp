@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 
 #include "wavebalance/solvers/contact_system.hpp"
 
@@ -66,9 +67,10 @@ class ArcLength {
   Status start(const Eigen::VectorXd& displacement, double p, double direction);
   /// Goes one step along the curve. O(corrections (active^3 + N log N)).
   Status advance();
-  /// The point that lies a fraction of the last step after the point before it; false when the corrector
-  /// fails.
-  bool intermediate(double fraction, CurvePoint& point);
+  /// Between previous() and point(), the point where `value` vanishes, by false position along the last step;
+  /// `value` must change its sign between the two. False when the corrector fails or the sign does not
+  /// change.
+  bool locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point);
 
   const CurvePoint& point() const { return point_; }
   const CurvePoint& previous() const { return previous_; }

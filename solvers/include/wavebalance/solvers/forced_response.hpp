@@ -41,7 +41,7 @@ using SolveObserver = std::function<bool(const std::string& phase, int step, dou
 struct ForcedResponseOptions {
   NewtonOptions newton;
   bool homotopy = true;  ///< when Newton stalls, follow the solution in the contact stiffness by arc length
-  int homotopy_steps = 400;  ///< at most
+  int homotopy_steps = 2000;  ///< at most
   SolveObserver observer;
 };
 

@@ -1,0 +1,124 @@
+#include "wavebalance/solvers/frequency_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wavebalance/solvers/translate_spectrum.hpp"
+
+namespace wavebalance::solvers {
+
+std::string to_string(SweepStatus status) {
+  switch (status) {
+    case SweepStatus::reached_end:
+      return "reached_end";
+    case SweepStatus::returned:
+      return "returned";
+    case SweepStatus::no_start:
+      return "no_start";
+    case SweepStatus::lost:
+      return "lost";
+    case SweepStatus::point_limit:
+      return "point_limit";
+    case SweepStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+namespace {
+
+class Sweep {
+ public:
+  Sweep(CondensedProblem& problem, const AnyContactLaw& law, const FrequencySweepOptions& options)
+      : problem_(problem),
+        system_(problem, law),
+        options_(options),
+        evaluator_(problem.pair().trial(), options.output_points, 0) {}
+
+  FrequencySweep run() {
+    problem_.set_frequency(options_.from);
+    const PeriodicResponse first = forced_response(problem_, system_.law(), options_.start);
+    if (!first.converged()) return result_;
+    const FrequencyParameter parameter;
+    ArcLength curve(system_, parameter, scaled_options(first));
+    const double direction = options_.to > options_.from ? 1.0 : -1.0;
+    if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced)
+      return result_;
+    record(curve.point());
+    result_.status = follow(curve, direction);
+    return std::move(result_);
+  }
+
+ private:
+  ArcLengthOptions scaled_options(const PeriodicResponse& first) const {
+    ArcLengthOptions arc = options_.arc_length;
+    const double gap = std::abs(system_.law().gap());
+    const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
+    if (arc.displacement_scale == 0.0) arc.displacement_scale = std::isfinite(gap) && gap > 0.0 ? gap : rms;
+    if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
+    return arc;
+  }
+
+  SweepStatus follow(ArcLength& curve, double direction) {
+    while (static_cast<int>(result_.points.size()) < options_.max_points) {
+      if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
+      note_turning_point(curve);
+      const double ahead = direction * (curve.point().parameter - options_.to);
+      const double behind = direction * (options_.from - curve.point().parameter);
+      if (ahead >= 0.0 || behind > 0.0) {
+        const double end = ahead >= 0.0 ? options_.to : options_.from;
+        CurvePoint last;
+        if (curve.locate([end](const CurvePoint& p) { return p.parameter - end; }, last)) record(last);
+        return ahead >= 0.0 ? SweepStatus::reached_end : SweepStatus::returned;
+      }
+      if (!record(curve.point())) return SweepStatus::cancelled;
+    }
+    return SweepStatus::point_limit;
+  }
+
+  void note_turning_point(ArcLength& curve) {
+    if (curve.previous().parameter_tangent * curve.point().parameter_tangent >= 0.0) return;
+    // At a corner the sign changes across the point itself: the tangent stored is that of the side ahead.
+    CurvePoint turning = curve.point();
+    if (!turning.corner) {
+      const auto rate = [](const CurvePoint& p) { return p.parameter_tangent; };
+      if (!curve.locate(rate, turning)) turning = curve.point();
+    }
+    const SweepPoint measured = measure(turning);
+    result_.turning_points.push_back({measured.frequency, measured.max_displacement, turning.corner});
+  }
+
+  SweepPoint measure(const CurvePoint& point) {
+    problem_.set_frequency(point.parameter);
+    system_.evaluate(point.displacement);
+    const Eigen::VectorXd u = evaluator_(problem_.coefficients(system_.force()));
+    return {point.parameter, u.maxCoeff(), u.norm() / std::sqrt(double(u.size())), point.residual,
+            point.corner};
+  }
+
+  bool record(const CurvePoint& point) {
+    result_.points.push_back(measure(point));
+    return !options_.observer || options_.observer(result_.points.back());
+  }
+
+  CondensedProblem& problem_;
+  ContactSystem system_;
+  const FrequencySweepOptions& options_;
+  TrialEvaluator evaluator_;
+  FrequencySweep result_;
+};
+
+}  // namespace
+
+FrequencySweep frequency_sweep(CondensedProblem& problem, const AnyContactLaw& law,
+                               const FrequencySweepOptions& options) {
+  const bool valid = std::isfinite(options.from) && std::isfinite(options.to) && options.from > 0.0 &&
+                     options.to > 0.0 && options.from != options.to;
+  if (!valid)
+    throw std::invalid_argument("frequency_sweep: from " + std::to_string(options.from) + " Hz to " +
+                                std::to_string(options.to) +
+                                " Hz; both must be positive, finite and different");
+  return Sweep(problem, law, options).run();
+}
+
+}  // namespace wavebalance::solvers
