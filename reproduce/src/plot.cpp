@@ -19,11 +19,11 @@ std::string terminal(const Figure& figure, PictureFormat format) {
     return std::to_string(scale * width) + "," + std::to_string(scale * height);
   };
   if (format == PictureFormat::svg)
-    return "set terminal svg enhanced background rgb 'white' font 'Arial,13' size " + size(1) + "\n";
+    return "set terminal svg enhanced background rgb 'white' font 'Arial,13.5' size " + size(1) + "\n";
   // Twice the resolution; the older png terminal where gnuplot was built without cairo.
   return "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {\n"
-         "  set terminal pngcairo enhanced font 'DejaVu Sans,11' fontscale 2 linewidth 2 pointscale 2 size " +
-         size(2) + "\n} else {\n  set terminal png enhanced truecolor font ',11' linewidth 2 size " +
+         "  set terminal pngcairo enhanced font 'DejaVu Sans,10' fontscale 2 linewidth 2 pointscale 2 size " +
+         size(2) + "\n} else {\n  set terminal png enhanced truecolor font ',10' linewidth 2 size " +
          size(2) + "\n}\n";
 }
 

@@ -140,7 +140,7 @@ std::string legend_text(const Panel& panel) {
   const bool named =
       std::any_of(panel.series.begin(), panel.series.end(), [](const Series& s) { return !s.label.empty(); });
   if (!named || panel.legend == Legend::none) return "unset key\n";
-  const std::string style = " samplen 2.2 spacing 1.15 opaque noautotitle\n";
+  const std::string style = " samplen 2.2 spacing 1.15 noautotitle\n";
   switch (panel.legend) {
     case Legend::top_left:
       return "set key inside left top Left reverse" + style;
@@ -187,7 +187,7 @@ std::string frame_text(bool frame) {
   if (!frame) return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\n";
   return std::string("set border 3 lc rgb '") + text_colour +
          "' lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
-         "set grid lc rgb '#DDDDDD' lw 0.7 dt 1\nunset lmargin\nunset rmargin\n";
+         "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\nunset lmargin\nunset rmargin\n";
 }
 
 /// The heading stands at the left so that letters of panels line up.
