@@ -1,6 +1,5 @@
 #include "wavebalance/spectral/fourier_basis.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "derivative_symbol.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::spectral {
@@ -24,13 +24,6 @@ void require_representable(int functions, int derivative) {
   throw std::invalid_argument("FourierBasis::samples: derivative is " + std::to_string(derivative) +
                               "; with " + std::to_string(functions) +
                               " functions its values do not fit a double");
-}
-
-// (2 pi i n)^derivative, with an exact power of i.
-std::complex<double> derivative_symbol(int harmonic, int derivative) {
-  constexpr std::array<std::complex<double>, 4> powers_of_i{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  const double magnitude = std::pow(2.0 * std::numbers::pi * harmonic, derivative);
-  return powers_of_i[static_cast<std::size_t>(derivative % 4)] * magnitude;
 }
 
 }  // namespace

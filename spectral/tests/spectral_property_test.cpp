@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "wavebalance/spectral/aft.hpp"
+
+namespace wavebalance::spectral {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+Eigen::VectorXd any_vector(int size) {
+  Eigen::VectorXd vector(size);
+  for (double& value : vector) value = *rc::gen::inRange(-1000, 1001) / 1000.0;
+  return vector;
+}
+
+Eigen::VectorXcd spectrum_of(const Eigen::VectorXd& samples) {
+  RealFft fft(static_cast<int>(samples.size()));
+  Eigen::VectorXcd spectrum(fft.harmonics());
+  fft.forward({samples.data(), static_cast<std::size_t>(samples.size())},
+              {spectrum.data(), static_cast<std::size_t>(spectrum.size())});
+  return spectrum;
+}
+
+RC_GTEST_PROP(RealFftProperty, Parseval, ()) {
+  const int size = *rc::gen::inRange(1, 300);
+  const Eigen::VectorXd samples = any_vector(size);
+  const Eigen::VectorXcd spectrum = spectrum_of(samples);
+  double energy = 2.0 * spectrum.squaredNorm() - std::norm(spectrum[0]);
+  if (size % 2 == 0) energy -= std::norm(spectrum[size / 2]);
+  RC_ASSERT(std::abs(energy / size - samples.squaredNorm()) <= 32 * eps * size);
+}
+
+RC_GTEST_PROP(RealFftProperty, AShiftInTimeTurnsThePhases, ()) {
+  const int size = *rc::gen::inRange(1, 300);
+  const int shift = *rc::gen::inRange(0, size);
+  const Eigen::VectorXd samples = any_vector(size);
+  Eigen::VectorXd shifted(size);
+  for (int l = 0; l < size; ++l) shifted[(l + shift) % size] = samples[l];
+  Eigen::VectorXcd expected = spectrum_of(samples);
+  for (Eigen::Index n = 0; n < expected.size(); ++n)
+    expected[n] *= std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(n * shift % size) / size);
+  RC_ASSERT((spectrum_of(shifted) - expected).cwiseAbs().maxCoeff() <= 32 * eps * size);
+}
+
+RC_GTEST_PROP(TrigonometricTransformProperty, ForwardIsTheAdjointOfInverse, ()) {
+  const int functions = *rc::gen::inRange(1, 60);
+  const int points = functions + *rc::gen::inRange(1, 60);
+  const Nyquist nyquist = *rc::gen::element(Nyquist::cosine, Nyquist::sine);
+  TrigonometricTransform transform(functions, points, nyquist);
+  const Eigen::VectorXd coefficients = any_vector(functions);
+  const Eigen::VectorXd samples = any_vector(points);
+  // <inverse a, u>/N = <a, W forward u>, W the mean squares of the functions.
+  Eigen::VectorXd weighted = 0.5 * transform.forward(samples);
+  weighted[0] *= 2.0;
+  const double left = transform.inverse(coefficients).dot(samples) / points;
+  RC_ASSERT(std::abs(left - coefficients.dot(weighted)) <= 64 * eps * functions);
+}
+
+RC_GTEST_PROP(AftProperty, AShiftOfTheDisplacementShiftsTheForce, ()) {
+  const int harmonics = *rc::gen::inRange(0, 12);
+  const int points = 2 * harmonics + 1 + *rc::gen::inRange(0, 40);
+  const double turn =
+      2.0 * std::numbers::pi * *rc::gen::inRange(0, points) / points;  // a whole number of samples
+  const Eigen::VectorXd at = any_vector(2 * harmonics + 1);
+  const auto shift = [turn](const Eigen::VectorXd& coefficients) {
+    Eigen::VectorXcd complex = to_complex(coefficients);
+    for (Eigen::Index n = 1; n < complex.size(); ++n)
+      complex[n] *= std::polar(1.0, -turn * static_cast<double>(n));
+    return to_real(complex);
+  };
+  const PointwiseLaw law = [](std::span<const double> u, std::span<double> f) {
+    for (std::size_t i = 0; i < u.size(); ++i) f[i] = std::abs(u[i]) + std::max(u[i] - 0.3, 0.0);
+  };
+  Aft aft(harmonics, points);
+  const Eigen::VectorXd expected = shift(aft.force(at, law).coefficients);
+  const Eigen::VectorXd found = aft.force(shift(at), law).coefficients;
+  RC_ASSERT((found - expected).cwiseAbs().maxCoeff() <= 128 * eps * (1 + harmonics) * (1 + harmonics));
+}
+
+RC_GTEST_PROP(FourierBasisProperty, ItsSamplesHoldItsCoefficients, ()) {
+  const int functions = *rc::gen::inRange(1, 80);
+  const int points = functions + *rc::gen::inRange(1, 40);
+  const FourierBasis basis(functions, *rc::gen::element(Nyquist::cosine, Nyquist::sine));
+  const Eigen::VectorXcd spectrum = spectrum_of(basis.samples(points, 0));
+  for (int n = 0; 2 * n < points; ++n)
+    RC_ASSERT(std::abs(spectrum[n] / double(points) - basis.fourier_coefficient(n)) <= 32 * eps);
+}
+
+}  // namespace
+}  // namespace wavebalance::spectral
