@@ -205,17 +205,19 @@ void add_sweep(std::vector<SceneKey>& keys) {
       belonging(derived(bounded(key<s, &Analysis::first_step>("analysis", "first_step", "Hz",
                                                               "first step along the branch"),
                                 positive),
-                        "|frequency_to - frequency_from| / 500",
+                        "|frequency_to - frequency_from| / 1000",
                         [](const Scene& scene) -> SceneValue {
-                          return std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from) / 500;
+                          return std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from) / 1000;
                         }),
                 sweep));
   keys.push_back(belonging(
-      derived(bounded(key<s, &Analysis::largest_step>("analysis", "largest_step", "Hz", "no step is larger"),
+      derived(bounded(key<s, &Analysis::largest_step>("analysis", "largest_step", "Hz",
+                                                      "no step along the branch is larger; a displacement by "
+                                                      "the gap counts as a 20th of the interval"),
                       positive),
-              "|frequency_to - frequency_from| / 100",
+              "|frequency_to - frequency_from| / 80",
               [](const Scene& scene) -> SceneValue {
-                return std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from) / 100;
+                return std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from) / 80;
               }),
       sweep));
   keys.push_back(belonging(

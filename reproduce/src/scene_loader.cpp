@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "scene_document.hpp"
+#include "scene_rules.hpp"
 #include "spelling.hpp"
 #include "wavebalance/reproduce/scene_keys.hpp"
 
@@ -20,11 +21,6 @@ std::string message_of(const SceneError::Details& details) {
   text += ": ";
   if (!details.key.empty()) text += details.key + (details.found.empty() ? "" : " = " + details.found) + ": ";
   return text + details.allowed;
-}
-
-[[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
-  throw SceneError(
-      {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
 }
 
 [[noreturn]] void fail_missing(const Document& document, const SceneKey& key) {
@@ -128,45 +124,6 @@ void read_key(const Document& document, const SceneKey& key, Scene& scene) {
     fail_missing(document, key);
 }
 
-/// Reports a rule between keys at the one of `names` that stands last, since it is the likelier to be wrong.
-[[noreturn]] void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
-                            const std::string& rule) {
-  for (const auto name : names) {
-    const SceneKey& key = *find_scene_key(name);
-    if (const auto* entry = document.find(key.section, key.name)) fail_at(document, *entry, rule);
-  }
-  throw SceneError({document.name, 0, "", std::string(*names.begin()), "", rule});
-}
-
-void check_time(const Document& document, const Time& time) {
-  if (time.functions == 0 || time.trial.empty() || time.weight.empty()) return;
-  const bool wavelets = is_wavelet(time.trial) || is_wavelet(time.weight);
-  const std::string functions = std::to_string(time.functions);
-  if (wavelets && (time.functions & (time.functions - 1)) != 0)
-    fail_rule(document, {"time.functions"},
-              "expected a power of two, since \"" + (is_wavelet(time.trial) ? time.trial : time.weight) +
-                  "\" is a wavelet basis");
-  if (time.quadrature_points < time.functions)
-    fail_rule(
-        document, {"time.quadrature_points", "time.functions"},
-        "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
-  if (wavelets && time.quadrature_points % time.functions != 0)
-    fail_rule(
-        document, {"time.quadrature_points", "time.functions"},
-        "expected quadrature_points to be a multiple of functions = " + functions + " for a wavelet basis");
-}
-
-void check_rules(const Document& document, const Scene& scene) {
-  check_time(document, scene.time);
-  const Analysis& analysis = scene.analysis;
-  if (analysis.type != AnalysisType::frequency_sweep) return;
-  if (analysis.frequency_from == analysis.frequency_to)
-    fail_rule(document, {"analysis.frequency_to"}, "expected another frequency than frequency_from");
-  if (analysis.first_step > analysis.largest_step)
-    fail_rule(document, {"analysis.first_step", "analysis.largest_step"},
-              "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
-}
-
 std::string read_text(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& reason) {
     throw SceneError({file.string(), 0, "", "", "", "cannot be read: " + reason});
@@ -196,7 +153,7 @@ Scene parse_scene(std::string_view text, const std::string& name, std::span<cons
     if (governs(key)) read_key(document, key, scene);
   for (const SceneKey& key : scene_keys())
     if (!governs(key)) read_key(document, key, scene);
-  check_rules(document, scene);
+  check_scene_rules(document, scene);
   return scene;
 }
 

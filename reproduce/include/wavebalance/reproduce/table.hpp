@@ -92,7 +92,4 @@ void write_csv(const std::filesystem::path& file, const Table& table,
 /// row.
 Table read_csv(const std::filesystem::path& file);
 
-/// Named values as a JSON object in their order; numbers that are not finite become null.
-std::string json_text(const std::vector<std::pair<std::string, Cell>>& values);
-
 }  // namespace wavebalance::reproduce

@@ -1,0 +1,36 @@
+#pragma once
+#include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/solvers/condensed_problem.hpp"
+#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/linear_structure.hpp"
+#include "wavebalance/solvers/time_pair.hpp"
+
+namespace wavebalance::reproduce {
+
+/// The bar with the force's amplitude as load on its tip, which is also the contact degree of freedom.
+/// O(elements).
+solvers::LinearStructure make_structure(const Scene& scene);
+
+solvers::AnyContactLaw make_law(const Contact& contact);
+
+/// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a
+/// wavelet basis whose number of functions is not a power of two.
+solvers::AnyTimeBasis make_basis(const std::string& name, int functions);
+
+/// How the inner products of trial and weight are computed: as the scene says, except that Daubechies
+/// Galerkin pairs take connection coefficients, which are exact, also where the scene asks for quadrature
+/// [JL14, section 4.1].
+InnerProducts effective_inner_products(const Time& time);
+
+/// Whether the scene's bases can be paired, and if not, why.
+solvers::Admissibility pair_admissibility(const Time& time);
+
+/// Throws solvers::InadmissiblePair. With exact inner products against Haar functions, an even number of
+/// Fourier functions ends with sin(M pi t) in place of cos(M pi t), which Haar functions and their even
+/// derivatives do not see.
+solvers::TimePair make_pair(const Time& time);
+
+/// Bar, law's place and pair condensed on the tip; at forcing.frequency if that is set.
+solvers::CondensedProblem make_problem(const Scene& scene);
+
+}  // namespace wavebalance::reproduce

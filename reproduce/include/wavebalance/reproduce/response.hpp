@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/solvers/condensed_problem.hpp"
+#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/period_samples.hpp"
+
+namespace wavebalance::reproduce {
+
+/// How far a computation has come.
+struct Progress {
+  std::string stage;                                           ///< "Newton", "time stepping"
+  std::string detail;                                          ///< "period 12, difference 3.1e-05"
+  double fraction = std::numeric_limits<double>::quiet_NaN();  ///< 0..1; NaN when nobody knows
+};
+
+/// Told from time to time; may be empty.
+using ProgressObserver = std::function<void(const Progress&)>;
+
+/// A periodic response of a scene's tip, or an honest failure to find one.
+struct Response {
+  bool converged = false;
+  std::string status;  ///< "converged" or why not
+  double residual =
+      0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
+  int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
+  int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
+  bool used_homotopy = false;
+  double wall_seconds = 0.0;  ///< composition and solution
+  solvers::PeriodSamples
+      samples;  ///< analysis.output_points samples: SI units; empty if there is nothing at all
+};
+
+struct ResponseOptions {
+  bool full_history = false;  ///< also displacement and velocity of every degree of freedom
+  Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response
+  ProgressObserver observer;
+};
+
+/// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
+/// singular system is told by `converged` and `status`; then `samples` hold the last iterate. Throws
+/// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would not have let pass.
+Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
+
+/// The scene's response by time stepping until two periods agree to analysis.tolerance.
+Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});
+
+/// The scene's response by shooting, for checks of the other two.
+Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
+
+/// What a solution of `problem` looks like at `points` uniform times; velocities as solvers::MotionEvaluator
+/// defines them, contact forces by the law from the displacement. O((n if full_history else 1) points
+/// log(points)).
+solvers::PeriodSamples sample_response(solvers::CondensedProblem& problem,
+                                       const solvers::PeriodicResponse& response,
+                                       const solvers::AnyContactLaw& law, int points, bool full_history);
+
+}  // namespace wavebalance::reproduce

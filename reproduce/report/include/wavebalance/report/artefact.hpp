@@ -1,0 +1,72 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "wavebalance/report/record.hpp"
+#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/reproduce/table.hpp"
+
+namespace wavebalance::report {
+
+/// A computation that an artefact cannot do without did not converge; ends the program with exit code 3.
+class NotConverged : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One figure or table in the making: reads scenes and the results of earlier steps, gathers data, picture
+/// and claims, and writes them together or not at all:
+/// stem.csv, stem.svg and stem.png (figures) or stem.md (tables), and records/stem.json for the report.
+class Artefact {
+ public:
+  Artefact(Identity identity, std::filesystem::path output, std::filesystem::path scenes);
+
+  /// The scene in scenes/name, with "section.key=value" overrides. The record names it. Throws SceneError.
+  reproduce::Scene scene(const std::string& name, const std::vector<std::string>& overrides = {});
+  /// A table that an earlier step left in the output folder. Throws reproduce::IoError naming it.
+  reproduce::Table result(const std::string& file) const;
+
+  /// The columns of stem.csv and what its `#` lines say.
+  void data(reproduce::Table table, std::string units, std::vector<std::string> notes = {});
+  /// A further CSV file, stem_suffix.csv.
+  void more_data(const std::string& suffix, reproduce::Table table, std::string units);
+  void picture(reproduce::Figure figure);
+  void markdown(const reproduce::Table& table);
+  void caption(std::string text) { record_.caption = std::move(text); }
+  void note(std::string text) { record_.notes.push_back(std::move(text)); }
+  void claim(Claim claim) { record_.claims.push_back(std::move(claim)); }
+
+  /// Throws reproduce::IoError and reproduce::PlotError.
+  void write(double wall_seconds);
+
+ private:
+  reproduce::CsvHeading heading(std::string units, std::vector<std::string> notes) const;
+
+  Record record_;
+  std::filesystem::path output_;
+  std::filesystem::path scenes_;
+  std::map<std::string, std::string> texts_;
+  std::vector<std::pair<std::string, reproduce::Table>> tables_;
+  std::vector<reproduce::CsvHeading> headings_;
+  std::optional<reproduce::Figure> figure_;
+};
+
+/// The main function of an artefact's program: reads --output and --scenes, makes and writes the artefact.
+/// Returns the exit code: 0; 2 for bad input and for files that cannot be written, nothing being written; 3
+/// for NotConverged. Messages go to stderr.
+int run_artefact(int argc, char** argv, const Identity& identity, const std::function<void(Artefact&)>& make);
+
+/// `table` in Markdown, numbers as the CSV file has them.
+std::string markdown_text(const reproduce::Table& table);
+
+/// `value` with `digits` significant digits, "1.23e-05" where that is shorter.
+std::string number(double value, int digits = 3);
+/// `fraction` as "1.23 %".
+std::string percent(double fraction, int digits = 3);
+
+}  // namespace wavebalance::report

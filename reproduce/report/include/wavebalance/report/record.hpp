@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace wavebalance::report {
+
+/// A statement of a paper held against the figures of this run.
+struct Claim {
+  std::string place;      ///< "section 5.5"
+  std::string quote;      ///< the paper's own words
+  std::string criterion;  ///< what was measured, and the threshold that decides
+  std::string measured;   ///< what was found
+  bool holds = false;     ///< the criterion is met
+};
+
+/// What an artefact is called and where it belongs.
+struct Identity {
+  std::string paper;   ///< folder below results/, "jones_legrand_2014"
+  std::string number;  ///< "JL14 Fig. 6"
+  std::string title;   ///< "Tip displacement, case 1"
+  std::string stem;    ///< of its files, "fig06_tip_displacement_case1"
+};
+
+/// What the report page says of an artefact, besides its picture.
+struct Record {
+  Identity identity;
+  std::string caption;
+  std::vector<std::string> files;   ///< names, in results/<paper>/
+  std::vector<std::string> scenes;  ///< names of the scene files it comes from
+  std::vector<std::string> notes;   ///< choices made, and what is missing
+  std::vector<Claim> claims;
+  std::string table;  ///< Markdown, shown on the page; empty for figures
+  double wall_seconds = 0.0;
+  std::string version;  ///< of wavebalance
+};
+
+/// `record` as JSON, and back. parse_record throws reproduce::IoError naming `file` for anything else.
+std::string record_text(const Record& record);
+Record parse_record(const std::string& text, const std::filesystem::path& file);
+
+/// All records in `folder`, in the order of their file names. Throws reproduce::IoError.
+std::vector<Record> read_records(const std::filesystem::path& folder);
+
+}  // namespace wavebalance::report

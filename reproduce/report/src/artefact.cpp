@@ -1,0 +1,93 @@
+#include "wavebalance/report/artefact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace wavebalance::report {
+
+Artefact::Artefact(Identity identity, std::filesystem::path output, std::filesystem::path scenes)
+    : output_(std::move(output)), scenes_(std::move(scenes)) {
+  record_.identity = std::move(identity);
+  record_.version = reproduce::version();
+}
+
+reproduce::Scene Artefact::scene(const std::string& name, const std::vector<std::string>& overrides) {
+  auto& names = record_.scenes;
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return reproduce::load_scene(scenes_ / name, overrides);
+}
+
+reproduce::Table Artefact::result(const std::string& file) const {
+  return reproduce::read_csv(output_ / file);
+}
+
+reproduce::CsvHeading Artefact::heading(std::string units, std::vector<std::string> notes) const {
+  return {record_.identity.number + ": " + record_.identity.title, std::move(units), "", std::move(notes)};
+}
+
+void Artefact::data(reproduce::Table table, std::string units, std::vector<std::string> notes) {
+  tables_.emplace_back(record_.identity.stem + ".csv", std::move(table));
+  headings_.push_back(heading(std::move(units), std::move(notes)));
+}
+
+void Artefact::more_data(const std::string& suffix, reproduce::Table table, std::string units) {
+  tables_.emplace_back(record_.identity.stem + "_" + suffix + ".csv", std::move(table));
+  headings_.push_back(heading(std::move(units), {}));
+}
+
+void Artefact::picture(reproduce::Figure figure) { figure_ = std::move(figure); }
+
+void Artefact::markdown(const reproduce::Table& table) {
+  record_.table = markdown_text(table);
+  texts_[record_.identity.stem + ".md"] =
+      "# " + record_.identity.number + ": " + record_.identity.title + "\n\n" + record_.table;
+}
+
+void Artefact::write(double wall_seconds) {
+  const std::string& stem = record_.identity.stem;
+  std::string scene_names;
+  for (const auto& name : record_.scenes) scene_names += (scene_names.empty() ? "" : ", ") + name;
+  for (std::size_t i = 0; i < tables_.size(); ++i) {
+    headings_[i].scene = scene_names;
+    texts_[tables_[i].first] = reproduce::csv_text(tables_[i].second, headings_[i]);
+  }
+  if (figure_) {
+    texts_[stem + ".svg"] = reproduce::render(*figure_, reproduce::PictureFormat::svg);
+    texts_[stem + ".png"] = reproduce::render(*figure_, reproduce::PictureFormat::png);
+  }
+  reproduce::OutputFiles files(output_);
+  for (const auto& [name, text] : texts_) {
+    files.add(name, text);
+    record_.files.push_back(name);
+  }
+  record_.wall_seconds = wall_seconds;
+  reproduce::OutputFiles records(output_ / "records");
+  records.add(stem + ".json", record_text(record_));
+  files.commit();
+  records.commit();
+}
+
+std::string markdown_text(const reproduce::Table& table) {
+  std::string text = "|", rule = "|";
+  for (const auto& name : table.columns()) {
+    text += " " + name + " |";
+    rule += " --- |";
+  }
+  text += "\n" + rule + "\n";
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    text += "|";
+    for (const auto& cell : table.row(i)) text += " " + reproduce::cell_text(cell) + " |";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string number(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+
+std::string percent(double fraction, int digits) { return number(100.0 * fraction, digits) + " %"; }
+
+}  // namespace wavebalance::report

@@ -1,0 +1,37 @@
+#include "wavebalance/report/record.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "wavebalance/reproduce/output.hpp"
+
+namespace wavebalance::report {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Claim, place, quote, criterion, measured, holds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Identity, paper, number, title, stem)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, scenes, notes, claims, table,
+                                   wall_seconds, version)
+
+std::string record_text(const Record& record) { return nlohmann::json(record).dump(2) + "\n"; }
+
+Record parse_record(const std::string& text, const std::filesystem::path& file) {
+  try {
+    return nlohmann::json::parse(text).get<Record>();
+  } catch (const nlohmann::json::exception& error) {
+    throw reproduce::IoError(file, std::string("is not the record of an artefact: ") + error.what());
+  }
+}
+
+std::vector<Record> read_records(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (failure) throw reproduce::IoError(folder, failure.message());
+  std::sort(files.begin(), files.end());
+  std::vector<Record> records;
+  for (const auto& file : files) records.push_back(parse_record(reproduce::read_file(file), file));
+  return records;
+}
+
+}  // namespace wavebalance::report

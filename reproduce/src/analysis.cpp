@@ -1,0 +1,159 @@
+#include "wavebalance/reproduce/analysis.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "record_figure.hpp"
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/measures.hpp"
+
+namespace wavebalance::reproduce {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// Fraction of the frequency interval; falls where the curve turns back.
+Progress sweep_progress(const Analysis& analysis, int points, double frequency) {
+  const double share =
+      (frequency - analysis.frequency_from) / (analysis.frequency_to - analysis.frequency_from);
+  return {"frequency sweep",
+          std::to_string(points) + " points, " + std::to_string(std::lround(frequency)) + " Hz",
+          std::clamp(share, 0.0, 1.0)};
+}
+
+solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  solvers::FrequencySweepOptions options;
+  options.from = analysis.frequency_from;
+  options.to = analysis.frequency_to;
+  options.output_points = analysis.output_points;
+  options.max_points = analysis.max_points;
+  auto& arc = options.arc_length;
+  arc.parameter_scale = std::abs(options.to - options.from) / 20.0;
+  arc.initial_step = analysis.first_step / arc.parameter_scale;
+  arc.largest_step = analysis.largest_step / arc.parameter_scale;
+  arc.smallest_step = std::min(arc.smallest_step, arc.initial_step / 20.0);
+  return options;
+}
+
+Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
+                double wall_seconds) {
+  return {{"converged", converged},
+          {"status", status},
+          {"residual", residual},
+          {"iterations", std::int64_t{iterations}},
+          {"unknowns", std::int64_t{unknowns}},
+          {"wall_seconds", wall_seconds}};
+}
+
+void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
+  const bool empty = samples.points() == 0;
+  const auto& u = samples.displacement;
+  summary.emplace_back("max_displacement_m", empty ? missing : u.maxCoeff());
+  summary.emplace_back("min_displacement_m", empty ? missing : u.minCoeff());
+  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u));
+  summary.emplace_back("max_contact_force_N", empty ? missing : samples.contact_force.maxCoeff());
+  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(samples));
+}
+
+Record response_record(const Scene& scene, const Response& response) {
+  Record record;
+  record.converged = response.converged;
+  record.status = response.status;
+  record.summary = opening(response.converged, response.status, response.residual, response.iterations,
+                           response.unknowns, response.wall_seconds);
+  append_motion(record.summary, response.samples);
+  record.summary.emplace_back("analysis", name_of(scene.analysis.type));
+  record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
+  if (scene.analysis.type == AnalysisType::forced_response)
+    record.summary.emplace_back("used_homotopy", response.used_homotopy);
+  if (response.samples.points() > 0) {
+    record.response = response_table(response.samples);
+    record.figure = response_figure(scene, response);
+  }
+  return record;
+}
+
+double largest(const solvers::FrequencySweep& curve, double solvers::SweepPoint::*member) {
+  double value = missing;
+  for (const auto& point : curve.points) value = std::fmax(value, point.*member);
+  return value;
+}
+
+Record sweep_record(const Scene& scene, const Sweep& sweep) {
+  Record record;
+  record.converged = sweep.converged();
+  record.status = to_string(sweep.curve.status);
+  const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
+  const int points = static_cast<int>(sweep.curve.points.size());
+  record.summary =
+      opening(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
+              scene.time.functions, sweep.wall_seconds);
+  record.summary.emplace_back("max_displacement_m", highest);
+  record.summary.emplace_back("min_displacement_m", missing);
+  record.summary.emplace_back("rms_displacement_m",
+                              largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
+  record.summary.emplace_back("max_contact_force_N",
+                              points == 0 ? missing : make_law(scene.contact).force(highest));
+  record.summary.emplace_back("contact_fraction", missing);
+  record.summary.emplace_back("analysis", name_of(scene.analysis.type));
+  record.summary.emplace_back("points", std::int64_t{points});
+  std::vector<double> turns;
+  for (const auto& turn : sweep.curve.turning_points) turns.push_back(turn.frequency);
+  record.summary.emplace_back("turning_points_Hz", turns);
+  record.sweep = sweep_table(sweep.curve);
+  if (points > 0) record.figure = sweep_figure(scene, sweep);
+  return record;
+}
+
+}  // namespace
+
+Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  solvers::FrequencySweepOptions options = sweep_options(scene);
+  int points = 0;
+  if (observer)
+    options.observer = [&](const solvers::SweepPoint& point) {
+      observer(sweep_progress(scene.analysis, ++points, point.frequency));
+      return true;
+    };
+  Sweep sweep;
+  solvers::CondensedProblem problem = make_problem(scene);
+  sweep.curve = solvers::frequency_sweep(problem, make_law(scene.contact), options);
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return sweep;
+}
+
+Record analyse(const Scene& scene, const ProgressObserver& observer) {
+  ResponseOptions options;
+  options.observer = observer;
+  switch (scene.analysis.type) {
+    case AnalysisType::frequency_sweep:
+      return sweep_record(scene, frequency_sweep(scene, observer));
+    case AnalysisType::time_stepping:
+      return response_record(scene, time_stepping_response(scene, options));
+    case AnalysisType::forced_response:
+      break;
+  }
+  return response_record(scene, weighted_residual_response(scene, options));
+}
+
+Table response_table(const solvers::PeriodSamples& samples) {
+  Table table;
+  table.add_column("time_fraction", time_fractions(samples.points()))
+      .add_column("displacement_m", samples.displacement)
+      .add_column("velocity_m_per_s", samples.velocity)
+      .add_column("contact_force_N", samples.contact_force);
+  return table;
+}
+
+Table sweep_table(const solvers::FrequencySweep& curve) {
+  Table table({"frequency_Hz", "max_displacement_m", "rms_displacement_m"});
+  for (const auto& point : curve.points)
+    table.append_row({point.frequency, point.max_displacement, point.rms_displacement});
+  return table;
+}
+
+}  // namespace wavebalance::reproduce

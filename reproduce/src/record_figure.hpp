@@ -1,0 +1,13 @@
+#pragma once
+#include "wavebalance/reproduce/analysis.hpp"
+
+namespace wavebalance::reproduce {
+
+/// Displacement, velocity and contact force over one period. An iterate that did not converge says so in its
+/// title and is drawn dashed and grey.
+Figure response_figure(const Scene& scene, const Response& response);
+
+/// Largest and rms displacement over the frequency, with its turning points.
+Figure sweep_figure(const Scene& scene, const Sweep& sweep);
+
+}  // namespace wavebalance::reproduce
