@@ -1,0 +1,78 @@
+#include "wavebalance/solvers/first_order_system.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+Eigen::LLT<Eigen::MatrixXd> factor_mass(const LinearStructure& structure) {
+  Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(structure.mass)};
+  if (factor.info() != Eigen::Success)
+    throw std::invalid_argument(
+        "FirstOrderSystem: mass (" + std::to_string(structure.size()) + " x " +
+        std::to_string(structure.size()) +
+        ") is not positive definite; time integration needs a mass on every degree of freedom");
+  return factor;
+}
+
+}  // namespace
+
+void require_frequency(double frequency_hz, const char* who) {
+  if (std::isfinite(frequency_hz) && frequency_hz > 0.0) return;
+  throw std::invalid_argument(std::string(who) + ": frequency_hz is " + std::to_string(frequency_hz) +
+                              "; it must be positive and finite");
+}
+
+FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, AnyContactLaw law, double frequency_hz)
+    : law_(std::move(law)), contact_dof_(structure.contact_dof), angular_frequency_(two_pi * frequency_hz) {
+  structure.validate();
+  require_frequency(frequency_hz, "FirstOrderSystem");
+  const double period = 1.0 / frequency_hz;
+  const int n = structure.size();
+  const Eigen::LLT<Eigen::MatrixXd> mass = factor_mass(structure);
+  load_ = period * mass.solve(structure.load);
+  contact_inertia_ = period * mass.solve(Eigen::VectorXd::Unit(n, contact_dof_));
+  linear_ = RowMajorMatrix::Zero(2 * n, 2 * n);
+  linear_.topRightCorner(n, n).diagonal().setConstant(two_pi);
+  linear_.bottomLeftCorner(n, n) =
+      -period / angular_frequency_ * mass.solve(Eigen::MatrixXd(structure.stiffness));
+  linear_.bottomRightCorner(n, n) = -period * mass.solve(Eigen::MatrixXd(structure.damping));
+}
+
+void FirstOrderSystem::derivative(double periods, std::span<const double> state,
+                                  std::span<double> derivative) const {
+  const int n = dofs();
+  const Eigen::Map<const Eigen::VectorXd> y(state.data(), 2 * n);
+  Eigen::Map<Eigen::VectorXd> rate(derivative.data(), 2 * n);
+  const double force = law_.force(y[contact_dof_] / angular_frequency_);
+  rate.head(n) = two_pi * y.tail(n);
+  rate.tail(n).noalias() = linear_.bottomRows(n) * y;
+  rate.tail(n) += std::cos(two_pi * periods) * load_ - force * contact_inertia_;
+}
+
+void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
+                                std::span<double> state_derivative, std::span<double> time_derivative) const {
+  const int n = dofs();
+  Eigen::Map<RowMajorMatrix> by_state(state_derivative.data(), 2 * n, 2 * n);
+  Eigen::Map<Eigen::VectorXd> by_time(time_derivative.data(), 2 * n);
+  const double tangent = law_.tangent(state[contact_dof_] / angular_frequency_);
+  by_state = linear_;
+  by_state.col(contact_dof_).tail(n) -= tangent / angular_frequency_ * contact_inertia_;
+  by_time.head(n).setZero();
+  by_time.tail(n) = -two_pi * std::sin(two_pi * periods) * load_;
+}
+
+Eigen::VectorXd FirstOrderSystem::state(const Eigen::VectorXd& displacement,
+                                        const Eigen::VectorXd& velocity) const {
+  Eigen::VectorXd result(states());
+  result << angular_frequency_ * displacement, velocity;
+  return result;
+}
+
+}  // namespace wavebalance::solvers
