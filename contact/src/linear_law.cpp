@@ -20,7 +20,7 @@ Response LinearLaw::evaluate(double displacement) const {
 double LinearLaw::potential(double displacement) const {
   if (displacement <= gap_) return 0.0;
   const double penetration = displacement - gap_;
-  return saturate(0.5 * stiffness_ * penetration * penetration);
+  return saturate(0.5 * (stiffness_ * penetration * penetration));
 }
 
 void LinearLaw::evaluate(std::span<const double> displacement, std::span<double> force,
