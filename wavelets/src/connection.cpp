@@ -1,5 +1,6 @@
 #include "wavebalance/wavelets/connection.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -23,9 +24,24 @@ Eigen::VectorXd convolution(const Eigen::VectorXd& a, const Eigen::VectorXd& b) 
   return result;
 }
 
-detail::ExtendedVector extended_filter(const ScalingFunction& function) {
-  if (function.spline_degree()) return function.filter().cast<long double>();
-  return detail::extended_daubechies_filter(static_cast<int>(function.filter().size()));
+int zeros(const ScalingFunction& function) {
+  return function.spline_degree() ? *function.spline_degree() + 1
+                                  : static_cast<int>(function.filter().size()) / 2;
+}
+
+detail::ExtendedVector divided_filter(const ScalingFunction& function, int removed) {
+  if (function.spline_degree()) return detail::extended_bspline_filter(*function.spline_degree(), removed);
+  return detail::extended_daubechies_filter(static_cast<int>(function.filter().size()), removed);
+}
+
+// C^(derivative) at the integers, with the zeros at pi taken from both filters alike as far as they have
+// them.
+Eigen::VectorXd correlation_values(const ScalingFunction& trial, const ScalingFunction& weight,
+                                   int derivative) {
+  const int of_trial = std::min(zeros(trial), std::max(derivative - zeros(weight), (derivative + 1) / 2));
+  const detail::ExtendedVector mask =
+      correlation(divided_filter(weight, derivative - of_trial), divided_filter(trial, of_trial)) / 2.0L;
+  return detail::values_at_integers(mask, derivative);
 }
 
 std::string describe(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
@@ -55,8 +71,7 @@ ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, con
   if (!connection_exists(trial, weight, derivative)) throw InadmissiblePairError(trial, weight, derivative);
   ConnectionCoefficients result;
   result.first = 1 - static_cast<int>(weight.filter().size());
-  const detail::ExtendedVector mask = correlation(extended_filter(weight), extended_filter(trial)) / 2.0L;
-  result.values = detail::values_at_integers(mask, result.first, derivative);
+  result.values = correlation_values(trial, weight, derivative);
   if (trial.coefficients().size() == 1 && weight.coefficients().size() == 1) return result;
   // \int B_w(x - l - a) B_t^(d)(x - b) dx = C^(d)(l + a - b): shifts by b - a.
   result.values = convolution(result.values, correlation(weight.coefficients(), trial.coefficients()));

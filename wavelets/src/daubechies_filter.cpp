@@ -85,7 +85,7 @@ void multiply_by(std::vector<Complex>& polynomial, Complex constant, Complex lin
 
 }  // namespace
 
-detail::ExtendedVector detail::extended_daubechies_filter(int coefficients) {
+detail::ExtendedVector detail::extended_daubechies_filter(int coefficients, int removed) {
   if (coefficients < 2 || coefficients > 40 || coefficients % 2 != 0)
     throw std::invalid_argument("daubechies_filter: coefficients = " + std::to_string(coefficients) +
                                 ", allowed: even numbers 2..40");
@@ -94,11 +94,12 @@ detail::ExtendedVector detail::extended_daubechies_filter(int coefficients) {
   // Minimum phase: in the delay w, 1 - z w with |z| < 1.
   for (const Complex& y : roots(daubechies_polynomial(zeros)))
     multiply_by(product, {1, 0}, Complex{} - inner_root(y));
-  for (int k = 0; k < zeros; ++k) multiply_by(product, {1, 0}, {1, 0});
+  for (int k = 0; k < zeros - removed; ++k) multiply_by(product, {1, 0}, {1, 0});
   Extended sum = 0;
   for (const Complex& value : product) sum += value.re;
-  ExtendedVector filter(coefficients);
-  for (int k = 0; k < coefficients; ++k) filter[k] = static_cast<long double>(2 * product[k].re / sum);
+  ExtendedVector filter(coefficients - removed);
+  for (int k = 0; k < coefficients - removed; ++k)
+    filter[k] = static_cast<long double>(2 * product[k].re / sum);
   return filter;
 }
 

@@ -5,63 +5,66 @@
 #include <stdexcept>
 #include <string>
 
+#include "wavebalance/wavelets/filter.hpp"
+
 namespace wavebalance::wavelets::detail {
 namespace {
 
-using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+ExtendedVector eigenvector_at_integers(const ExtendedVector& mask) {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Eigen::Index length = mask.size(), interior = length - 2;
+  ExtendedVector values = ExtendedVector::Unit(length, 0);
+  if (interior == 0) return values;
+  Matrix equations = -Matrix::Identity(interior + 1, interior);
+  for (Eigen::Index k = 1; k <= interior; ++k)
+    for (Eigen::Index m = 1; m <= interior; ++m)
+      if (2 * k - m >= 0 && 2 * k - m < length) equations(k - 1, m - 1) += mask[2 * k - m];
+  equations.row(interior).setOnes();
+  values[0] = 0.0L;
+  values.segment(1, interior) =
+      equations.colPivHouseholderQr().solve(ExtendedVector::Unit(interior + 1, interior));
+  return values;
+}
 
-// [2^d mask - I; moments 0..d] over the interior integers. The moments are taken about the middle of the
-// support and in units of its half length, which changes none of the conditions and keeps the rows of
-// order 1.
-Matrix eigenvector_equations(const ExtendedVector& mask, int first, int derivative) {
-  const int length = static_cast<int>(mask.size()), interior = length - 2;
-  const long double half = 0.5L * (length - 1), middle = first + half, scale = std::ldexp(1.0L, derivative);
-  Matrix equations = Matrix::Zero(interior + derivative + 1, interior);
-  for (int i = 0; i < interior; ++i) {
-    const int k = first + 1 + i;
-    for (int j = 0; j < interior; ++j) {
-      const int index = 2 * k - (first + 1 + j) - first;
-      if (index >= 0 && index < length) equations(i, j) = scale * mask[index];
-    }
-    equations(i, i) -= 1;
-    for (int power = 0; power <= derivative; ++power)
-      equations(interior + power, i) = std::pow((k - middle) / half, power);
+// Values at twice the points: the old ones, and by the refinement equation those between.
+Eigen::VectorXd refine(const Eigen::VectorXd& table, const Eigen::VectorXd& mask, Eigen::Index one) {
+  Eigen::VectorXd finer = Eigen::VectorXd::Zero(2 * table.size() - 1);
+  for (Eigen::Index n = 0; n < table.size(); ++n) finer[2 * n] = table[n];
+  for (Eigen::Index n = 1; n < finer.size(); n += 2) {
+    double sum = 0.0;
+    for (Eigen::Index l = 0; l < mask.size() && l * one <= n; ++l)
+      if (n - l * one < table.size()) sum += mask[l] * table[n - l * one];
+    finer[n] = sum;
   }
-  return equations;
+  return finer;
+}
+
+// values - values(. - stride), `times` times; the support grows by as many strides.
+template <class Vector>
+Vector backward_differences(const Vector& values, Eigen::Index stride, int times) {
+  Vector result = Vector::Zero(values.size() + times * stride);
+  result.head(values.size()) = values;
+  for (int d = 0; d < times; ++d)
+    for (Eigen::Index k = result.size() - 1; k >= stride; --k) result[k] -= result[k - stride];
+  return result;
 }
 
 }  // namespace
 
-Eigen::VectorXd values_at_integers(const ExtendedVector& mask, int first, int derivative) {
-  const int length = static_cast<int>(mask.size()), interior = length - 2;
-  if (interior == 0) return Eigen::Vector2d(1.0, 0.0);
-  const Matrix equations = eigenvector_equations(mask, first, derivative);
-  ExtendedVector right_side = ExtendedVector::Zero(equations.rows());
-  // (-1)^d d! / half^d, factor by factor
-  right_side[interior + derivative] = 1;
-  for (int k = 1; k <= derivative; ++k) right_side[interior + derivative] *= -k / (0.5L * (length - 1));
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(length);
-  values.segment(1, interior) = equations.colPivHouseholderQr().solve(right_side).cast<double>();
-  return values;
+ExtendedVector extended_bspline_filter(int degree, int removed) {
+  if (removed > degree) return ExtendedVector::Constant(1, 2.0L);
+  return bspline_filter(degree - removed).cast<long double>();
 }
 
-Eigen::VectorXd values_at_dyadics(const ExtendedVector& extended, int level, int derivative) {
-  const Eigen::VectorXd filter = extended.cast<double>();
-  const Eigen::Index support = filter.size() - 1;
-  Eigen::VectorXd table = values_at_integers(extended, 0, derivative);
-  for (int j = 0; j < level; ++j) {
-    Eigen::VectorXd finer = Eigen::VectorXd::Zero(2 * table.size() - 1);
-    for (Eigen::Index n = 0; n < table.size(); ++n) finer[2 * n] = table[n];
-    const Eigen::Index one = Eigen::Index{1} << j;
-    for (Eigen::Index n = 1; n < finer.size(); n += 2) {
-      double sum = 0.0;
-      for (Eigen::Index l = 0; l <= support && l * one <= n; ++l)
-        if (n - l * one < table.size()) sum += filter[l] * table[n - l * one];
-      finer[n] = std::ldexp(sum, derivative);
-    }
-    table.swap(finer);
-  }
-  return table;
+Eigen::VectorXd values_at_integers(const ExtendedVector& divided, int derivative) {
+  return backward_differences(eigenvector_at_integers(divided), 1, derivative).cast<double>();
+}
+
+Eigen::VectorXd values_at_dyadics(const ExtendedVector& divided, int level, int derivative) {
+  const Eigen::VectorXd mask = divided.cast<double>();
+  Eigen::VectorXd table = eigenvector_at_integers(divided).cast<double>();
+  for (int j = 0; j < level; ++j) table = refine(table, mask, Eigen::Index{1} << j);
+  return backward_differences(table, Eigen::Index{1} << level, derivative);
 }
 
 void require_in_range(const char* name, int value, int lowest, int highest) {

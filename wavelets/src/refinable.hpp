@@ -5,19 +5,27 @@ namespace wavebalance::wavelets::detail {
 
 using ExtendedVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-/// daubechies_filter before its rounding to double. Filters of 20 coefficients and more need it: the integer
-/// values of their derivatives magnify a rounding of the filter some 1e4 times at 40 coefficients.
-ExtendedVector extended_daubechies_filter(int coefficients);
+/// The Daubechies filter with `removed` of its L/2 zeros at pi divided out, 2 ((1 + w)/2)^{L/2 - removed}
+/// q(w), sum 2. The product is formed in extended precision, as the coefficients of q reach 1e5 and cancel.
+ExtendedVector extended_daubechies_filter(int coefficients, int removed = 0);
 
-/// Phi^(derivative) at the integers first..first + mask.size() - 1, for the refinable Phi(x) = sum_l mask_l
-/// Phi(2x - l) with l from `first` and integral 1: the eigenvector of 2^d mask[2k - m] for the eigenvalue 1
-/// with sum_k k^j Phi^(d)(k) = (-1)^d d! delta_{jd}, j <= d. Zero at both ends of the support, but for the
-/// box, which is left-closed. The derivative must exist; cost O(L^3).
-Eigen::VectorXd values_at_integers(const ExtendedVector& mask, int first, int derivative);
+/// The same of the B-spline filter of `degree`: that of degree - removed, and {2} when nothing is left.
+ExtendedVector extended_bspline_filter(int degree, int removed = 0);
 
-/// Phi^(derivative) at n 2^-level, n = 0..(filter.size() - 1) 2^level, by the refinement equation from the
-/// integers.
-Eigen::VectorXd values_at_dyadics(const ExtendedVector& filter, int level, int derivative);
+/// Phi^(derivative) at the integers from the begin of its support, for the refinable Phi(x) = sum_l m_l
+/// Phi(2x - l) of integral 1 whose mask m has `derivative` zeros at pi or more. `divided` is 2^d m(w) / (1 +
+/// w)^d, the mask of Phi_d, and Phi^(d) is the d-th backward difference of Phi_d, whose integer values are
+/// the eigenvector of divided[2k - m] for the eigenvalue 1 with sum 1. In exact arithmetic that is the
+/// eigenvector of 2^d m[2k - m] with sum_k k^j Phi^(d)(k) =
+/// (-1)^d d! delta_{jd}, j <= d; but there a rounding grows with the length of the filter (1e4 times at 40
+/// coefficients) and by 2^d with every level of refinement, and here it does not. Returns divided.size() +
+/// derivative values; those at the ends of the support are 0, but for the box, which is left-closed. The
+/// derivative must exist; cost O(L^3).
+Eigen::VectorXd values_at_integers(const ExtendedVector& divided, int derivative);
+
+/// The same at n 2^-level from the begin of the support, by the refinement equation of Phi_d and the
+/// differences. Returns (divided.size() + derivative - 1) 2^level + 1 values; cost O(L^3 + L^2 2^level).
+Eigen::VectorXd values_at_dyadics(const ExtendedVector& divided, int level, int derivative);
 
 /// Throws std::invalid_argument "<name> = <value>, allowed: <lowest>..<highest>" unless value lies in that
 /// range.

@@ -37,6 +37,11 @@ Eigen::VectorXd spline_table(int degree, int level, int derivative) {
   return table;
 }
 
+Eigen::VectorXd daubechies_table(const Eigen::VectorXd& filter, int level, int derivative) {
+  const auto divided = detail::extended_daubechies_filter(static_cast<int>(filter.size()), derivative);
+  return detail::values_at_dyadics(divided, level, derivative);
+}
+
 // ((1 - exp(-2 pi i x)) / (2 pi i x))^(degree + 1), as the power of sin(pi x)/(pi x) and of a phase.
 std::complex<double> spline_transform(int degree, double cycles) {
   if (cycles == 0.0) return 1.0;
@@ -103,11 +108,8 @@ Eigen::VectorXd ScalingFunction::values(int level, int derivative) const {
   detail::require_in_range("ScalingFunction::values: level", level, 0, 24);
   detail::require_in_range(("ScalingFunction::values: derivative of " + name_).c_str(), derivative, 0,
                            pointwise_derivatives_);
-  const Eigen::VectorXd table =
-      spline_degree_
-          ? spline_table(*spline_degree_, level, derivative)
-          : detail::values_at_dyadics(detail::extended_daubechies_filter(static_cast<int>(filter_.size())),
-                                      level, derivative);
+  const Eigen::VectorXd table = spline_degree_ ? spline_table(*spline_degree_, level, derivative)
+                                               : daubechies_table(filter_, level, derivative);
   if (coefficients_.size() == 1) return table;
   const Eigen::Index one = Eigen::Index{1} << level;
   Eigen::VectorXd result = Eigen::VectorXd::Zero((coefficients_.size() - 1) * one + table.size());

@@ -37,12 +37,15 @@ struct ConnectionCoefficients {
 
 /// Connection coefficients r_d[l] = \int phi_w(x - l) phi_t^(d)(x) dx of a trial function phi_t and a weight
 /// phi_w, on the real line. Derivatives on the weight count too: \int phi_w^(a)(x - l) phi_t^(b)(x) dx =
-/// (-1)^a r_{a+b}[l]. Method: for the refinable parts B, C(y) = \int B_w(x) B_t(x + y) dx is itself
-/// refinable, with the filter a_n = 1/2 sum_{k - j = n} p^w_j p^t_k, and r_d = C^(d) at the integers: the
-/// eigenvector of 2^d a[2l - m] for the eigenvalue 1 with the moments sum_l l^k C^(d)(l) = (-1)^d d!
-/// delta_{kd}, k <= d [Beylkin 1992; JL14, section 3.4]; then the convolutions with c. Cost O(L^3). d = 1 is
-/// odd and d = 2 even in l when both functions are the same. Throws InadmissiblePairError, and
-/// std::invalid_argument for d outside 0..12.
+/// (-1)^a r_{a+b}[l]. r_d has the parity of d in l when both functions are the same.
+///
+/// Method: for the refinable parts B, C(y) = \int B_w(x) B_t(x + y) dx is itself refinable, with the filter
+/// a_n = 1/2 sum_{k - j = n} p^w_j p^t_k, and r_d = C^(d) at the integers: the eigenvector of 2^d a[2l - m]
+/// for the eigenvalue 1 with sum_l l^k C^(d)(l) = (-1)^d d! delta_{kd}, k <= d [Beylkin 1992; JL14,
+/// section 3.4], computed as the d-th difference of the eigenvector of 2^d a(w)/(1 + w)^d, which is
+/// well-conditioned at any length; then the convolutions with c. Cost O(L^3).
+///
+/// Throws InadmissiblePairError, and std::invalid_argument for d outside 0..12.
 ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, const ScalingFunction& weight,
                                                int derivative);
 

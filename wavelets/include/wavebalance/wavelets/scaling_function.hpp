@@ -46,10 +46,10 @@ class ScalingFunction {
   double sobolev_exponent() const { return sobolev_exponent_; }
 
   /// phi^(derivative) at the dyadic points x = support_begin() + n 2^-level, n = 0..(support length) 2^level.
-  /// Daubechies: values at the integers as the eigenvector of the filter's two-scale matrix for the
-  /// eigenvalue 2^-d, scaled by sum_k k^d phi^(d)(k) = (-1)^d d!, then the refinement equation level by
-  /// level; B-spline: polynomial pieces. Cost O(L * support * 2^level). Throws std::invalid_argument unless 0
-  /// <= level <= 24 and 0 <= derivative <= pointwise_derivatives().
+  /// Daubechies: values at the integers as the eigenvector of the two-scale matrix 2^d p[2k - l] for the
+  /// eigenvalue 1 with sum_k k^d phi^(d)(k) = (-1)^d d!, then the refinement equation level by level [JL14,
+  /// eq. (32)]; B-spline: polynomial pieces. Cost O(L * support * 2^level).
+  /// Throws std::invalid_argument unless 0 <= level <= 24 and 0 <= derivative <= pointwise_derivatives().
   Eigen::VectorXd values(int level, int derivative = 0) const;
 
   /// Fourier transform \int phi(x) exp(-i xi x) dx. Daubechies: the product of m0(xi / 2^j), j >= 1, to
