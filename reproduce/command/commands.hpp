@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wavebalance/reproduce/scene.hpp"
+
+namespace wavebalance::reproduce {
+
+/// Exit codes of the command.
+enum ExitCode { solved = 0, bad_input = 2, not_converged = 3 };
+
+struct RunArguments {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+/// Solves a scene and writes its results. Returns solved or not_converged; throws SceneError and IoError.
+int run_scene(const RunArguments& arguments);
+
+/// Validates a scene and says what would be solved. Throws SceneError.
+int check_scene(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
+
+/// Case 1 of Jones & Legrand 2014, which the help shows.
+Scene example_scene();
+
+}  // namespace wavebalance::reproduce

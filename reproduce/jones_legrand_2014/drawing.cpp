@@ -1,0 +1,99 @@
+#include "jl14.hpp"
+
+namespace wavebalance::jl14 {
+
+using reproduce::Colour;
+using reproduce::Figure;
+using reproduce::Legend;
+using reproduce::Panel;
+using reproduce::SeriesStyle;
+
+reproduce::Axis axis(const std::string& label, double lower, double upper) {
+  reproduce::Axis result;
+  result.label = label;
+  result.lower = lower;
+  result.upper = upper;
+  return result;
+}
+
+Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from) {
+  const Eigen::Index n = values.size();
+  const auto first = static_cast<Eigen::Index>(std::lround(from * static_cast<double>(n)));
+  Eigen::VectorXd x(n + 1), y(n + 1);
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    x[i] = static_cast<double>(first + i) / static_cast<double>(n);
+    y[i] = values[((first + i) % n + n) % n];
+  }
+  return Series(label, x, y);
+}
+
+Series reference_series(const Eigen::VectorXd& values, double from) {
+  Series series = periodic_series("time stepping", values, from);
+  series.colour = Colour::black;
+  series.dash = reproduce::Dash::dashed;
+  series.width = 1.1;
+  return series;
+}
+
+Figure pair_figure(const PairPanels& content) {
+  Figure figure;
+  figure.columns = 3;
+  figure.panel_width = 400;
+  figure.panel_height = 300;
+  const auto chosen = panel_pairs();
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Panel& panel = figure.add_panel(chosen[i].label);
+    Series series = periodic_series(chosen[i].label, content.values[i], content.from);
+    series.colour = chosen[i].colour;
+    panel.add(series).add(reference_series(content.reference, content.from));
+    panel.x = axis("Normalised time t/T", content.from, content.from + 1.0);
+    panel.y.label = content.y_label;
+    panel.legend = Legend::none;
+  }
+  return figure;
+}
+
+Figure convergence_figure(const Table& table, const std::string& column, const std::string& label,
+                          bool logarithmic) {
+  Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 560;
+  figure.panel_height = 420;
+  for (const int number : {1, 2}) {
+    Panel& panel = figure.add_panel();
+    const Table of_case = table.where("case", std::to_string(number));
+    for (const Pair& pair : pairs()) {
+      const Table rows = of_case.where("trial", pair.trial).where("weight", pair.weight);
+      Series series(pair.label, rows, "functions", column, SeriesStyle::line_points);
+      series.colour = pair.colour;
+      series.marker = pair.marker;
+      panel.add(std::move(series));
+    }
+    panel.x = {"Number of basis functions", 7.0, 147.0, true, {8, 16, 32, 64, 128}, "%g"};
+    panel.y.label = label;
+    panel.y.logarithmic = logarithmic;
+    panel.legend = number == 1 ? Legend::top_right : Legend::none;
+  }
+  return figure;
+}
+
+Figure levels_figure(const Table& table, const std::string& name, SeriesStyle style) {
+  Figure figure;
+  figure.columns = 3;
+  figure.panel_width = 340;
+  figure.panel_height = 240;
+  for (int level = 0; level <= 5; ++level) {
+    const std::vector<double> values = table.numbers("level_" + std::to_string(level));
+    Panel& panel = figure.add_panel("J = " + std::to_string(level));
+    Series series = periodic_series(
+        "", Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+    series.style = style;
+    series.colour = Colour::blue;
+    panel.add(std::move(series));
+    panel.x = axis("Normalised time t", 0.0, 1.0);
+    panel.y.label = name;
+  }
+  return figure;
+}
+
+}  // namespace wavebalance::jl14

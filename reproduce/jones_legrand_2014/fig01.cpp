@@ -1,0 +1,89 @@
+#include <array>
+
+#include "jl14.hpp"
+
+using namespace wavebalance;
+using reproduce::Colour;
+
+namespace {
+
+struct Polyline {
+  std::string name;
+  std::vector<std::array<double, 2>> points;
+};
+
+/// The sketch in units of the bar's length.
+std::vector<Polyline> outline() {
+  std::vector<Polyline> lines{
+      {"clamp", {{0, -0.22}, {0, 0.22}}},
+      {"bar", {{0, -0.08}, {1, -0.08}, {1, 0.08}, {0, 0.08}}},
+      {"spring plate", {{1.14, -0.11}, {1.14, 0.11}}},
+      {"foundation", {{1.42, -0.22}, {1.42, 0.22}}},
+      {"spring", {{1.14, 0}, {1.18, 0}}},
+  };
+  for (int tooth = 0; tooth < 8; ++tooth)
+    lines.back().points.push_back({1.195 + 0.025 * tooth, tooth % 2 == 0 ? 0.05 : -0.05});
+  lines.back().points.insert(lines.back().points.end(), {{1.385, 0}, {1.42, 0}});
+  for (int stroke = 0; stroke < 8; ++stroke) {
+    const double y = -0.21 + 0.055 * stroke;
+    lines.push_back({"hatching", {{-0.04, y - 0.03}, {0, y + 0.02}}});
+    lines.push_back({"hatching", {{1.42, y - 0.03}, {1.46, y + 0.02}}});
+  }
+  return lines;
+}
+
+jl14::Table points_table(const std::vector<Polyline>& lines) {
+  jl14::Table table({"line", "part", "x", "y"});
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].name, x, y});
+  return table;
+}
+
+void annotate(reproduce::Panel& panel) {
+  const auto arrow = [&](double x1, double y1, double x2, double y2) {
+    panel.segments.push_back({x1, y1, x2, y2, true, reproduce::Dash::solid, Colour::black, 1.3});
+  };
+  const auto text = [&](double x, double y, const char* words) { panel.texts.push_back({x, y, words}); };
+  panel.rectangles.push_back({0, -0.08, 1, 0.08, Colour::sky_blue, 0.35});
+  arrow(0, -0.17, 0.2, -0.17);
+  text(0.24, -0.17, "{/:Italic x}");
+  text(0.5, 0, "{/:Italic E, S, ρ, ℓ}, damping {/:Italic C} = β{/:Italic K}");
+  arrow(1, 0.17, 1.14, 0.17);
+  arrow(1.14, 0.17, 1, 0.17);
+  text(1.07, 0.215, "gap {/:Italic g}");
+  text(1.28, 0.11, "{/:Italic K_p}");
+  arrow(0.8, 0.14, 1, 0.14);
+  text(0.72, 0.2, "{/:Italic F} cos 2π{/:Italic ft},  {/:Italic u}(ℓ, {/:Italic t})");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto identity =
+      jl14::identity("Fig. 1", "Bar with unilateral contact at its tip", "fig01_system_sketch");
+  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
+    const auto lines = outline();
+    reproduce::Figure figure;
+    figure.panel_width = 760;
+    figure.panel_height = 270;
+    reproduce::Panel& panel = figure.add_panel();
+    panel.frame = false;
+    panel.x = jl14::axis("", -0.1, 1.52);
+    panel.y = jl14::axis("", -0.26, 0.27);
+    panel.legend = reproduce::Legend::none;
+    for (const Polyline& line : lines) {
+      Eigen::VectorXd x(line.points.size()), y(line.points.size());
+      for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = line.points[i][0], y[i] = line.points[i][1];
+      jl14::Series series("", x, y);
+      series.colour = Colour::black;
+      series.width = line.name == "hatching" ? 0.8 : 1.6;
+      panel.add(std::move(series));
+    }
+    annotate(panel);
+    artefact.data(points_table(lines), "units of the bar's length");
+    artefact.picture(figure);
+    artefact.caption(
+        "The bar clamped at x = 0, the gap g and the exponential spring K_p of eq. (5), with the force at "
+        "the tip (the paper does not say where it acts; the tip gives its displacements without contact).");
+  });
+}

@@ -1,0 +1,34 @@
+#include "jl14.hpp"
+
+using namespace wavebalance;
+
+namespace {
+
+/// Whether level J is 2^J on the first 2^-J of the period and zero on the rest.
+bool is_box(const std::vector<double>& values, int level) {
+  const std::size_t width = values.size() >> level;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] != (i < width ? static_cast<double>(1 << level) : 0.0)) return false;
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto identity =
+      jl14::identity("Fig. 5", "Periodized Haar scaling functions, levels 0 to 5", "fig05_haar_levels");
+  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
+    const auto table = jl14::levels_table("haar");
+    artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
+    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", reproduce::SeriesStyle::steps));
+    artefact.caption("The translate k = 0, closed on the left.");
+    int boxes = 0;
+    for (int level = 0; level <= 5; ++level)
+      boxes += is_box(table.numbers("level_" + std::to_string(level)), level) ? 1 : 0;
+    artefact.claim({"section 3.5",
+                    "Since the compact support of the father scaling function is S1, the periodized function "
+                    "is equivalent.",
+                    "every level is exactly the dilated box 2^J on [0, 2^-J)",
+                    std::to_string(boxes) + " of 6 levels are", boxes == 6});
+  });
+}

@@ -1,0 +1,141 @@
+#include "jl14.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/measures.hpp"
+
+namespace wavebalance::jl14 {
+
+using reproduce::Colour;
+
+report::Identity identity(const std::string& number, const std::string& title, const std::string& stem) {
+  return {"jones_legrand_2014", "JL14 " + number, title, stem};
+}
+
+const std::vector<Pair>& pairs() {
+  static const std::vector<Pair> all{
+      {"fourier", "fourier", "Fourier:Fourier", Colour::blue, 1},
+      {"bspline", "bspline", "B-spline:B-spline", Colour::vermillion, 2},
+      {"daubechies6", "daubechies6", "DB6:DB6", Colour::green, 3},
+      {"haar", "fourier", "Haar:Fourier", Colour::purple, 4},
+      {"daubechies6", "fourier", "DB6:Fourier", Colour::orange, 5},
+      {"haar", "bspline", "Haar:B-spline", Colour::sky_blue, 6},
+  };
+  return all;
+}
+
+std::vector<Pair> panel_pairs() {
+  const auto& all = pairs();
+  return {all[0], all[4], all[3], all[1], all[5], all[2]};
+}
+
+const Pair& pair(const std::string& name) {
+  for (const Pair& one : pairs())
+    if (one.name() == name) return one;
+  throw std::out_of_range("\"" + name + "\" is no pair of Table 2");
+}
+
+bool has_haar_trial(const Pair& pair) { return pair.trial == "haar"; }
+
+std::vector<int> sizes() { return {8, 16, 32, 64, 128}; }
+
+Case::Case(report::Artefact& artefact, int number)
+    : artefact_(artefact),
+      number_(number),
+      scene_(artefact.scene("case" + std::to_string(number) + ".toml")) {
+  const Table table = artefact.result("reference_case" + std::to_string(number) + ".csv");
+  const auto column = [&](const char* name) -> Eigen::VectorXd {
+    const std::vector<double> values = table.numbers(name);
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  time_ = column("time_fraction");
+  reference_.displacement = column("displacement_m");
+  reference_.velocity = column("velocity_m_per_s");
+  reference_.contact_force = column("contact_force_N");
+  reference_energy_ = column("system_energy_J");
+}
+
+std::string Case::frequency_text() const { return report::number(scene_.forcing.frequency, 6) + " Hz"; }
+
+reproduce::Scene Case::scene_for(const Pair& pair, int functions) {
+  return artefact_.scene("case" + std::to_string(number_) + ".toml",
+                         {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
+                          "time.functions=" + std::to_string(functions)});
+}
+
+reproduce::Response Case::solve(const Pair& pair, int functions, bool full_history) {
+  reproduce::ResponseOptions options;
+  options.full_history = full_history;
+  auto response = reproduce::weighted_residual_response(scene_for(pair, functions), options);
+  if (!response.converged)
+    artefact_.note(pair.label + " with " + std::to_string(functions) + " functions at " + frequency_text() +
+                   " did not converge (" + response.status + ", residual " +
+                   report::number(response.residual) + ") and is not drawn.");
+  return response;
+}
+
+std::vector<reproduce::Response> Case::solve_all(const std::vector<Pair>& chosen) {
+  std::vector<reproduce::Response> responses;
+  for (const Pair& pair : chosen) responses.push_back(solve(pair, scene_.time.functions));
+  return responses;
+}
+
+Eigen::VectorXd drawn(const reproduce::Response& response, const Eigen::VectorXd& values) {
+  if (response.converged) return values;
+  return Eigen::VectorXd::Constant(values.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference,
+                       const std::vector<Pair>& chosen, const std::vector<Eigen::VectorXd>& values) {
+  Table table;
+  table.add_column("time_fraction", time).add_column("reference", reference);
+  for (const Pair& pair : pairs())
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (chosen[i].name() == pair.name()) table.add_column(pair.name(), values[i]);
+  return table;
+}
+
+double entry(const Table& table, int case_number, const Pair& pair, int functions,
+             const std::string& column) {
+  const Table found = table.where("case", std::to_string(case_number))
+                          .where("trial", pair.trial)
+                          .where("weight", pair.weight)
+                          .where("functions", std::to_string(functions));
+  return found.numbers(column).at(0);
+}
+
+std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    text += (i == 0 ? "" : ", ") + chosen[i].label + " " + report::percent(values[i]);
+  return text;
+}
+
+Table levels_table(const std::string& basis, bool centred) {
+  constexpr int points = 1024;
+  Table table;
+  table.add_column("time_fraction", reproduce::time_fractions(points));
+  for (int level = 0; level <= 5; ++level) {
+    const int functions = 1 << level;
+    const int shift = centred ? (functions / 2 + 2 * functions - 2) % functions : 0;
+    Eigen::VectorXd values = functions * reproduce::make_basis(basis, functions).samples(points, 0);
+    std::rotate(values.begin(), values.end() - shift * (points / functions), values.end());
+    table.add_column("level_" + std::to_string(level), values);
+  }
+  return table;
+}
+
+double largest_integral_error(const Table& table) {
+  double largest = 0.0;
+  for (const auto& name : table.columns()) {
+    if (name == "time_fraction") continue;
+    const std::vector<double> values = table.numbers(name);
+    const Eigen::Map<const Eigen::VectorXd> level(values.data(), static_cast<Eigen::Index>(values.size()));
+    largest = std::max(largest, std::abs(level.mean() - 1.0));
+  }
+  return largest;
+}
+
+}  // namespace wavebalance::jl14

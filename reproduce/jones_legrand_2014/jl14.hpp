@@ -1,0 +1,113 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "wavebalance/report/artefact.hpp"
+#include "wavebalance/reproduce/response.hpp"
+
+/// What the figures of Jones & Legrand (2014), doi:10.1115/DETC2014-34725, share.
+namespace wavebalance::jl14 {
+
+using reproduce::Series;
+using reproduce::Table;
+
+/// "jones_legrand_2014", "JL14 Fig. 6", ...
+report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
+
+/// A combination of trial and weighting functions [JL14, Table 2] and how it is drawn.
+struct Pair {
+  std::string trial;  ///< as scenes name it
+  std::string weight;
+  std::string label;  ///< "DB6:Fourier"
+  reproduce::Colour colour;
+  int marker;
+
+  std::string name() const { return trial + "_" + weight; }  ///< column of a CSV file
+};
+
+/// The six pairs in the order of Table 2.
+const std::vector<Pair>& pairs();
+/// In the order of the panels (a)-(f): the text places the B-spline Galerkin pair in Fig. 6(d), a Haar pair
+/// in (e) and the Haar:Fourier pair in Fig. 7(c).
+std::vector<Pair> panel_pairs();
+/// Throws std::out_of_range for a name that is not in Table 2.
+const Pair& pair(const std::string& name);
+bool has_haar_trial(const Pair& pair);
+
+/// 8, 16, ..., 128 functions [JL14, Figs. 10 and 11].
+std::vector<int> sizes();
+
+/// One of the two cases of [JL14, Table 1]: its scene, its time-stepping reference and its solutions.
+class Case {
+ public:
+  /// number: 1 or 2. Reads caseN.toml and, with its columns of one period, reference_caseN.csv.
+  Case(report::Artefact& artefact, int number);
+
+  const reproduce::Scene& scene() const { return scene_; }
+  double gap() const { return scene_.contact.gap; }
+  /// "150 Hz"
+  std::string frequency_text() const;
+  const Eigen::VectorXd& time() const { return time_; }  ///< fraction of the period
+  const solvers::PeriodSamples& reference() const { return reference_; }
+  const Eigen::VectorXd& reference_energy() const { return reference_energy_; }  ///< J
+
+  /// The scene with this pair, solved. A response that has not converged is noted in the artefact.
+  reproduce::Response solve(const Pair& pair, int functions, bool full_history = false);
+  /// All of `chosen` with the scene's number of functions.
+  std::vector<reproduce::Response> solve_all(const std::vector<Pair>& chosen);
+  /// The scene that solve() solves.
+  reproduce::Scene scene_for(const Pair& pair, int functions);
+
+ private:
+  report::Artefact& artefact_;
+  int number_;
+  reproduce::Scene scene_;
+  Eigen::VectorXd time_;
+  solvers::PeriodSamples reference_;
+  Eigen::VectorXd reference_energy_;
+};
+
+/// `values` of a converged response; missing values otherwise.
+Eigen::VectorXd drawn(const reproduce::Response& response, const Eigen::VectorXd& values);
+
+/// An axis with its limits.
+reproduce::Axis axis(const std::string& label, double lower, double upper);
+
+/// A periodic curve of uniform samples from t/T = `from` to `from` + 1, both ends included.
+Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from = 0.0);
+/// The reference's look: black and dashed.
+Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
+
+/// time_fraction, reference and a column a pair.
+Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference,
+                       const std::vector<Pair>& chosen, const std::vector<Eigen::VectorXd>& values);
+
+/// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference.
+struct PairPanels {
+  std::string y_label;
+  double from = 0.0;  ///< t/T at the left edge
+  Eigen::VectorXd reference;
+  std::vector<Eigen::VectorXd> values;  ///< of panel_pairs()
+};
+reproduce::Figure pair_figure(const PairPanels& content);
+
+/// Fig. 10 or 11: one curve a pair over the number of functions, one panel a case, from a table with columns
+/// case, trial, weight, functions and `column`.
+reproduce::Figure convergence_figure(const Table& table, const std::string& column, const std::string& label,
+                                     bool logarithmic);
+/// The entry of such a table.
+double entry(const Table& table, int case_number, const Pair& pair, int functions, const std::string& column);
+
+/// "Fourier:Fourier 0.12 %, DB6:Fourier 0.3 %", values as percentages.
+std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values);
+
+/// Figs. 3-5: the first six levels J = 0..5 of a periodized scaling function, `basis` as scenes name it,
+/// normalised to integral 1: the translate k = 0, or, `centred`, the one of a function symmetric about 2 (the
+/// B-spline) whose maximum lies at t = 1/2. Columns time_fraction, level_0..level_5.
+Table levels_table(const std::string& basis, bool centred = false);
+/// max over the levels of |integral - 1| of the columns of a levels_table().
+double largest_integral_error(const Table& table);
+reproduce::Figure levels_figure(const Table& table, const std::string& name, reproduce::SeriesStyle style);
+
+}  // namespace wavebalance::jl14

@@ -1,0 +1,47 @@
+// The time-stepping reference of one case, JL14_CASE, that Figs. 6-11 read.
+#include "jl14.hpp"
+#include "wavebalance/reproduce/analysis.hpp"
+#include "wavebalance/reproduce/measures.hpp"
+
+using namespace wavebalance;
+
+namespace {
+
+reproduce::Response converged(const reproduce::Response& response, const std::string& method) {
+  if (!response.converged) throw report::NotConverged(method + ": " + response.status);
+  return response;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string number = std::to_string(JL14_CASE);
+  const auto identity =
+      jl14::identity("reference " + number, "Time stepping, case " + number, "reference_case" + number);
+  return report::run_artefact(argc, argv, identity, [&](report::Artefact& artefact) {
+    const auto scene = artefact.scene("reference_case" + number + ".toml");
+    reproduce::ResponseOptions options;
+    options.full_history = true;
+    const auto stepping = converged(reproduce::time_stepping_response(scene, options), "time stepping");
+    const auto shooting = converged(reproduce::shooting_response(scene), "shooting");
+    auto table = reproduce::response_table(stepping.samples);
+    table.add_column("system_energy_J", reproduce::system_energy(scene, stepping.samples));
+    artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
+    artefact.caption("The last of " + std::to_string(stepping.iterations) +
+                     " periods, computed once and read by Figs. 6-11.");
+    artefact.claim(
+        {"section 4",
+         "the solution is deemed to have converged to its periodic state when the rms of the relative error "
+         "between the tip displacements for the i and i − 1 periods is below 10^{-7}",
+         "reached within " + std::to_string(scene.analysis.max_periods) + " periods",
+         report::number(stepping.residual) + " after " + std::to_string(stepping.iterations) + " periods",
+         stepping.residual < 1e-7});
+    const double difference =
+        reproduce::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
+    artefact.note("An independent shooting solution differs from it by " + report::number(difference) +
+                  " (relative rms of the tip displacement); largest displacement " +
+                  report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) +
+                  " mm, in contact for " + report::percent(reproduce::contact_fraction(stepping.samples), 4) +
+                  " of the period.");
+  });
+}
