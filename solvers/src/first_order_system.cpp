@@ -5,6 +5,9 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "option_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -23,16 +26,10 @@ Eigen::LLT<Eigen::MatrixXd> factor_mass(const LinearStructure& structure) {
 
 }  // namespace
 
-void require_frequency(double frequency_hz, const char* who) {
-  if (std::isfinite(frequency_hz) && frequency_hz > 0.0) return;
-  throw std::invalid_argument(std::string(who) + ": frequency_hz is " + std::to_string(frequency_hz) +
-                              "; it must be positive and finite");
-}
-
 FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, AnyContactLaw law, double frequency_hz)
     : law_(std::move(law)), contact_dof_(structure.contact_dof), angular_frequency_(two_pi * frequency_hz) {
   structure.validate();
-  require_frequency(frequency_hz, "FirstOrderSystem");
+  detail::require_positive("FirstOrderSystem", "frequency_hz", frequency_hz);
   const double period = 1.0 / frequency_hz;
   const int n = structure.size();
   const Eigen::LLT<Eigen::MatrixXd> mass = factor_mass(structure);

@@ -7,41 +7,24 @@
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
+#include "option_checks.hpp"
 #include "shooting_propagator.hpp"
-#include "wavebalance/solvers/first_order_system.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 constexpr int fewest_steps = 512;  // a period
 
-[[noreturn]] void reject(const char* name, double value, const char* allowed) {
-  throw std::invalid_argument("ShootingOptions: " + std::string(name) + " is " + std::to_string(value) +
-                              "; it must be " + allowed);
-}
-
-void require_dofs(const char* name, const Eigen::VectorXd& values, int dofs) {
-  if (values.size() != 0 && values.size() != dofs)
-    throw std::invalid_argument("ShootingOptions: " + std::string(name) + " has " +
-                                std::to_string(values.size()) + " entries; it must have none or " +
-                                std::to_string(dofs));
-  if (!values.allFinite())
-    throw std::invalid_argument("ShootingOptions: " + std::string(name) + " has an entry that is not finite");
-}
-
 void validate(const ShootingOptions& options, int dofs) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (options.output_points < 2) reject("output_points", options.output_points, "at least 2");
-  if (options.settling_periods < 0) reject("settling_periods", options.settling_periods, "at least 0");
-  if (options.max_iterations < 1) reject("max_iterations", options.max_iterations, "at least 1");
-  if (!positive(options.tolerance)) reject("tolerance", options.tolerance, "positive and finite");
-  if (!positive(options.step_tolerance))
-    reject("step_tolerance", options.step_tolerance, "positive and finite");
-  require_dofs("initial_displacement", options.initial_displacement, dofs);
-  require_dofs("initial_velocity", options.initial_velocity, dofs);
+  constexpr const char* who = "ShootingOptions";
+  detail::require_at_least(who, "output_points", options.output_points, 2);
+  detail::require_at_least(who, "settling_periods", options.settling_periods, 0);
+  detail::require_at_least(who, "max_iterations", options.max_iterations, 1);
+  detail::require_positive(who, "tolerance", options.tolerance);
+  detail::require_positive(who, "step_tolerance", options.step_tolerance);
+  detail::require_dofs(who, "initial_displacement", options.initial_displacement, dofs);
+  detail::require_dofs(who, "initial_velocity", options.initial_velocity, dofs);
 }
 
 /// Steps of the period such that every output time is the end of one: base 2^level = points repeat.
@@ -206,7 +189,7 @@ const char* to_string(ShootingStatus status) {
 
 ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
                      const ShootingOptions& options) {
-  require_frequency(frequency_hz, "shoot");
+  detail::require_positive("shoot", "frequency_hz", frequency_hz);
   structure.validate();
   validate(options, structure.size());
   return Shooting(structure, law, frequency_hz, options).run();

@@ -1,5 +1,6 @@
 #include "shooting_modes.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <complex>
 #include <numbers>
@@ -25,10 +26,15 @@ void require_modal_damping(const Eigen::MatrixXd& modal) {
 
 ModalStructure::ModalStructure(const LinearStructure& structure, double frequency_hz)
     : angular_frequency(2.0 * std::numbers::pi * frequency_hz) {
+  // The eigen solver does not look at its own factorisation of the mass.
+  if (Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(structure.mass)).info() != Eigen::Success)
+    throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
+                                std::to_string(structure.size()) +
+                                ") is not positive definite; every degree of freedom needs a mass");
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(structure.stiffness),
                                                                          Eigen::MatrixXd(structure.mass)};
   if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite())
-    throw std::invalid_argument("shoot: no modes found; mass must be symmetric and positive definite");
+    throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
   stiffness = solver.eigenvalues();
   shapes = solver.eigenvectors();
   const Eigen::MatrixXd modal_damping = shapes.transpose() * (structure.damping * shapes);

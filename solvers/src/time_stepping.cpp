@@ -12,9 +12,8 @@
 #include <new>
 #include <numbers>
 #include <span>
-#include <stdexcept>
-#include <string>
 
+#include "option_checks.hpp"
 #include "wavebalance/solvers/first_order_system.hpp"
 
 namespace wavebalance::solvers {
@@ -23,34 +22,16 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double first_step = 1e-6;  // periods
 
-[[noreturn]] void reject(const char* name, double value, const char* allowed) {
-  throw std::invalid_argument("TimeSteppingOptions: " + std::string(name) + " is " + std::to_string(value) +
-                              "; it must be " + allowed);
-}
-
-void require_dofs(const char* name, const Eigen::VectorXd& values, int dofs) {
-  if (values.size() != 0 && values.size() != dofs)
-    throw std::invalid_argument("TimeSteppingOptions: " + std::string(name) + " has " +
-                                std::to_string(values.size()) + " entries; it must have none or " +
-                                std::to_string(dofs));
-  if (!values.allFinite())
-    throw std::invalid_argument("TimeSteppingOptions: " + std::string(name) +
-                                " has an entry that is not finite");
-}
-
 void validate(const TimeSteppingOptions& options, int dofs) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (options.output_points < 2) reject("output_points", options.output_points, "at least 2");
-  if (!positive(options.period_tolerance))
-    reject("period_tolerance", options.period_tolerance, "positive and finite");
-  if (options.max_periods < 1) reject("max_periods", options.max_periods, "at least 1");
-  if (options.max_steps_per_period < 1)
-    reject("max_steps_per_period", options.max_steps_per_period, "at least 1");
-  if (!positive(options.step_tolerance))
-    reject("step_tolerance", options.step_tolerance, "positive and finite");
-  if (!positive(options.step_floor)) reject("step_floor", options.step_floor, "positive and finite");
-  require_dofs("initial_displacement", options.initial_displacement, dofs);
-  require_dofs("initial_velocity", options.initial_velocity, dofs);
+  constexpr const char* who = "TimeSteppingOptions";
+  detail::require_at_least(who, "output_points", options.output_points, 2);
+  detail::require_positive(who, "period_tolerance", options.period_tolerance);
+  detail::require_at_least(who, "max_periods", options.max_periods, 1);
+  detail::require_at_least(who, "max_steps_per_period", options.max_steps_per_period, 1);
+  detail::require_positive(who, "step_tolerance", options.step_tolerance);
+  detail::require_positive(who, "step_floor", options.step_floor);
+  detail::require_dofs(who, "initial_displacement", options.initial_displacement, dofs);
+  detail::require_dofs(who, "initial_velocity", options.initial_velocity, dofs);
 }
 
 Eigen::VectorXd initial_state(const FirstOrderSystem& system, const TimeSteppingOptions& options) {
@@ -263,7 +244,7 @@ const char* to_string(TimeSteppingStatus status) {
 
 TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const AnyContactLaw& law,
                                          double frequency_hz, const TimeSteppingOptions& options) {
-  require_frequency(frequency_hz, "integrate_to_periodic");
+  detail::require_positive("integrate_to_periodic", "frequency_hz", frequency_hz);
   structure.validate();
   validate(options, structure.size());
   FirstOrderSystem system(structure, law, frequency_hz);

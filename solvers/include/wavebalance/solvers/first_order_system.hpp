@@ -47,7 +47,4 @@ class FirstOrderSystem {
   Eigen::VectorXd contact_inertia_;  // T M^-1 e, s/kg
 };
 
-/// Throws std::invalid_argument naming `who` unless frequency_hz is positive and finite.
-void require_frequency(double frequency_hz, const char* who);
-
 }  // namespace wavebalance::solvers

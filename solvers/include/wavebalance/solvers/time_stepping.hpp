@@ -20,10 +20,9 @@ enum class TimeSteppingStatus {
 const char* to_string(TimeSteppingStatus status);
 
 struct TimeSteppingOptions {
-  int output_points = 1024;  ///< uniform samples of one period, also those that periods are compared on
-  double period_tolerance =
-      1e-7;                ///< on the relative rms difference of two successive periods [JL14, section 4]
-  int max_periods = 2000;  ///< periods integrated at most
+  int output_points = 1024;        ///< uniform samples of one period, also those that periods are compared on
+  double period_tolerance = 1e-7;  ///< on the relative rms difference of two periods [JL14, section 4]
+  int max_periods = 2000;          ///< periods integrated at most
   int max_steps_per_period = 200000;  ///< steps accepted at most, on average over the periods so far
   double step_tolerance = 1e-10;      ///< local error of a step, relative to the state
   double step_floor =
