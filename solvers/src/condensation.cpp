@@ -47,6 +47,27 @@ CondensedPoint Condensation::at(const StiffnessFactors& factors, const Stiffness
   return method_->at(factors, rates);
 }
 
+void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                            CondensedSpectrum& result) {
+  const Eigen::Index size = factors[0].size();
+  for (auto* vector :
+       {&result.compliance, &result.load_response, &result.compliance_slope, &result.load_response_slope})
+    vector->resize(size);
+  method_->condense(factors, rates, result);
+}
+
+void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                                    CondensedSpectrum& result) {
+  for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
+    const CondensedPoint point =
+        at({factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
+    result.compliance[k] = point.compliance;
+    result.load_response[k] = point.load_response;
+    result.compliance_slope[k] = point.compliance_slope;
+    result.load_response_slope[k] = point.load_response_slope;
+  }
+}
+
 Eigen::VectorXcd Condensation::recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
                                        std::complex<double> contact_force) {
   return method_->recover(factors, load_amplitude, contact_force);

@@ -11,6 +11,9 @@ class Condensation::Method {
   virtual ~Method() = default;
   virtual int size() const = 0;
   virtual CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) = 0;
+  /// Point by point unless a method knows better.
+  virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                        CondensedSpectrum& result);
   virtual Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
                                    std::complex<double> contact_force) = 0;
 };

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "condensation_method.hpp"
+#include "pivot_recursion.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -66,6 +67,20 @@ class TridiagonalMethod final : public Condensation::Method {
     return point;
   }
 
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                CondensedSpectrum& result) override {
+    if (contact_ != size() - 1 || !load_at_contact_) {
+      Method::condense(factors, rates, result);
+      return;
+    }
+    PivotRecursion recursion(factors, rates);
+    for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
+    if (recursion.singular()) throw_singular(size() - 1);
+    recursion.last(result.compliance, result.compliance_slope);
+    result.load_response = load_[contact_] * result.compliance;
+    result.load_response_slope = load_[contact_] * result.compliance_slope;
+  }
+
   Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
                            Complex contact_force) override {
     factorize(factors);
@@ -76,6 +91,13 @@ class TridiagonalMethod final : public Condensation::Method {
   }
 
  private:
+  PivotRecursion::Row row(int i) const {
+    const bool first = i == 0;
+    return {{mass_.diagonal[i], damping_.diagonal[i], stiffness_.diagonal[i]},
+            {first ? 0.0 : mass_.off[i - 1], first ? 0.0 : damping_.off[i - 1],
+             first ? 0.0 : stiffness_.off[i - 1]}};
+  }
+
   // L D L^T without pivoting, as for a definite matrix; a vanishing pivot is an error, not a division.
   void factorize(const StiffnessFactors& s) {
     const int n = size();

@@ -30,12 +30,7 @@ CondensedProblem& CondensedProblem::operator=(CondensedProblem&&) noexcept = def
 CondensedProblem::~CondensedProblem() = default;
 
 StiffnessFactors CondensedProblem::factors(int k) const {
-  return {pair_.symbol(2)[k] * (frequency_ * frequency_), pair_.symbol(1)[k] * frequency_,
-          pair_.symbol(0)[k]};
-}
-
-StiffnessFactors CondensedProblem::rates(int k) const {
-  return {pair_.symbol(2)[k] * (2.0 * frequency_), pair_.symbol(1)[k], 0.0};
+  return {factors_[0][k], factors_[1][k], factors_[2][k]};
 }
 
 void CondensedProblem::set_frequency(double frequency_hz) {
@@ -43,18 +38,15 @@ void CondensedProblem::set_frequency(double frequency_hz) {
     throw std::invalid_argument("CondensedProblem: frequency is " + std::to_string(frequency_hz) +
                                 " Hz; it must be positive and finite");
   frequency_ = frequency_hz;
-  const int size = pair_.spectrum_size();
-  for (auto* vector : {&compliance_, &compliance_slope_, &response_, &response_slope_}) vector->resize(size);
-  for (int k = 0; k < size; ++k) {
-    const CondensedPoint point = condensation_.at(factors(k), rates(k));
-    compliance_[k] = point.compliance;
-    compliance_slope_[k] = point.compliance_slope;
-    response_[k] = point.load_response * load_[k];
-    response_slope_[k] = point.load_response_slope * load_[k];
-  }
+  factors_ = {pair_.symbol(2) * (frequency_ * frequency_), pair_.symbol(1) * frequency_, pair_.symbol(0)};
+  rates_ = {pair_.symbol(2) * (2.0 * frequency_), pair_.symbol(1),
+            Eigen::VectorXcd::Zero(pair_.spectrum_size())};
+  condensation_.condense(factors_, rates_, condensed_);
+  condensed_.load_response.array() *= load_.array();
+  condensed_.load_response_slope.array() *= load_.array();
   slope_is_current_ = columns_are_current_ = false;
   free_response_.resize(points());
-  pair_.spread(response_, work_->spectrum);
+  pair_.spread(condensed_.load_response, work_->spectrum);
   work_->fft.inverse(span_of(std::as_const(work_->spectrum)), span_of(free_response_));
   free_response_ /= points();
 }
@@ -62,7 +54,7 @@ void CondensedProblem::set_frequency(double frequency_hz) {
 const Eigen::VectorXd& CondensedProblem::free_response_slope() {
   if (slope_is_current_) return free_response_slope_;
   free_response_slope_.resize(points());
-  pair_.spread(response_slope_, work_->spectrum);
+  pair_.spread(condensed_.load_response_slope, work_->spectrum);
   work_->fft.inverse(span_of(std::as_const(work_->spectrum)), span_of(free_response_slope_));
   free_response_slope_ /= points();
   slope_is_current_ = true;
@@ -83,15 +75,16 @@ void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::Vect
 }
 
 void CondensedProblem::apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement) {
-  apply_kernel(force, pair_.weight_spectrum(), compliance_, pair_.trial_spectrum(), displacement);
+  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), displacement);
 }
 
 void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd& slope) {
-  apply_kernel(force, pair_.weight_spectrum(), compliance_slope_, pair_.trial_spectrum(), slope);
+  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance_slope, pair_.trial_spectrum(), slope);
 }
 
 void CondensedProblem::apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result) {
-  apply_kernel(values, pair_.trial_spectrum(), compliance_.conjugate(), pair_.weight_spectrum(), result);
+  apply_kernel(values, pair_.trial_spectrum(), condensed_.compliance.conjugate(), pair_.weight_spectrum(),
+               result);
 }
 
 const Eigen::MatrixXd& CondensedProblem::columns() {
@@ -113,7 +106,7 @@ const Eigen::MatrixXd& CondensedProblem::columns() {
 Eigen::VectorXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
   work_->fft.forward(span_of(force), span_of(work_->spectrum));
   pair_.project(work_->spectrum, work_->translates);
-  return response_ - compliance_.cwiseProduct(work_->translates);
+  return condensed_.load_response - condensed_.compliance.cwiseProduct(work_->translates);
 }
 
 Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& force) {

@@ -27,6 +27,15 @@ struct CondensedPoint {
 /// The three complex factors of M, C and K.
 using StiffnessFactors = std::array<std::complex<double>, 3>;
 
+/// The same three factors for each k of a spectrum over translates.
+using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
+
+/// CondensedPoint for each k of a spectrum.
+struct CondensedSpectrum {
+  Eigen::VectorXcd compliance, load_response;              ///< m/N; m
+  Eigen::VectorXcd compliance_slope, load_response_slope;  ///< along the rates
+};
+
 /// Condensation of a structure on its contact degree of freedom: rule 1 of the solvers, after which no cost
 /// depends on the structure. Tridiagonal matrices (a bar) take O(n) a point; any other sparse matrices one
 /// sparse LU a point. Immutable after construction except for work space: one object a thread.
@@ -42,6 +51,10 @@ class Condensation {
 
   /// Factors {s2, s1, s0} of M, C, K, and their rates {d2, d1, d0}. Throws SingularSystem.
   CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates);
+
+  /// at() for all k at once, with results resized to fit. A bar that is loaded and touches at its last degree
+  /// of freedom takes one forward recursion, vectorised over k. O(n K).
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates, CondensedSpectrum& result);
 
   /// The full displacement Z^-1 (load a - e b), n values, for a load of amplitude a and a contact force b.
   Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,

@@ -59,7 +59,6 @@ class CondensedProblem {
 
  private:
   StiffnessFactors factors(int k) const;
-  StiffnessFactors rates(int k) const;
   void apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
                     const Eigen::VectorXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
 
@@ -67,7 +66,8 @@ class CondensedProblem {
   Condensation condensation_;
   Eigen::VectorXcd load_;  // projected load, spectrum over translates
   double frequency_ = 0.0;
-  Eigen::VectorXcd compliance_, compliance_slope_, response_, response_slope_;  // M/2 + 1 each
+  StiffnessSpectrum factors_, rates_;
+  CondensedSpectrum condensed_;  // load responses times the projected load
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
   Eigen::MatrixXd columns_;

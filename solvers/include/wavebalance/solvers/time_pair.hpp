@@ -38,7 +38,7 @@ struct TimePairOptions {
   /// Exact inner products of two bases of which neither is band-limited (wavelet with wavelet): the first
   /// column a_d[m] = <p_i, d^d q_j / dt^d>, m = i - j mod M, of the circulant A_d for d = 0, 1, 2. With a
   /// band-limited basis on either side the pair sums its Fourier series itself and this is not called.
-  std::function<Eigen::VectorXd(int derivative)> exact_column;
+  std::function<Eigen::VectorXd(int derivative)> exact_column = {};
 };
 
 /// Whether the duality pairing of the bases exists: the Sobolev exponents satisfy s_p + s_q > 2, and with

@@ -1,0 +1,42 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "wavebalance/solvers/condensation.hpp"
+
+namespace wavebalance::solvers {
+
+/// The pivots d_i = z_ii - z_{i,i-1}^2 / d_{i-1} of symmetric tridiagonal dynamic stiffnesses Z(k), k =
+/// 0..K-1, and their derivatives along the rates, row by row for all k at once: 1/d_n is the compliance of
+/// the last degree of freedom, and no back substitution is needed. Real and imaginary parts lie apart so that
+/// the loops vectorise.
+class PivotRecursion {
+ public:
+  PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates);
+
+  /// Entries of mass, damping and stiffness in one row.
+  struct Row {
+    std::array<double, 3> diagonal;
+    std::array<double, 3> off;  ///< to the left of the diagonal; zero in the first row
+  };
+  void eliminate(const Row& row);
+
+  /// Whether a pivot vanished to working precision.
+  bool singular() const { return singular_; }
+  /// 1/d and its derivative after the last row.
+  void last(Eigen::VectorXcd& inverse, Eigen::VectorXcd& slope) const;
+
+ private:
+  struct Parts {
+    Eigen::ArrayXd re, im;
+  };
+  static Parts combine(const std::array<Parts, 3>& spectrum, const std::array<double, 3>& entries);
+
+  std::array<Parts, 3> factors_, rates_;
+  std::array<Eigen::ArrayXd, 3> magnitudes_;  // of the factors
+  Parts inverse_, slope_;                     // of 1/d
+  bool first_ = true;
+  bool singular_ = false;
+};
+
+}  // namespace wavebalance::solvers
