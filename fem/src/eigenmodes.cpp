@@ -113,14 +113,18 @@ Start power_iteration(const Factor& factor, const Sparse& mass, unsigned seed) {
   const double range = 0.5 * static_cast<double>(std::mt19937::max());
   Eigen::VectorXd vector(mass.rows());
   for (double& entry : vector) entry = static_cast<double>(generator()) / range - 1.0;
-  double eigenvalue = 0.0;
-  for (int step = 0; step < 4; ++step) {
-    const Eigen::VectorXd next = factor.solve(mass * vector);
-    eigenvalue = next.norm() / vector.norm();
-    if (!(eigenvalue > 0.0)) throw std::domain_error("eigenmodes: mass is zero");
-    vector = next / next.norm();
+  // All modes should be in the start: one step takes it into the range, further ones serve the estimate
+  // alone.
+  Start start{factor.solve(mass * vector), 0.0};
+  if (!(start.vector.norm() > 0.0)) throw std::domain_error("eigenmodes: mass is zero");
+  start.vector.normalize();
+  vector = start.vector;
+  for (int step = 0; step < 3; ++step) {
+    vector = factor.solve(mass * vector);
+    start.eigenvalue = vector.norm();
+    vector.normalize();
   }
-  return {vector, eigenvalue};
+  return start;
 }
 
 Modes lanczos_modes(const Factor& factor, const Sparse& mass, int count, const EigenmodesOptions& options,
@@ -137,6 +141,22 @@ Modes lanczos_modes(const Factor& factor, const Sparse& mass, int count, const E
                  Spectra::SortRule::SmallestAlge);
   return {solver.eigenvalues().array() / start.eigenvalue + options.shift, solver.eigenvectors(),
           solver.info() == Spectra::CompInfo::Successful};
+}
+
+// Two steps of inverse iteration on all modes found and the best approximations in the space of the results:
+// Lanczos leaves errors of its tolerance over the distance between modes, this takes them to rounding.
+void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Sparse& mass, double shift) {
+  if (modes.squares.size() == 0) return;
+  Eigen::MatrixXd space = modes.shapes;
+  for (int step = 0; step < 2; ++step) {
+    space = factor.solve(mass * space).eval();
+    space.colwise().normalize();
+  }
+  const Eigen::MatrixXd left = space.transpose() * (mass * space);
+  const Eigen::MatrixXd right = space.transpose() * (shifted * space);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(left, right);
+  modes.squares = ritz.eigenvalues().reverse().cwiseInverse().array() + shift;
+  modes.shapes = space * ritz.eigenvectors().rowwise().reverse();
 }
 
 // How many modes below the highest one are not among those found.
@@ -160,6 +180,7 @@ Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& sh
   Modes modes;
   for (unsigned attempt = 0; attempt < 4; ++attempt) {
     modes = lanczos_modes(factor, mass, wanted, options, attempt);
+    refine(modes, factor, shifted, mass, options.shift);
     const int missing = missing_modes(stiffness, mass, modes);
     modes.complete = modes.complete && missing == 0;
     if (missing == 0) break;

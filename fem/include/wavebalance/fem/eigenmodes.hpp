@@ -5,7 +5,7 @@
 namespace wavebalance::fem {
 
 struct EigenmodesOptions {
-  double tolerance = 1e-12;  ///< of the sparse iteration, relative to 1/(omega^2 - shift), in (0, 1)
+  double tolerance = 1e-14;  ///< of the sparse iteration, relative to 1/(omega^2 - shift), in (0, 1)
   int max_restarts = 1000;   ///< of the sparse iteration, >= 1
   int dense_up_to = 200;     ///< unknowns up to which a dense solver takes all modes at once, >= 0
   double shift = 0.0;        ///< (rad/s)^2, <= 0; below zero where the stiffness is singular (free bodies)
@@ -36,6 +36,9 @@ struct EigenmodesResult {
 /// solves, for a bar O(n count^2). The signs of the factors of K - s M with s below the highest mode count
 /// the modes under s (Sylvester's law of inertia), so that a missed copy of a multiple mode is noticed and
 /// sought again.
+///
+/// Both work with 1/(omega^2 - shift): rounding is relative to the lowest mode, for omega^2 of the others
+/// about eps times its ratio to the lowest.
 ///
 /// Throws std::invalid_argument if sizes, count or options do not fit, an entry is not finite or a matrix is
 /// not symmetric, std::domain_error if K - shift M is not positive definite or M has too low a rank or is

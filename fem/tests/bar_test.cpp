@@ -1,0 +1,133 @@
+#include "wavebalance/fem/bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCholesky>
+#include <limits>
+#include <stdexcept>
+
+#include "uniform_bar.hpp"
+
+namespace wavebalance::fem {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Eigen::VectorXd row_sums(const Eigen::SparseMatrix<double>& matrix) {
+  return matrix * Eigen::VectorXd::Ones(matrix.cols());
+}
+
+// The matrices as the sums over elements that define them.
+Eigen::MatrixXd summed(int elements, const Eigen::Matrix2d& element) {
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(elements + 1, elements + 1);
+  for (int e = 0; e < elements; ++e) whole.block<2, 2>(e, e) += element;
+  return whole.bottomRightCorner(elements, elements);
+}
+
+TEST(Bar, IsTheSumOfItsElements) {
+  for (int elements : {1, 2, 3, 25})
+    for (double lumped : {0.0, 0.25, 0.5, 1.0}) {
+      BarOptions options = published_bar();
+      options.elements = elements;
+      options.lumped_fraction = lumped;
+      const double size = options.length / elements;
+      const double spring = options.youngs_modulus * options.area / size;
+      const double weight = options.density * options.area * size;
+      const Eigen::Matrix2d consistent = weight / 6 * (Eigen::Matrix2d() << 2, 1, 1, 2).finished();
+      const Eigen::Matrix2d mass =
+          (1 - lumped) * consistent + lumped * weight / 2 * Eigen::Matrix2d::Identity();
+      const Matrices found = bar(options);
+      const Eigen::MatrixXd stiffness =
+          summed(elements, spring * (Eigen::Matrix2d() << 1, -1, -1, 1).finished());
+      EXPECT_LE((Eigen::MatrixXd(found.stiffness) - stiffness).cwiseAbs().maxCoeff(), 4 * eps * spring);
+      EXPECT_LE((Eigen::MatrixXd(found.mass) - summed(elements, mass)).cwiseAbs().maxCoeff(),
+                4 * eps * weight);
+    }
+}
+
+TEST(Bar, IsSymmetricTridiagonalAndCompressed) {
+  BarOptions options;
+  options.elements = 100'000;
+  const Matrices found = bar(options);
+  for (const auto* matrix : {&found.mass, &found.stiffness, &found.damping}) {
+    EXPECT_TRUE(matrix->isCompressed());
+    EXPECT_EQ(matrix->nonZeros(), 3 * 100'000 - 2);
+    EXPECT_EQ((*matrix - Eigen::SparseMatrix<double>(matrix->transpose())).norm(), 0.0);
+  }
+}
+
+TEST(Bar, HasItsWholeMassButTheClampedShare) {
+  for (double lumped : {0.0, 0.5, 1.0}) {
+    BarOptions options;
+    options.lumped_fraction = lumped;
+    const double weight = options.density * options.area * options.length;
+    // The clamped node's diagonal entry and twice its coupling, of one element.
+    const double clamped = weight / options.elements * (2.0 / 3.0 * (1 - lumped) + 0.5 * lumped);
+    EXPECT_NEAR(row_sums(bar(options).mass).sum(), weight - clamped, 16 * eps * weight);
+  }
+}
+
+TEST(Bar, TranslationStrainsTheClampedElementOnly) {
+  const BarOptions options;
+  const double spring = options.youngs_modulus * options.area * options.elements / options.length;
+  Eigen::VectorXd forces = row_sums(bar(options).stiffness);
+  EXPECT_NEAR(forces[0], spring, 4 * eps * spring);
+  EXPECT_EQ(forces.tail(options.elements - 1).cwiseAbs().maxCoeff(), 0.0);
+}
+
+// Patch test: a tip force strains all elements alike, so the nodes lie on the exact straight line P x/(E A).
+TEST(Bar, TipForceGivesTheExactDisplacement) {
+  BarOptions options;
+  options.elements = 1000;
+  const Matrices found = bar(options);
+  const double force = 250e3;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(found.stiffness);
+  const Eigen::VectorXd u = factor.solve(force * Eigen::VectorXd::Unit(1000, 999));
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(1000, 1, 1000) / 1000 * options.length;
+  const double tip = force * options.length / (options.youngs_modulus * options.area);
+  EXPECT_LE((u - tip * x / options.length).cwiseAbs().maxCoeff(), 1000 * eps * tip);
+}
+
+TEST(Bar, DampingIsBetaTimesStiffness) {
+  const Matrices found = bar(published_bar());
+  EXPECT_LE((found.damping - 1e-4 * found.stiffness).norm(), eps * found.damping.norm());
+  EXPECT_GT(found.damping.norm(), 0.0);
+  EXPECT_EQ(bar(BarOptions{}).damping.norm(), 0.0);
+}
+
+std::string message_of(const BarOptions& options) {
+  try {
+    bar(options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(Bar, NamesTheOptionThatIsWrong) {
+  BarOptions options;
+  options.youngs_modulus = 0.0;
+  EXPECT_EQ(message_of(options), "BarOptions: youngs_modulus is 0; it must be positive and finite");
+  options = {};
+  options.density = -2700;
+  EXPECT_EQ(message_of(options), "BarOptions: density is -2700; it must be positive and finite");
+  options = {};
+  options.area = infinity;
+  EXPECT_EQ(message_of(options), "BarOptions: area is inf; it must be positive and finite");
+  options = {};
+  options.length = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message_of(options), "BarOptions: length is nan; it must be positive and finite");
+  options = {};
+  options.elements = 0;
+  EXPECT_EQ(message_of(options), "BarOptions: elements is 0; it must be in 1..500000000");
+  options = {};
+  options.stiffness_damping = -1;
+  EXPECT_EQ(message_of(options), "BarOptions: stiffness_damping is -1; it must be finite and not negative");
+  options = {};
+  options.lumped_fraction = 1.5;
+  EXPECT_EQ(message_of(options), "BarOptions: lumped_fraction is 1.5; it must be in [0, 1]");
+}
+
+}  // namespace
+}  // namespace wavebalance::fem
