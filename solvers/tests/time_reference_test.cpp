@@ -58,7 +58,8 @@ TEST_P(BarInContact, TimeSteppingGivesTheReferenceFigures) {
 }
 
 TEST_P(BarInContact, TimeSteppingAgreesWithShooting) {
-  // What is left of the transient is multiplier / (1 - multiplier) = 1.5 times the period tolerance at most.
+  // What is left of the transient is a few times the period tolerance, 1e-7: case 2's multipliers are
+  // complex, so the difference of two periods dips below multiplier / (1 - multiplier) of what is left.
   const Jl14Case& scene = GetParam();
   TimeSteppingOptions options;
   options.full_history = true;
@@ -67,7 +68,7 @@ TEST_P(BarInContact, TimeSteppingAgreesWithShooting) {
   const PeriodSamples stepped =
       integrate_to_periodic(scene.structure(), scene.law, scene.frequency_hz, options).samples;
   const PeriodSamples shot = shoot(scene.structure(), scene.law, scene.frequency_hz, shooting).samples;
-  EXPECT_LT((stepped.displacements - shot.displacements).norm(), 2e-7 * shot.displacements.norm());
+  EXPECT_LT((stepped.displacements - shot.displacements).norm(), 4e-7 * shot.displacements.norm());
   EXPECT_LT((stepped.velocities - shot.velocities).norm(), 4e-7 * shot.velocities.norm());
 }
 

@@ -25,9 +25,8 @@ struct TimeSteppingOptions {
   int max_periods = 2000;          ///< periods integrated at most
   int max_steps_per_period = 200000;  ///< steps accepted at most, on average over the periods so far
   double step_tolerance = 1e-10;      ///< local error of a step, relative to the state
-  double step_floor =
-      1e-2;  ///< error that is not asked for: step_tolerance * step_floor * the response's scale
-  bool full_history = false;             ///< also keep every degree of freedom over the last period
+  double step_floor = 1e-2;   ///< states below step_floor * (largest linear response) count as that large
+  bool full_history = false;  ///< also keep every degree of freedom over the last period
   Eigen::VectorXd initial_displacement;  ///< n, m; empty: zero
   Eigen::VectorXd initial_velocity;      ///< n, m/s; empty: zero
   /// Called after each period with its number, from 1, and its relative rms difference to the one before
@@ -51,10 +50,11 @@ struct TimeSteppingResult {
 /// Jacobian; [JL14, section 4] used the closely related NDF. It never steps to an output time: samples come
 /// from the quintic that matches displacement, velocity and acceleration at both ends of a step.
 ///
-/// The periods needed are about log(period_tolerance) / log(leading Floquet multiplier); the distance that is
-/// left to the periodic motion is multiplier / (1 - multiplier) times the last difference. Cost: O(n^2) a
-/// step and O(n^3) every twenty steps or so, O(n^2) memory: for structures of up to a few hundred degrees of
-/// freedom.
+/// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
+/// Floquet multiplier; the distance left to the periodic motion is about multiplier / (1 - multiplier) times
+/// the last difference, more where complex multipliers let that dip. Two periods never agree better than the
+/// steps do: keep period_tolerance above 100 step_tolerance, or the periods run out. Cost: O(n^2) a step and
+/// O(n^3) every twenty steps or so, O(n^2) memory: for structures of up to a few hundred degrees of freedom.
 ///
 /// GSL's error handler (which would end the program) is switched off for the duration of the call and
 /// restored; that handler belongs to the process.
