@@ -16,8 +16,8 @@ concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, do
   { law.gap() } -> std::convertible_to<double>;                    // m, where the force starts
 };
 
-/// A law that also answers force and tangent at once, `evaluate(u)` with members `force` and `tangent`, is asked
-/// that way where both are needed: an exponential law then takes one exponential, not two.
+/// A law that also answers force and tangent at once, `evaluate(u)` with members `force` and `tangent`, is
+/// asked that way where both are needed: an exponential law then takes one exponential, not two.
 template <class Law>
 concept EvaluatesTogether = requires(const Law& law, double displacement) {
   { law.evaluate(displacement).force } -> std::convertible_to<double>;    // N
