@@ -1,6 +1,7 @@
 // The command `wavebalance`. CLI11 is included here alone: it takes longer to compile than the rest of the
 // command.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -68,6 +69,7 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, told like a full disk
   try {
     return dispatch(argc, argv);
   } catch (const std::bad_alloc&) {

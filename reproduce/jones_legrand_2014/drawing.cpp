@@ -35,20 +35,46 @@ Series reference_series(const Eigen::VectorXd& values, double from) {
   return series;
 }
 
+namespace {
+
+Panel pair_panel(const PairPanels& content, std::size_t index, const Pair& pair) {
+  Panel panel;
+  Series series = periodic_series(pair.label, content.values[index], content.from);
+  series.colour = pair.colour;
+  panel.add(series).add(reference_series(content.reference, content.from));
+  panel.x = axis("Normalised time t/T", content.from, content.from + 1.0);
+  panel.y.label = content.y_label;
+  panel.legend = Legend::none;
+  if (content.level) panel.mark_y(*content.level);
+  return panel;
+}
+
+Panel zoomed(Panel panel, const Zoom& zoom) {
+  panel.x = axis(panel.x.label, zoom.from, zoom.to);
+  panel.y = axis(panel.y.label, zoom.lower, zoom.upper);
+  return panel;
+}
+
+}  // namespace
+
 Figure pair_figure(const PairPanels& content) {
+  constexpr std::size_t columns = 3;
   Figure figure;
-  figure.columns = 3;
+  figure.columns = columns;
   figure.panel_width = 400;
-  figure.panel_height = 300;
+  figure.panel_height = content.zoom ? 260 : 300;
+  figure.letters = false;
   const auto chosen = panel_pairs();
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    Panel& panel = figure.add_panel(chosen[i].label);
-    Series series = periodic_series(chosen[i].label, content.values[i], content.from);
-    series.colour = chosen[i].colour;
-    panel.add(series).add(reference_series(content.reference, content.from));
-    panel.x = axis("Normalised time t/T", content.from, content.from + 1.0);
-    panel.y.label = content.y_label;
-    panel.legend = Legend::none;
+  for (std::size_t row = 0; row < chosen.size(); row += columns) {
+    for (const bool zoom : {false, true}) {
+      if (zoom && !content.zoom) continue;
+      for (std::size_t i = row; i < row + columns; ++i) {
+        Panel panel = pair_panel(content, i, chosen[i]);
+        const std::string letter = std::string("{/:Bold (") + static_cast<char>('a' + i) + ")}  ";
+        panel.title = letter + (zoom ? "enlarged" : chosen[i].label);
+        figure.panels.push_back(zoom ? zoomed(panel, *content.zoom) : panel);
+      }
+    }
   }
   return figure;
 }
@@ -87,11 +113,12 @@ Figure levels_figure(const Table& table, const std::string& name, SeriesStyle st
     Panel& panel = figure.add_panel("J = " + std::to_string(level));
     Series series = periodic_series(
         "", Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+    if (style == SeriesStyle::steps) series.y.back() = values.back();  // the cell ends, the next is not drawn
     series.style = style;
     series.colour = Colour::blue;
     panel.add(std::move(series));
     panel.x = axis("Normalised time t", 0.0, 1.0);
-    panel.y.label = name;
+    panel.y = axis(name, -0.45 * (1 << level), 1.45 * (1 << level));
   }
   return figure;
 }

@@ -16,16 +16,18 @@ double dilation_error(int level) {
 }
 
 void claim_levels(report::Artefact& artefact) {
-  const double low = std::min({dilation_error(0), dilation_error(1), dilation_error(2)});
-  const double high = std::max(dilation_error(3), dilation_error(4));
-  artefact.claim(
-      {"section 3.4",
-       "the wrapping procedure results in functions which are no longer scale-invariant at low J values",
-       "|g_{J+1}(t/2) - g_J(t)| exceeds 0.01 for J = 0, 1, 2, where the support 5/2^J exceeds the circle, "
-       "and "
-       "vanishes to 1e-12 for J = 3, 4",
-       "at least " + report::number(low) + " for J <= 2, at most " + report::number(high) + " for J = 3, 4",
-       low > 0.01 && high < 1e-12});
+  std::string measured;
+  double low = 1.0, high = 0.0;
+  for (int level = 0; level <= 4; ++level) {
+    const double error = dilation_error(level);
+    measured += (level == 0 ? "" : ", ") + report::number(error) + " at J = " + std::to_string(level);
+    (level <= 2 ? low : high) = level <= 2 ? std::min(low, error) : std::max(high, error);
+  }
+  artefact.claim({"section 3.4",
+                  "the wrapping procedure results in functions which are no longer scale-invariant at low J values",
+                  "max |g_{J+1}(t/2) - g_J(t)| is above 1e-3 for J = 0, 1, 2, where the support 5/2^J exceeds the "
+                  "circle, and below 1e-12 for J = 3, 4",
+                  measured, low > 1e-3 && high < 1e-12});
 }
 
 void claim_shape(report::Artefact& artefact) {

@@ -1,5 +1,7 @@
 #include "jl14.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -87,6 +89,12 @@ Eigen::VectorXd drawn(const reproduce::Response& response, const Eigen::VectorXd
   return Eigen::VectorXd::Constant(values.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
+Eigen::VectorXd half_turn(const Eigen::VectorXd& values) {
+  Eigen::VectorXd turned = values;
+  std::rotate(turned.begin(), turned.begin() + turned.size() / 2, turned.end());
+  return turned;
+}
+
 Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference,
                        const std::vector<Pair>& chosen, const std::vector<Eigen::VectorXd>& values) {
   Table table;
@@ -104,6 +112,36 @@ double entry(const Table& table, int case_number, const Pair& pair, int function
                           .where("weight", pair.weight)
                           .where("functions", std::to_string(functions));
   return found.numbers(column).at(0);
+}
+
+std::vector<double> entries(const Table& table, int case_number, const std::vector<Pair>& chosen, int functions,
+                            const std::string& column) {
+  std::vector<double> values;
+  for (const Pair& pair : chosen) values.push_back(entry(table, case_number, pair, functions, column));
+  return values;
+}
+
+std::vector<Pair> pairs_named(const std::vector<std::string>& names) {
+  std::vector<Pair> chosen;
+  for (const auto& name : names) chosen.push_back(pair(name));
+  return chosen;
+}
+
+Table convergence_table(report::Artefact& artefact, const std::string& column, bool full_history,
+                        const std::function<double(Case&, const reproduce::Response&)>& measure) {
+  Table table({"case", "trial", "weight", "functions", column, "converged"});
+  for (const int number : {1, 2}) {
+    Case study(artefact, number);
+    for (const Pair& pair : pairs())
+      for (const int functions : sizes()) {
+        const auto response = study.solve(pair, functions, full_history);
+        const double value =
+            response.converged ? measure(study, response) : std::numeric_limits<double>::quiet_NaN();
+        table.append_row({std::int64_t{number}, pair.trial, pair.weight, std::int64_t{functions}, value,
+                          response.converged});
+      }
+  }
+  return table;
 }
 
 std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values) {

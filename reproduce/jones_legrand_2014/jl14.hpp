@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,21 +85,42 @@ Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference,
                        const std::vector<Pair>& chosen, const std::vector<Eigen::VectorXd>& values);
 
-/// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference.
+/// A part of the period drawn again on its own axes.
+struct Zoom {
+  double from = 0.0, to = 1.0;    ///< t/T
+  double lower = 0.0, upper = 1.0;  ///< of the ordinate
+};
+
+/// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a
+/// second panel below each.
 struct PairPanels {
   std::string y_label;
   double from = 0.0;  ///< t/T at the left edge
   Eigen::VectorXd reference;
   std::vector<Eigen::VectorXd> values;  ///< of panel_pairs()
+  std::optional<double> level;          ///< an ordinate to mark, such as the gap
+  std::optional<Zoom> zoom;
 };
 reproduce::Figure pair_figure(const PairPanels& content);
+
+/// `values` from t/T = 1/2 round to 1/2, so that what happens about t = 0 stands together.
+Eigen::VectorXd half_turn(const Eigen::VectorXd& values);
 
 /// Fig. 10 or 11: one curve a pair over the number of functions, one panel a case, from a table with columns
 /// case, trial, weight, functions and `column`.
 reproduce::Figure convergence_figure(const Table& table, const std::string& column, const std::string& label,
                                      bool logarithmic);
+/// Such a table: `measure` of each pair, number of functions and case; missing where a response has not converged.
+Table convergence_table(report::Artefact& artefact, const std::string& column, bool full_history,
+                        const std::function<double(Case&, const reproduce::Response&)>& measure);
 /// The entry of such a table.
 double entry(const Table& table, int case_number, const Pair& pair, int functions, const std::string& column);
+
+/// The entries of `chosen`.
+std::vector<double> entries(const Table& table, int case_number, const std::vector<Pair>& chosen, int functions,
+                            const std::string& column);
+/// Pairs of Table 2 by name.
+std::vector<Pair> pairs_named(const std::vector<std::string>& names);
 
 /// "Fourier:Fourier 0.12 %, DB6:Fourier 0.3 %", values as percentages.
 std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values);

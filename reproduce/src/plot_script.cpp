@@ -10,13 +10,15 @@ namespace {
 
 constexpr const char* text_colour = "#222222";
 
-/// A gnuplot string. Single quotes, in which gnuplot runs no commands and knows one escape, the doubled
-/// quote.
+/// A gnuplot string. In single quotes gnuplot runs no commands and knows no escapes but the doubled quote,
+/// which it misreads at the start: an apostrophe takes its typographic form instead.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (c == '\'')
+      result += "\u2019";
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return result + "'";
 }
@@ -183,11 +185,14 @@ std::string mark_text(const TextMark& mark) {
          number_text(mark.y) + " " + align + " front\n";
 }
 
-std::string frame_text(bool frame) {
+/// `aligned` panels have one left margin, so that axes stand below each other; 9 characters hold labels like
+/// 0.0005.
+std::string frame_text(bool frame, bool aligned) {
   if (!frame) return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\n";
   return std::string("set border 3 lc rgb '") + text_colour +
          "' lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
-         "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\nunset lmargin\nunset rmargin\n";
+         "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n" +
+         (aligned ? "set lmargin 9\n" : "unset lmargin\n") + "unset rmargin\n";
 }
 
 /// The heading stands at the left so that letters of panels line up.
@@ -211,10 +216,10 @@ std::string plot_command(const Panel& panel, std::size_t panel_index) {
 }
 
 std::string panel_text(const Panel& panel, std::size_t index, const std::string& letter,
-                       const std::string& title) {
+                       const std::string& title, bool aligned) {
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
-  std::string text = "unset label\nunset arrow\nunset object\n" + frame_text(panel.frame);
+  std::string text = "unset label\nunset arrow\nunset object\n" + frame_text(panel.frame, aligned);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (!panel.frame) text += "unset xtics\nunset ytics\n";
   text += legend_text(panel) + heading_text(letter, title);
@@ -265,14 +270,14 @@ std::string gnuplot_script(const Figure& figure) {
   if (count == 1) {
     const std::string& title = figure.panels[0].title;
     const bool both = !title.empty() && !figure.title.empty();
-    return text + panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title);
+    return text + panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title, false);
   }
   const std::size_t columns = std::min(count, static_cast<std::size_t>(figure.columns));
   const std::size_t rows = (count + columns - 1) / columns;
   text += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns);
   text += (figure.title.empty() ? "" : " title " + quoted(figure.title) + " font ',15'") + "\n";
   for (std::size_t p = 0; p < count; ++p)
-    text += panel_text(figure.panels[p], p, figure.letters ? letter_of(p) : "", figure.panels[p].title);
+    text += panel_text(figure.panels[p], p, figure.letters ? letter_of(p) : "", figure.panels[p].title, true);
   return text + "unset multiplot\n";
 }
 

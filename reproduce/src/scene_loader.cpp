@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "scene_document.hpp"
@@ -46,28 +47,34 @@ bool is_section(const std::string& name) {
   return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.section == name; });
 }
 
+/// What to say of an unknown name among known ones; `shown` writes the suggestion out.
+std::string unknown_text(const std::string& name, const std::vector<std::string>& known,
+                         const std::function<std::string(const std::string&)>& shown) {
+  const std::string close = closest(name, known);
+  return close.empty() ? "; known are " + joined(known) : "; did you mean " + shown(close) + "?";
+}
+
+std::string unknown_section_text(const std::string& section) {
+  const auto shown = [](const std::string& name) { return "[" + name + "]"; };
+  return "unknown section" + unknown_text(section, known_names(section), shown);
+}
+
 [[noreturn]] void fail_unknown(const Document& document, const DocumentEntry& entry) {
   if (entry.section.empty() && is_section(entry.key))
     fail_at(document, entry, "expected a section [" + entry.key + "] of keys");
   if (entry.section.empty()) fail_at(document, entry, "unknown key outside of any section");
-  const bool section_known = is_section(entry.section);
-  const auto names = known_names(entry.section);
-  const std::string close = closest(section_known ? entry.key : entry.section, names);
-  std::string text = section_known ? "unknown key" : "unknown section [" + entry.section + "]";
-  if (!close.empty())
-    text += "; did you mean " + (section_known ? entry.section + "." + close : "[" + close + "]") + "?";
-  else
-    text += "; known are " + joined(names);
-  fail_at(document, entry, text);
+  if (!is_section(entry.section)) fail_at(document, entry, unknown_section_text(entry.section));
+  const auto shown = [&](const std::string& name) { return entry.section + "." + name; };
+  fail_at(document, entry, "unknown key" + unknown_text(entry.key, known_names(entry.section), shown));
 }
 
 void reject_unknown(const Document& document) {
-  for (const DocumentEntry& entry : document.entries)
-    if (find_scene_key(entry.full_name()) == nullptr) fail_unknown(document, entry);
   for (const DocumentSection& section : document.sections)
     if (!is_section(section.name))
       throw SceneError({document.name, section.line, "", "[" + section.name + "]", "",
-                        "unknown section; known are " + joined(known_names(section.name))});
+                        unknown_section_text(section.name)});
+  for (const DocumentEntry& entry : document.entries)
+    if (find_scene_key(entry.full_name()) == nullptr) fail_unknown(document, entry);
 }
 
 SceneValue checked_text(const Document& document, const DocumentEntry& entry, const SceneKey& key) {

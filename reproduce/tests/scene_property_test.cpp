@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "scene_texts.hpp"
+#include "wavebalance/reproduce/scene_keys.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance::reproduce;
+
+/// A positive number of any magnitude, with all its digits.
+double positive() {
+  const double mantissa =
+      *rc::gen::map(rc::gen::inRange<std::int64_t>(1, std::int64_t{1} << 52),
+                    [](std::int64_t i) { return 1.0 + static_cast<double>(i) / (1LL << 52); });
+  return std::ldexp(mantissa, *rc::gen::inRange(-300, 300));
+}
+
+template <class Value>
+Value one_of(std::initializer_list<Value> values) {
+  return *rc::gen::elementOf(std::vector<Value>(values));
+}
+
+Structure any_structure() {
+  return {StructureType::bar, positive(),
+          positive(),         positive(),
+          positive(),         *rc::gen::inRange(1, 2000),
+          positive(),         *rc::gen::inRange(0, 1000) / 999.0};
+}
+
+Contact any_contact() {
+  Contact contact;
+  contact.law = one_of({ContactLawType::none, ContactLawType::exponential, ContactLawType::linear});
+  if (contact.law == ContactLawType::none) return contact;
+  contact.gap = one_of({-1.0, 0.0, 1.0}) * positive();
+  if (contact.law == ContactLawType::linear) contact.stiffness = positive();
+  if (contact.law != ContactLawType::exponential) return contact;
+  contact.constant = positive();
+  contact.exponent = positive();
+  return contact;
+}
+
+Time any_time() {
+  const auto [trial, weight] = one_of<std::pair<const char*, const char*>>({{"fourier", "fourier"},
+                                                                            {"bspline", "bspline"},
+                                                                            {"daubechies6", "daubechies6"},
+                                                                            {"haar", "fourier"},
+                                                                            {"daubechies10", "fourier"},
+                                                                            {"haar", "bspline"}});
+  const int functions = 1 << *rc::gen::inRange(0, 10);
+  return {trial,
+          weight,
+          functions,
+          Formulation::distributional,
+          functions << *rc::gen::inRange(0, 5),
+          one_of({InnerProducts::quadrature, InnerProducts::exact})};
+}
+
+Analysis any_analysis() {
+  Analysis analysis;
+  analysis.type =
+      one_of({AnalysisType::forced_response, AnalysisType::frequency_sweep, AnalysisType::time_stepping});
+  analysis.output_points = 1 << *rc::gen::inRange(1, 14);
+  if (analysis.type == AnalysisType::frequency_sweep) {
+    analysis.frequency_from = positive();
+    analysis.frequency_to = 3.0 * analysis.frequency_from;
+    analysis.first_step = positive();
+    analysis.largest_step = 2.0 * analysis.first_step;
+    analysis.max_points = *rc::gen::inRange(2, 100000);
+  } else if (analysis.type == AnalysisType::time_stepping) {
+    analysis.tolerance = *rc::gen::inRange(1, 1000) / 1e6;
+    analysis.max_periods = *rc::gen::inRange(1, 100000);
+  }
+  return analysis;
+}
+
+Scene any_scene() {
+  return {any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
+}
+
+RC_GTEST_PROP(SceneWriter, WhatItWritesLoadsBackEqual, ()) {
+  const Scene scene = any_scene();
+  RC_ASSERT(parse_scene(write_scene(scene), "written") == scene);
+}
+
+RC_GTEST_PROP(SceneWriter, OverridingEveryKeyByItsOwnValueChangesNothing, ()) {
+  const Scene scene = any_scene();
+  std::vector<std::string> overrides;
+  for (const SceneKey& key : scene_keys())
+    if (key.belongs.holds(scene)) overrides.push_back(key.full_name() + "=" + toml_text(key.get(scene)));
+  RC_ASSERT(parse_scene(write_scene(scene), "written", overrides) == scene);
+}
+
+RC_GTEST_PROP(SceneLoader, DamagedTextLoadsOrGivesASceneError, ()) {
+  std::string text = bar_scene;
+  const int changes = *rc::gen::inRange(1, 6);
+  for (int i = 0; i < changes; ++i) {
+    const auto place = *rc::gen::inRange<std::size_t>(0, text.size());
+    const auto length = *rc::gen::inRange<std::size_t>(0, 12);
+    text.replace(place, std::min(length, text.size() - place), *rc::gen::string<std::string>());
+  }
+  try {
+    parse_scene(text, "damaged");
+  } catch (const SceneError& error) {
+    RC_ASSERT(!std::string(error.what()).empty());
+  }
+}
+
+RC_GTEST_PROP(SceneLoader, EveryMissingRequiredKeyIsNamed, ()) {
+  const Scene scene = any_scene();
+  std::vector<const SceneKey*> required;
+  for (const SceneKey& key : scene_keys())
+    if (key.fallback == SceneKey::Default::required && key.belongs.holds(scene) && key.needed.holds(scene))
+      required.push_back(&key);
+  const SceneKey& victim = **rc::gen::elementOf(required);
+  const std::string text = write_scene(scene);
+  const auto section = text.find("[" + std::string(victim.section) + "]");
+  const auto begin = text.find("\n" + std::string(victim.name) + " = ", section) + 1;
+  const std::string without = text.substr(0, begin) + text.substr(text.find('\n', begin) + 1);
+  try {
+    parse_scene(without, "incomplete");
+    RC_FAIL("loaded without " + victim.full_name());
+  } catch (const SceneError& error) {
+    RC_ASSERT(error.details().key == victim.full_name());
+  }
+}
+
+}  // namespace
