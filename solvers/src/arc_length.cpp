@@ -6,12 +6,16 @@
 
 namespace wavebalance::solvers {
 
+bool FrequencyParameter::contains(double p) const { return std::isfinite(p) && p > 0.0; }
+
 void FrequencyParameter::set(ContactSystem& system, double p) const { system.problem().set_frequency(p); }
 
 void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
   system.problem().apply_slope(system.force(), slope);
   slope -= system.problem().free_response_slope();
 }
+
+bool StiffnessParameter::contains(double p) const { return std::isfinite(std::exp(p)); }
 
 void StiffnessParameter::set(ContactSystem& system, double p) const {
   system.set_stiffness_factor(std::exp(p));
@@ -73,7 +77,7 @@ bool ArcLength::correct(const CurvePoint& from, double step, CurvePoint& to, int
   const double corner = from.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
   double parameter_change = 0.0;
   for (corrections = 0; corrections <= options_.max_corrections; ++corrections) {
-    if (!std::isfinite(to.parameter)) return false;
+    if (!parameter_.contains(to.parameter)) return false;
     parameter_.set(system_, to.parameter);
     to.residual = system_.evaluate(to.displacement);
     if (!std::isfinite(to.residual)) return false;
@@ -160,6 +164,7 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
   row[sample] = 1.0;
   double parameter_change = 0.0;
   for (int i = 0; i <= options_.max_corrections; ++i) {
+    if (!parameter_.contains(corner.parameter)) return false;
     parameter_.set(system_, corner.parameter);
     corner.residual = system_.evaluate(corner.displacement);
     const double miss = corner.displacement[sample] - gap;
@@ -171,7 +176,6 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
     system_.solve_bordered(system_.residual(), miss, change_, parameter_change);
     corner.displacement -= change_;
     corner.parameter -= parameter_change;
-    if (!std::isfinite(corner.parameter)) return false;
   }
   return false;
 }

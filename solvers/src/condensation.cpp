@@ -1,6 +1,7 @@
 #include "wavebalance/solvers/condensation.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "condensation_method.hpp"
@@ -24,6 +25,10 @@ void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* na
                               std::to_string((matrix - transposed).norm() / matrix.norm()) + ")");
 }
 
+double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
+  return matrix.nonZeros() == 0 ? 0.0 : matrix.coeffs().cwiseAbs().maxCoeff();
+}
+
 std::unique_ptr<Condensation::Method> choose_method(const LinearStructure& structure) {
   structure.validate();
   require_symmetric(structure.mass, "mass");
@@ -35,6 +40,21 @@ std::unique_ptr<Condensation::Method> choose_method(const LinearStructure& struc
 }
 
 }  // namespace
+
+StiffnessScale::StiffnessScale(const LinearStructure& structure)
+    : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
+               largest_entry(structure.stiffness)} {}
+
+void StiffnessScale::require_regular(const StiffnessFactors& factors, const Eigen::VectorXcd& solution,
+                                     double right_norm) const {
+  const double scale = std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
+                       std::abs(factors[2]) * largest_[2];
+  constexpr double largest_condition = 0.1 / std::numeric_limits<double>::epsilon();
+  if (solution.norm() * scale <= largest_condition * right_norm) return;
+  throw SingularSystem(
+      "the dynamic stiffness is singular to working precision: no damping at a natural frequency, or a pair "
+      "whose symbol vanishes");
+}
 
 Condensation::Condensation(const LinearStructure& structure) : method_(choose_method(structure)) {}
 Condensation::Condensation(Condensation&&) noexcept = default;

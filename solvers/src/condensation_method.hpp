@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 
 #include "wavebalance/solvers/condensation.hpp"
@@ -16,6 +17,20 @@ class Condensation::Method {
                         CondensedSpectrum& result);
   virtual Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
                                    std::complex<double> contact_force) = 0;
+};
+
+/// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure
+/// they cancel in Z itself.
+class StiffnessScale {
+ public:
+  explicit StiffnessScale(const LinearStructure& structure);
+  /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
+  /// working precision makes it, or not finite. O(n).
+  void require_regular(const StiffnessFactors& factors, const Eigen::VectorXcd& solution,
+                       double right_norm) const;
+
+ private:
+  std::array<double, 3> largest_;  // entry of M, C, K
 };
 
 /// For symmetric tridiagonal M, C, K.

@@ -10,7 +10,7 @@ using SparseComplex = Eigen::SparseMatrix<Complex>;
 
 class SparseMethod final : public Condensation::Method {
  public:
-  explicit SparseMethod(const LinearStructure& structure) : structure_(structure) {
+  explicit SparseMethod(const LinearStructure& structure) : structure_(structure), scale_(structure) {
     solver_.analyzePattern(combine({1.0, 1.0, 1.0}));
   }
 
@@ -21,6 +21,7 @@ class SparseMethod final : public Condensation::Method {
     Eigen::VectorXcd unit = Eigen::VectorXcd::Zero(size());
     unit[structure_.contact_dof] = 1.0;
     const Eigen::VectorXcd response = solver_.solve(unit);
+    scale_.require_regular(factors, response, 1.0);
     const Eigen::VectorXcd loaded = solver_.solve(structure_.load.cast<Complex>());
     const SparseComplex rate = combine(rates);
     const int contact = structure_.contact_dof;
@@ -33,7 +34,9 @@ class SparseMethod final : public Condensation::Method {
     factorize(factors);
     Eigen::VectorXcd force = structure_.load * load_amplitude;
     force[structure_.contact_dof] -= contact_force;
-    return solver_.solve(force);
+    const Eigen::VectorXcd response = solver_.solve(force);
+    scale_.require_regular(factors, response, force.norm());
+    return response;
   }
 
  private:
@@ -51,6 +54,7 @@ class SparseMethod final : public Condensation::Method {
   }
 
   LinearStructure structure_;
+  StiffnessScale scale_;
   Eigen::SparseLU<SparseComplex, Eigen::COLAMDOrdering<int>> solver_;
 };
 

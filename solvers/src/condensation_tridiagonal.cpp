@@ -1,6 +1,4 @@
 #include <cmath>
-#include <limits>
-#include <string>
 
 #include "condensation_method.hpp"
 #include "pivot_recursion.hpp"
@@ -33,7 +31,9 @@ struct Bands {
 class TridiagonalMethod final : public Condensation::Method {
  public:
   explicit TridiagonalMethod(const LinearStructure& structure)
-      : mass_(structure.mass),
+      : structure_(structure),
+        scale_(structure),
+        mass_(structure.mass),
         damping_(structure.damping),
         stiffness_(structure.stiffness),
         load_(structure.load),
@@ -48,10 +48,11 @@ class TridiagonalMethod final : public Condensation::Method {
   int size() const override { return static_cast<int>(load_.size()); }
 
   CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
-    factorize(factors);
+    if (!factorize(factors)) return pivoting().at(factors, rates);
     unit_.setZero();
     unit_[contact_] = 1.0;
     solve(unit_);
+    scale_.require_regular(factors, unit_, 1.0);
     CondensedPoint point;
     point.compliance = unit_[contact_];
     point.compliance_slope = -product(unit_, rates, unit_);
@@ -69,13 +70,10 @@ class TridiagonalMethod final : public Condensation::Method {
 
   void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                 CondensedSpectrum& result) override {
-    if (contact_ != size() - 1 || !load_at_contact_) {
-      Method::condense(factors, rates, result);
-      return;
-    }
+    if (contact_ != size() - 1 || !load_at_contact_) return Method::condense(factors, rates, result);
     PivotRecursion recursion(factors, rates);
     for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
-    if (recursion.singular()) throw_singular(size() - 1);
+    if (recursion.weak()) return Method::condense(factors, rates, result);
     recursion.last(result.compliance, result.compliance_slope);
     result.load_response = load_[contact_] * result.compliance;
     result.load_response_slope = load_[contact_] * result.compliance_slope;
@@ -83,10 +81,12 @@ class TridiagonalMethod final : public Condensation::Method {
 
   Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
                            Complex contact_force) override {
-    factorize(factors);
+    if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_force);
     Eigen::VectorXcd response = load_ * load_amplitude;
     response[contact_] -= contact_force;
+    const double force = response.norm();
     solve(response);
+    scale_.require_regular(factors, response, force);
     return response;
   }
 
@@ -98,8 +98,9 @@ class TridiagonalMethod final : public Condensation::Method {
              first ? 0.0 : stiffness_.off[i - 1]}};
   }
 
-  // L D L^T without pivoting, as for a definite matrix; a vanishing pivot is an error, not a division.
-  void factorize(const StiffnessFactors& s) {
+  // L D L^T without pivoting, as for a definite matrix. False when a pivot nearly vanishes: the matrix is
+  // singular, or the part of the structure before that row is at a natural frequency of its own.
+  bool factorize(const StiffnessFactors& s) {
     const int n = size();
     for (int i = 0; i < n; ++i)
       diagonal_[i] = s[0] * mass_.diagonal[i] + s[1] * damping_.diagonal[i] + s[2] * stiffness_.diagonal[i];
@@ -110,15 +111,16 @@ class TridiagonalMethod final : public Condensation::Method {
       if (i > 0) pivot -= multiply(multiply(off_[i - 1], off_[i - 1]), inverse_pivot_[i - 1]);
       const double scale = std::abs(s[0] * mass_.diagonal[i]) + std::abs(s[1] * damping_.diagonal[i]) +
                            std::abs(s[2] * stiffness_.diagonal[i]);
-      constexpr double tiny = 4.0 * std::numeric_limits<double>::epsilon();
-      if (!(std::norm(pivot) > tiny * tiny * scale * scale)) throw_singular(i);
+      if (!(std::norm(pivot) > weak_pivot * weak_pivot * scale * scale)) return false;
       inverse_pivot_[i] = reciprocal(pivot);
     }
+    return true;
   }
 
-  [[noreturn]] static void throw_singular(int row) {
-    throw SingularSystem("the dynamic stiffness is singular (pivot of row " + std::to_string(row) +
-                         " vanishes): no damping at a natural frequency, or a pair whose symbol vanishes");
+  // Elimination with row exchanges, made when it is first needed.
+  Condensation::Method& pivoting() {
+    if (!pivoting_) pivoting_ = make_sparse_method(structure_);
+    return *pivoting_;
   }
 
   void solve(Eigen::VectorXcd& x) const {
@@ -142,6 +144,9 @@ class TridiagonalMethod final : public Condensation::Method {
     return sum;
   }
 
+  LinearStructure structure_;
+  StiffnessScale scale_;
+  std::unique_ptr<Condensation::Method> pivoting_;
   Bands mass_, damping_, stiffness_;
   Eigen::VectorXd load_;
   int contact_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "wavebalance/solvers/arc_length.hpp"
 
@@ -49,14 +50,25 @@ bool follow_stiffness(ContactSystem& system, Eigen::VectorXd& u, const ForcedRes
   return false;
 }
 
+void require_start(const CondensedProblem& problem, const Eigen::VectorXd& guess) {
+  if (problem.frequency() == 0.0)
+    throw std::invalid_argument(
+        "forced_response: the problem has no frequency yet; call set_frequency first");
+  if (guess.size() != 0 && guess.size() != problem.points())
+    throw std::invalid_argument("forced_response: guess has " + std::to_string(guess.size()) +
+                                " samples; it must be empty or have the problem's " +
+                                std::to_string(problem.points()));
+}
+
 }  // namespace
 
 PeriodicResponse forced_response(CondensedProblem& problem, const AnyContactLaw& law,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess) {
+  require_start(problem, guess);
   ContactSystem system(problem, law);
   PeriodicResponse response;
   response.frequency = problem.frequency();
-  Eigen::VectorXd u = guess.size() == problem.points() ? guess : problem.free_response();
+  Eigen::VectorXd u = guess.size() != 0 ? guess : problem.free_response();
   NewtonResult result = newton(system, u, options.newton);
   response.iterations = result.iterations;
   if (result.status != SolveStatus::converged && options.homotopy) {

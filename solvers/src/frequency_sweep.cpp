@@ -44,8 +44,7 @@ class Sweep {
     const double direction = options_.to > options_.from ? 1.0 : -1.0;
     if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced)
       return result_;
-    record(curve.point());
-    result_.status = follow(curve, direction);
+    result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
     return std::move(result_);
   }
 

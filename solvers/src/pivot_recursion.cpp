@@ -1,7 +1,6 @@
 #include "pivot_recursion.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace wavebalance::solvers {
 
@@ -40,8 +39,7 @@ void PivotRecursion::eliminate(const Row& row) {
         2.0 * (off_rate.re * w.im + off_rate.im * w.re) + square.re * slope_.im + square.im * slope_.re;
   }
   const Eigen::ArrayXd norm = pivot.re.square() + pivot.im.square();
-  constexpr double tiny = 4.0 * std::numeric_limits<double>::epsilon();
-  singular_ = singular_ || !(norm > (tiny * tiny) * scale.square()).all();
+  weak_ = weak_ || !(norm > (weak_pivot * weak_pivot) * scale.square()).all();
   inverse_ = {pivot.re / norm, -pivot.im / norm};
   // (1/d)' = -d' / d^2
   const Parts square{inverse_.re.square() - inverse_.im.square(), 2.0 * inverse_.re * inverse_.im};

@@ -6,6 +6,9 @@
 
 namespace wavebalance::solvers {
 
+/// A pivot below this share of the terms that it is the sum of has lost half of its digits.
+constexpr double weak_pivot = 1e-8;
+
 /// The pivots d_i = z_ii - z_{i,i-1}^2 / d_{i-1} of symmetric tridiagonal dynamic stiffnesses Z(k), k =
 /// 0..K-1, and their derivatives along the rates, row by row for all k at once: 1/d_n is the compliance of
 /// the last degree of freedom, and no back substitution is needed. Real and imaginary parts lie apart so that
@@ -21,8 +24,8 @@ class PivotRecursion {
   };
   void eliminate(const Row& row);
 
-  /// Whether a pivot vanished to working precision.
-  bool singular() const { return singular_; }
+  /// Whether a pivot nearly vanished: elimination without row exchanges is then not to be trusted.
+  bool weak() const { return weak_; }
   /// 1/d and its derivative after the last row.
   void last(Eigen::VectorXcd& inverse, Eigen::VectorXcd& slope) const;
 
@@ -36,7 +39,7 @@ class PivotRecursion {
   std::array<Eigen::ArrayXd, 3> magnitudes_;  // of the factors
   Parts inverse_, slope_;                     // of 1/d
   bool first_ = true;
-  bool singular_ = false;
+  bool weak_ = false;
 };
 
 }  // namespace wavebalance::solvers

@@ -10,6 +10,8 @@ namespace wavebalance::solvers {
 class CurveParameter {
  public:
   virtual ~CurveParameter() = default;
+  /// Whether there is a system of parameter p; a step that leads to another is too long.
+  virtual bool contains(double p) const = 0;
   /// Makes the system that of parameter p; evaluate() must follow.
   virtual void set(ContactSystem& system, double p) const = 0;
   /// dR/dp at the state last evaluated.
@@ -19,6 +21,7 @@ class CurveParameter {
 /// p = frequency in Hz.
 class FrequencyParameter final : public CurveParameter {
  public:
+  bool contains(double p) const override;
   void set(ContactSystem& system, double p) const override;
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };
@@ -26,6 +29,7 @@ class FrequencyParameter final : public CurveParameter {
 /// p = ln of the factor on the contact law: 0 is the law itself.
 class StiffnessParameter final : public CurveParameter {
  public:
+  bool contains(double p) const override;
   void set(ContactSystem& system, double p) const override;
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };

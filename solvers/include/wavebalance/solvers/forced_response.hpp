@@ -62,6 +62,7 @@ struct PeriodicResponse {
 
 /// The periodic response of `problem` (frequency set before) under `law`, from the contact-free response or
 /// from `guess` (N samples) when it is not empty. Never throws for want of convergence: read the status.
+/// Throws std::invalid_argument for a guess of another length and for a problem without frequency.
 PeriodicResponse forced_response(CondensedProblem& problem, const AnyContactLaw& law,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {});
 

@@ -1,0 +1,202 @@
+#include "wavebalance/solvers/condensation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// The same structure with its degrees of freedom in another order, which is not tridiagonal any more.
+LinearStructure shuffled(const LinearStructure& structure, std::mt19937& generator) {
+  Eigen::PermutationMatrix<Eigen::Dynamic> order(structure.size());
+  order.setIdentity();
+  auto& indices = order.indices();
+  std::shuffle(indices.data(), indices.data() + indices.size(), generator);
+  LinearStructure out = structure;
+  out.mass = structure.mass.twistedBy(order);
+  out.damping = structure.damping.twistedBy(order);
+  out.stiffness = structure.stiffness.twistedBy(order);
+  out.load = order * structure.load;
+  out.contact_dof = indices[structure.contact_dof];
+  return out;
+}
+
+Eigen::MatrixXcd dense(const LinearStructure& s, const StiffnessFactors& factors) {
+  return factors[0] * Eigen::MatrixXcd(s.mass.cast<Complex>()) +
+         factors[1] * Eigen::MatrixXcd(s.damping.cast<Complex>()) +
+         factors[2] * Eigen::MatrixXcd(s.stiffness.cast<Complex>());
+}
+
+struct Dense {
+  CondensedPoint point;
+  Eigen::VectorXcd recovered;
+};
+
+Dense by_dense_lu(const LinearStructure& s, const StiffnessFactors& factors, const StiffnessFactors& rates,
+                  Complex load, Complex contact) {
+  const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
+  const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
+  const Eigen::VectorXcd forces = s.load.cast<Complex>();
+  const int c = s.contact_dof;
+  const Eigen::VectorXcd unit = Eigen::VectorXcd::Unit(s.size(), c);
+  return {{inverse(c, c), (inverse * forces)[c], slope(c, c), (slope * forces)[c]},
+          inverse * (forces * load - unit * contact)};
+}
+
+void expect_equal(const CondensedPoint& a, const CondensedPoint& b, double tolerance) {
+  EXPECT_LE(std::abs(a.compliance - b.compliance), tolerance * std::abs(b.compliance));
+  EXPECT_LE(std::abs(a.load_response - b.load_response), tolerance * std::abs(b.load_response));
+  EXPECT_LE(std::abs(a.compliance_slope - b.compliance_slope), tolerance * std::abs(b.compliance_slope));
+  EXPECT_LE(std::abs(a.load_response_slope - b.load_response_slope),
+            tolerance * std::abs(b.load_response_slope));
+}
+
+TEST(Condensation, BothMethodsEqualTheDenseInverse) {
+  std::mt19937 generator(1);
+  const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  for (const int size : {1, 2, 9, 25}) {
+    const LinearStructure chain = testing::random_chain(size, generator);
+    const Dense expected = by_dense_lu(chain, factors, rates, Complex(1.0, 2.0), Complex(0.3, -0.4));
+    const LinearStructure other = shuffled(chain, generator);
+    const Dense expected_other = by_dense_lu(other, factors, rates, Complex(1.0, 2.0), Complex(0.3, -0.4));
+    Condensation tridiagonal(chain), sparse(other);
+    expect_equal(tridiagonal.at(factors, rates), expected.point, 1e-11);
+    expect_equal(sparse.at(factors, rates), expected.point, 1e-11);
+    const auto recovered = tridiagonal.recover(factors, Complex(1.0, 2.0), Complex(0.3, -0.4));
+    EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
+    const auto other_recovered = sparse.recover(factors, Complex(1.0, 2.0), Complex(0.3, -0.4));
+    EXPECT_LE((other_recovered - expected_other.recovered).norm(), 1e-11 * expected.recovered.norm());
+  }
+}
+
+// The load only at the contact takes a shorter way in the tridiagonal method.
+TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
+  const LinearStructure bar = testing::jl14_bar(25, 1e-4);
+  const Complex rate(0.0, 2.0 * std::numbers::pi * 1275.0);
+  const StiffnessFactors factors{rate * rate, rate, 1.0};
+  const StiffnessFactors rates{2.0 * rate, 1.0, 0.0};
+  expect_equal(Condensation(bar).at(factors, rates), by_dense_lu(bar, factors, rates, 1.0, 0.0).point, 1e-9);
+}
+
+// A bar that is loaded and touches at its tip takes the recursion over all k, any other structure goes point
+// by point.
+TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
+  std::mt19937 generator(4);
+  const LinearStructure chain = testing::random_chain(7, generator);
+  for (const LinearStructure& structure : {chain, shuffled(chain, generator), testing::jl14_bar(25, 1e-4)}) {
+    const double unit = structure.stiffness.coeff(0, 0) / structure.mass.coeff(0, 0);
+    StiffnessSpectrum factors, rates;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double scale = std::pow(unit, 0.5 * (2.0 - double(d)));
+      factors[d] =
+          (testing::random_vector(9, generator) + Complex(0, 1) * testing::random_vector(9, generator)) *
+          scale;
+      rates[d] =
+          (testing::random_vector(9, generator) + Complex(0, 1) * testing::random_vector(9, generator)) *
+          scale;
+    }
+    Condensation condensation(structure);
+    CondensedSpectrum result;
+    condensation.condense(factors, rates, result);
+    ASSERT_EQ(result.compliance.size(), 9);
+    for (int k = 0; k < 9; ++k) {
+      const CondensedPoint point = condensation.at({factors[0][k], factors[1][k], factors[2][k]},
+                                                   {rates[0][k], rates[1][k], rates[2][k]});
+      expect_equal({result.compliance[k], result.load_response[k], result.compliance_slope[k],
+                    result.load_response_slope[k]},
+                   point, 1e-11);
+    }
+  }
+}
+
+// Central differences of step h: the error of the slope is h^2 / 6 of the third derivative and eps / h.
+TEST(Condensation, SlopesAreTheDerivativesAlongTheRates) {
+  std::mt19937 generator(2);
+  const LinearStructure chain = testing::random_chain(6, generator);
+  for (const LinearStructure& structure : {chain, shuffled(chain, generator)}) {
+    Condensation condensation(structure);
+    const StiffnessFactors factors{Complex(-2.0, 0.1), Complex(0.0, 1.5), 1.0};
+    const StiffnessFactors rates{Complex(-2.7, 0.3), Complex(0.1, 1.0), Complex(0.2, 0.1)};
+    const auto moved = [&](double h) {
+      StiffnessFactors at = factors;
+      for (std::size_t i = 0; i < 3; ++i) at[i] += h * rates[i];
+      return condensation.at(at, rates);
+    };
+    const double h = 1e-5;
+    const CondensedPoint point = condensation.at(factors, rates), ahead = moved(h), behind = moved(-h);
+    EXPECT_LE(std::abs((ahead.compliance - behind.compliance) / (2 * h) - point.compliance_slope),
+              1e-7 * std::abs(point.compliance_slope));
+    EXPECT_LE(std::abs((ahead.load_response - behind.load_response) / (2 * h) - point.load_response_slope),
+              1e-7 * std::abs(point.load_response_slope));
+  }
+}
+
+// Z = [0 1; 1 0] for both orders: regular, but the first pivot of an elimination without exchange vanishes.
+TEST(Condensation, VanishingLeadingPivotIsNotSingular) {
+  LinearStructure s;
+  Eigen::Matrix2d stiffness, mass;
+  stiffness << 4.0, 1.0, 1.0, 5.0;
+  mass << 4.0, 0.0, 0.0, 5.0;
+  s.stiffness = stiffness.sparseView();
+  s.mass = mass.sparseView();
+  s.damping = Eigen::SparseMatrix<double>(2, 2);
+  s.load = Eigen::Vector2d(3.0, 0.0);
+  s.contact_dof = 1;
+  Condensation condensation(s);
+  const CondensedPoint point = condensation.at({-1.0, 0.0, 1.0}, {0.0, 0.0, 1.0});
+  EXPECT_NEAR(std::abs(point.compliance), 0.0, 1e-14);
+  EXPECT_NEAR(std::abs(point.load_response - 3.0), 0.0, 1e-14);
+  s.load = Eigen::Vector2d(0.0, 3.0);  // now at the contact: the recursion over k
+  const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1), none = Eigen::VectorXcd::Zero(1);
+  CondensedSpectrum result;
+  Condensation(s).condense({-one, none, one}, {none, none, one}, result);
+  EXPECT_NEAR(std::abs(result.load_response[0]), 0.0, 1e-14);
+}
+
+TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
+  std::mt19937 generator(3);
+  for (const int size : {1, 2, 25}) {
+    LinearStructure bar = testing::jl14_bar(size, 0.0);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(bar.stiffness),
+                                                                          Eigen::MatrixXd(bar.mass));
+    for (const LinearStructure& structure : {bar, shuffled(bar, generator)}) {
+      Condensation condensation(structure);
+      const Complex at = -modes.eigenvalues()[0];
+      EXPECT_THROW(condensation.at({at, 0.0, 1.0}, {1.0, 0.0, 0.0}), SingularSystem) << size;
+      EXPECT_THROW(condensation.recover({at, 0.0, 1.0}, 1.0, 0.0), SingularSystem) << size;
+      const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
+      CondensedSpectrum result;
+      EXPECT_THROW(condensation.condense({at * one, 0.0 * one, one}, {one, one, one}, result),
+                   SingularSystem);
+      EXPECT_NO_THROW(condensation.at({at * 1.0001, 0.0, 1.0}, {1.0, 0.0, 0.0})) << size;
+    }
+  }
+}
+
+TEST(Condensation, RefusesMatricesThatDoNotFit) {
+  LinearStructure bar = testing::jl14_bar(3, 1e-4);
+  bar.stiffness.coeffRef(0, 1) *= 2.0;
+  EXPECT_THROW(Condensation{bar}, std::invalid_argument);
+  bar = testing::jl14_bar(3, 1e-4);
+  bar.damping.resize(2, 2);
+  try {
+    Condensation{bar};
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("damping is 2 x 2; the load has 3"), std::string::npos);
+  }
+  bar = testing::jl14_bar(3, 1e-4);
+  bar.contact_dof = 3;
+  EXPECT_THROW(Condensation{bar}, std::invalid_argument);
+  EXPECT_THROW(Condensation{LinearStructure{}}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

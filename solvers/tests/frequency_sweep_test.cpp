@@ -1,0 +1,267 @@
+#include "wavebalance/solvers/frequency_sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// u'' + 2 zeta u' + u + u^3 = cos, time in units of 1/omega_0: with one harmonic and enough points for the
+// third, balance is exact and has a closed form.
+struct Cubic {
+  double force(double u) const { return u * u * u; }
+  double tangent(double u) const { return 3.0 * u * u; }
+  double potential(double u) const { return 0.25 * u * u * u * u; }
+  double gap() const { return std::numeric_limits<double>::infinity(); }
+};
+
+constexpr double duffing_load = 0.3, duffing_damping = 0.05;
+
+LinearStructure oscillator(double damping, double load) {
+  LinearStructure one = testing::jl14_bar(1, 0.0);
+  one.mass.coeffRef(0, 0) = 1.0;
+  one.stiffness.coeffRef(0, 0) = 1.0;
+  one.damping.resize(1, 1);
+  one.damping.coeffRef(0, 0) = damping;
+  one.load[0] = load;
+  return one;
+}
+
+// Frequencies (Hz) on the Duffing curve at amplitude a, lower and upper branch of
+// ((1 - w^2 + 3/4 a^2)^2 + (c w)^2) a^2 = F^2, a quadratic equation for w^2.
+std::array<double, 2> duffing_frequencies(double a) {
+  const double k = 1.0 + 0.75 * a * a, c = duffing_damping, ratio = duffing_load / a;
+  const double half = k - 0.5 * c * c;
+  const double root = std::sqrt(half * half - k * k + ratio * ratio);
+  return {std::sqrt(std::max(half - root, 0.0)) / two_pi, std::sqrt(half + root) / two_pi};
+}
+
+// Where a branch turns in frequency between two amplitudes, by golden section.
+double duffing_fold(int branch, double low, double high, double sign) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  const auto value = [&](double a) {
+    return sign * duffing_frequencies(a)[static_cast<std::size_t>(branch)];
+  };
+  for (int i = 0; i < 200; ++i) {
+    const double left = high - ratio * (high - low), right = low + ratio * (high - low);
+    (value(left) > value(right) ? high : low) = value(left) > value(right) ? right : left;
+  }
+  return sign * value(0.5 * (low + high));
+}
+
+FrequencySweep duffing_sweep(double from, double to) {
+  CondensedProblem problem(testing::fourier_pair(3, 16), oscillator(duffing_damping, duffing_load),
+                           testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = from;
+  options.to = to;
+  return frequency_sweep(problem, Cubic{}, options);
+}
+
+TEST(FrequencySweep, PointsLieOnTheClosedFormOfTheDuffingCurve) {
+  const FrequencySweep sweep = duffing_sweep(0.05, 0.5);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+  ASSERT_GT(sweep.points.size(), 30u);
+  for (const SweepPoint& point : sweep.points) {
+    const double a = std::sqrt(2.0) * point.rms_displacement, w = two_pi * point.frequency;
+    const double k = 1.0 + 0.75 * a * a - w * w;
+    EXPECT_NEAR(a * std::hypot(k, duffing_damping * w), duffing_load, 1e-8) << point.frequency;
+    EXPECT_NEAR(point.max_displacement, a, 1e-5 * a);  // 1024 points miss the top by less than (pi/1024)^2/2
+    EXPECT_FALSE(point.corner);
+  }
+  EXPECT_EQ(sweep.points.front().frequency, 0.05);
+  EXPECT_NEAR(sweep.points.back().frequency, 0.5, 1e-9);
+}
+
+TEST(FrequencySweep, FindsTheFoldsOfTheDuffingCurveInBothDirections) {
+  // The backbone's peak a = F / (c w) bounds the upper branch; the lower fold lies on the right branch.
+  double peak = 1.0;
+  for (int i = 0; i < 200; ++i) peak = duffing_load / (duffing_damping * std::sqrt(1.0 + 0.75 * peak * peak));
+  const double upper = duffing_fold(1, 0.9 * peak, peak, 1.0);
+  const double lower = duffing_fold(1, 0.2, 0.9 * peak, -1.0);
+  ASSERT_LT(lower, 0.95 * upper);
+  for (const bool rising : {true, false}) {
+    const FrequencySweep sweep = rising ? duffing_sweep(0.05, 0.5) : duffing_sweep(0.5, 0.05);
+    ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+    ASSERT_EQ(sweep.turning_points.size(), 2u);
+    EXPECT_NEAR(sweep.turning_points[rising ? 0 : 1].frequency, upper, 1e-7);
+    EXPECT_NEAR(sweep.turning_points[rising ? 1 : 0].frequency, lower, 1e-7);
+  }
+}
+
+// Downwards from the low branch between the folds: round the lower fold and back on the unstable branch.
+TEST(FrequencySweep, SaysWhenTheCurveReturnsToWhereItStarted) {
+  CondensedProblem problem(testing::fourier_pair(3, 16), oscillator(duffing_damping, duffing_load),
+                           testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 0.3;
+  options.to = 0.05;
+  const FrequencySweep sweep = frequency_sweep(problem, Cubic{}, options);
+  ASSERT_LT(sweep.points.front().max_displacement, 0.5) << "the low branch";
+  EXPECT_EQ(sweep.status, SweepStatus::returned);
+  EXPECT_EQ(sweep.turning_points.size(), 1u);
+  EXPECT_NEAR(sweep.points.back().frequency, 0.3, 1e-9);
+  EXPECT_GT(sweep.points.back().max_displacement, 2.0 * sweep.points.front().max_displacement);
+}
+
+struct BarSweep {
+  CondensedProblem problem;
+  FrequencySweepOptions options;
+
+  explicit BarSweep(TimePair pair)
+      : problem(std::move(pair), testing::jl14_case_2.structure(), testing::cosine_load()) {
+    options.from = 1100.0;
+    options.to = 1700.0;
+  }
+  FrequencySweep run() { return frequency_sweep(problem, testing::jl14_case_2.law, options); }
+};
+
+// Where the largest sample of the contact-free response reaches the gap, by bisection.
+double grazing_frequency(CondensedProblem& problem, double gap, double low, double high) {
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    problem.set_frequency(middle);
+    (problem.free_response().maxCoeff() > gap ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(FrequencySweep, TurnsAtTheGrazingCornerOfTheBar) {
+  for (const bool haar : {false, true})
+    for (const bool rising : {true, false}) {
+      BarSweep sweep(haar ? testing::make_pair(testing::HaarBasis{64}, spectral::FourierBasis(64), 256)
+                          : testing::fourier_pair(63, 256));
+      if (!rising) std::swap(sweep.options.from, sweep.options.to);
+      const FrequencySweep result = sweep.run();
+      ASSERT_EQ(result.status, SweepStatus::reached_end);
+      ASSERT_GE(result.turning_points.size(), 2u);
+      const TurningPoint& corner = rising ? result.turning_points.back() : result.turning_points.front();
+      const double grazing = grazing_frequency(sweep.problem, testing::jl14_case_2.law.start, 1300.0, 1400.0);
+      EXPECT_TRUE(corner.corner);
+      EXPECT_NEAR(corner.frequency, grazing, haar ? 1e-4 : 2e-2);
+      EXPECT_NEAR(corner.max_displacement, testing::jl14_case_2.law.start, 2e-5);
+      for (const SweepPoint& point : result.points) EXPECT_LE(point.residual, 1e-10);
+    }
+}
+
+// Points, unit tangents and corners of the curve, each checked with a problem of its own.
+TEST(ArcLength, EveryPointOfTheBarSolvesItsFrequency) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  const AnyContactLaw law = testing::jl14_case_2.law;
+  sweep.problem.set_frequency(1275.0);
+  const PeriodicResponse first = forced_response(sweep.problem, law, {});
+  ASSERT_TRUE(first.converged());
+  ContactSystem system(sweep.problem, law);
+  const FrequencyParameter parameter;
+  ArcLengthOptions options;
+  options.displacement_scale = law.gap();
+  options.parameter_scale = 20.0;
+  ArcLength curve(system, parameter, options);
+  ASSERT_EQ(curve.start(first.displacement, 1275.0, 1.0), ArcLength::Status::advanced);
+  BarSweep fresh(testing::fourier_pair(31, 128));
+  ContactSystem check(fresh.problem, law);
+  int falling = 0;
+  while (curve.point().displacement.maxCoeff() > 0.8 * law.gap()) {
+    ASSERT_EQ(curve.advance(), ArcLength::Status::advanced);
+    const CurvePoint& point = curve.point();
+    fresh.problem.set_frequency(point.parameter);
+    EXPECT_LE(check.evaluate(point.displacement), 1e-10);
+    const double length = point.displacement_tangent.squaredNorm() / (128 * law.gap() * law.gap()) +
+                          point.parameter_tangent * point.parameter_tangent / 400.0;
+    EXPECT_NEAR(length, 1.0, 1e-12);
+    falling += point.parameter_tangent < 0.0;
+  }
+  EXPECT_GT(falling, 3) << "the curve must have turned back and on again";
+  CurvePoint missed;
+  EXPECT_FALSE(curve.locate([](const CurvePoint&) { return 1.0; }, missed));
+}
+
+TEST(FrequencySweep, StopsAtThePointLimitAndWhenTheObserverSaysSo) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  sweep.options.max_points = 7;
+  const FrequencySweep limited = sweep.run();
+  EXPECT_EQ(limited.status, SweepStatus::point_limit);
+  EXPECT_EQ(limited.points.size(), 7u);
+  sweep.options.max_points = 1000;
+  int seen = 0;
+  sweep.options.observer = [&](const SweepPoint& point) {
+    EXPECT_GE(point.frequency, 1100.0);
+    return ++seen < 5;
+  };
+  const FrequencySweep cancelled = sweep.run();
+  EXPECT_EQ(cancelled.status, SweepStatus::cancelled);
+  EXPECT_EQ(cancelled.points.size(), 5u);
+}
+
+TEST(FrequencySweep, ObserverMayStopAtTheFirstPoint) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  sweep.options.observer = [](const SweepPoint&) { return false; };
+  const FrequencySweep result = sweep.run();
+  EXPECT_EQ(result.status, SweepStatus::cancelled);
+  EXPECT_EQ(result.points.size(), 1u);
+}
+
+TEST(FrequencySweep, SaysWhenThereIsNoStart) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  sweep.options.from = 1275.0;
+  sweep.options.start.newton.max_iterations = 1;
+  sweep.options.start.homotopy = false;
+  const FrequencySweep result = sweep.run();
+  EXPECT_EQ(result.status, SweepStatus::no_start);
+  EXPECT_TRUE(result.points.empty());
+}
+
+// A force that jumps at the gap: the curve of responses without contact ends there.
+struct Jump {
+  double force(double u) const { return u > 14.5e-3 ? 1e6 : 0.0; }
+  double tangent(double) const { return 0.0; }
+  double potential(double u) const { return u > 14.5e-3 ? 1e6 * (u - 14.5e-3) : 0.0; }
+  double gap() const { return 14.5e-3; }
+};
+
+TEST(FrequencySweep, SaysWhenTheCurveEnds) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  const FrequencySweep result = frequency_sweep(sweep.problem, Jump{}, sweep.options);
+  EXPECT_EQ(result.status, SweepStatus::lost);
+  ASSERT_FALSE(result.points.empty());
+  EXPECT_LE(result.points.back().max_displacement, 14.5e-3 * (1 + 1e-3));  // between the 128 samples
+}
+
+// Steps grow to more than the frequency itself: a trial point below zero is a step too long, not an error.
+TEST(FrequencySweep, GoesDownToAHundredthOfTheFirstFrequency) {
+  CondensedProblem problem(testing::fourier_pair(7, 32), testing::jl14_case_1.structure(),
+                           testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 100.0;
+  options.to = 0.1;
+  const FrequencySweep result = frequency_sweep(problem, testing::jl14_case_1.law, options);
+  EXPECT_EQ(result.status, SweepStatus::reached_end);
+  EXPECT_NEAR(result.points.back().frequency, 0.1, 1e-8);
+}
+
+TEST(FrequencySweep, RefusesFrequenciesThatAreNotPositiveAndDifferent) {
+  BarSweep sweep(testing::fourier_pair(7, 32));
+  for (const auto& [from, to] : {std::pair{0.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}, {1.0, std::nan("")}}) {
+    sweep.options.from = from;
+    sweep.options.to = to;
+    EXPECT_THROW(sweep.run(), std::invalid_argument);
+  }
+}
+
+TEST(SweepStatus, IsSpelledAsInTheSource) {
+  EXPECT_EQ(to_string(SweepStatus::reached_end), "reached_end");
+  EXPECT_EQ(to_string(SweepStatus::returned), "returned");
+  EXPECT_EQ(to_string(SweepStatus::no_start), "no_start");
+  EXPECT_EQ(to_string(SweepStatus::lost), "lost");
+  EXPECT_EQ(to_string(SweepStatus::point_limit), "point_limit");
+  EXPECT_EQ(to_string(SweepStatus::cancelled), "cancelled");
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
