@@ -159,10 +159,10 @@ void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Spa
   modes.shapes = space * ritz.eigenvectors().rowwise().reverse();
 }
 
-// How many modes below the highest one are not among those found.
-int missing_modes(const Sparse& stiffness, const Sparse& mass, const Modes& modes) {
+// How many modes below the count-th one found, the highest that is asked for, are not among those found.
+int missing_modes(const Sparse& stiffness, const Sparse& mass, const Modes& modes, int count) {
   if (modes.squares.size() == 0) return 0;
-  const double highest = modes.squares.tail(1)[0];
+  const double highest = modes.squares[std::min<Eigen::Index>(count, modes.squares.size()) - 1];
   const double below = highest - 1e-7 * std::abs(highest);
   const Factor factor(stiffness - below * mass);
   if (factor.info() != Eigen::Success) return 0;  // a zero pivot: no count to be had
@@ -181,7 +181,7 @@ Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& sh
   for (unsigned attempt = 0; attempt < 4; ++attempt) {
     modes = lanczos_modes(factor, mass, wanted, options, attempt);
     refine(modes, factor, shifted, mass, options.shift);
-    const int missing = missing_modes(stiffness, mass, modes);
+    const int missing = missing_modes(stiffness, mass, modes, count);
     modes.complete = modes.complete && missing == 0;
     if (missing == 0) break;
     wanted = std::min(wanted + missing, most);

@@ -90,6 +90,22 @@ TEST_P(BothSolvers, FindBothCopiesOfADoubleMode) {
     EXPECT_NEAR(found.omega[i] / discrete_omega(options, i / 2 + 1), 1.0, 1e-10) << i;
 }
 
+// A coarse tolerance accepts the first copies before the others appear; the count of modes sends it back for
+// them.
+TEST(Eigenmodes, AreCompleteAtACoarseToleranceToo) {
+  BarOptions options;
+  options.elements = 500;
+  const Matrices matrices = bar(options);
+  const Sparse stiffness = twice(matrices.stiffness);
+  const Sparse mass = twice(matrices.mass);
+  for (int count : {2, 3, 5, 8, 12}) {
+    const EigenmodesResult found = eigenmodes(stiffness, mass, count, {.tolerance = 1e-2, .dense_up_to = 0});
+    ASSERT_EQ(found.status, EigenmodesStatus::converged) << count;
+    for (int i = 0; i < count; ++i)
+      EXPECT_NEAR(found.omega[i] / discrete_omega(options, i / 2 + 1), 1.0, 1e-6) << count << " modes, " << i;
+  }
+}
+
 // A free bar: its rigid translation has frequency zero, the others are those of standing waves, m pi/n an
 // element.
 TEST_P(BothSolvers, FindTheRigidModeOfAFreeBarWithANegativeShift) {
