@@ -1,3 +1,5 @@
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -24,6 +26,14 @@ std::string alternatives(const std::vector<std::string_view>& values) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
   return text;
+}
+
+/// Limits are whole numbers or short ones, written without an exponent.
+std::string limit_text(double value) {
+  std::array<char, 32> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed).ptr;
+  return {buffer.data(), end};
 }
 
 /// `text` broken at spaces, each line opened by `indent` spaces.
@@ -74,9 +84,9 @@ std::string toml_text(const SceneValue& value) {
 std::string Bounds::text() const {
   if (!std::isfinite(lower)) return "";
   if (std::isfinite(upper))
-    return (lower_excluded ? "> " + number_text(lower) + " and <= " : "in " + number_text(lower) + "..") +
-           number_text(upper);
-  return (lower_excluded ? "> " : ">= ") + number_text(lower);
+    return (lower_excluded ? "> " + limit_text(lower) + " and <= " : "in " + limit_text(lower) + "..") +
+           limit_text(upper);
+  return (lower_excluded ? "> " : ">= ") + limit_text(lower);
 }
 
 std::string Condition::text() const {
