@@ -1,0 +1,123 @@
+#pragma once
+#include <Eigen/Core>
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace wavebalance::solvers {
+
+/// An undamped structure in its own linear modes, seen from its contact degrees of freedom.
+struct ModalModel {
+  Eigen::VectorXd omega_squared;   ///< r, (rad/s)^2, ascending, > 0
+  Eigen::MatrixXd contact_shapes;  ///< c x r, mass-normalised mode shapes at the contact degrees of freedom
+  Eigen::VectorXd gaps;            ///< c, m, > 0: a contact degree of freedom may move up to +gap
+
+  int contacts() const { return static_cast<int>(gaps.size()); }
+  int modes() const { return static_cast<int>(omega_squared.size()); }
+  /// Throws std::invalid_argument naming the member that does not fit.
+  void validate() const;
+};
+
+/// How a point of a nonlinear mode was found, or why not.
+enum class ModeStatus {
+  converged,   ///< gap >= 0, force >= 0, product 0 at every sample
+  linear,      ///< below contact: the linear mode
+  no_contact,  ///< the active set emptied: only the motion at rest was found
+  cycling,     ///< the active set came back to itself
+  singular,    ///< the compliance of the active samples is singular
+  tongue       ///< complementarity holds, but on an internal resonance: see ModePoint::tongue
+};
+
+std::string to_string(ModeStatus status);
+
+/// An internal resonance: harmonic `harmonic` of the motion drives linear mode `mode` (both from 1), which
+/// holds `share` of the kinetic energy.
+struct Tongue {
+  int harmonic = 0;
+  int mode = 0;
+  double share = 0.0;
+};
+
+struct NonlinearModeOptions {
+  int mode = 1;                  ///< the linear mode that the nonlinear one continues, from 1
+  int harmonics = 10;            ///< N, n = -N..N
+  int samples = 20;              ///< m >= 2N, uniform times t_k = k T/m at which complementarity holds
+  bool cosine_only = false;      ///< seek motions that are even in time: half the unknowns
+  double tolerance = 1e-10;      ///< penetration over the gap that counts as contact
+  int max_iterations = 200;      ///< of the active set, a harmonic level
+  double tongue_share = 0.15;    ///< of the kinetic energy in one mode by one higher harmonic ...
+  double tongue_detuning = 0.1;  ///< ... with |n omega - omega_j| below this share of omega_j: a tongue
+};
+
+/// A point of a nonlinear mode: the periodic motion of frequency omega with rigid contact.
+struct ModePoint {
+  ModeStatus status = ModeStatus::no_contact;
+  double omega = 0.0;             ///< rad/s
+  int iterations = 0;             ///< of the active set, all harmonic levels
+  std::vector<int> active;        ///< contact * samples + time of the samples in contact
+  Eigen::MatrixXd force;          ///< c x m, N, contact force at the samples
+  Eigen::MatrixXcd amplitudes;    ///< r x (N+1), modal amplitude of exp(i n omega t), n = 0..N
+  double energy_ratio = 0.0;      ///< gamma over its value at linear grazing
+  double rayleigh = 0.0;          ///< generalised Rayleigh quotient r, (rad/s)^2 [LL10, eq. (24a)]
+  double identity_defect = 0.0;   ///< |omega^2 - r - <force> g0 / m| / omega^2
+  double max_penetration = 0.0;   ///< over the gap, between the samples too
+  double min_force = 0.0;         ///< N, the smallest force at a sample
+  double contact_fraction = 0.0;  ///< of the samples, any contact degree of freedom
+  Tongue tongue;                  ///< the strongest internal resonance, whatever its share
+
+  bool accepted() const { return status == ModeStatus::converged || status == ModeStatus::linear; }
+};
+
+/// Nonlinear modes with rigid (Signorini) contact, condensed on the contact force samples. At a fixed omega
+/// the motion is u = -G(omega) force, G the undamped dynamic compliance between samples (N harmonics), and
+///   gap - u >= 0,   force >= 0,   product 0   at each of the m samples
+/// is a linear complementarity problem; an active set, kept from the point before, solves it. The harmonic
+/// balance K u_n - n^2 omega^2 M u_n = -force_n [LL10, eq. (17a) with its errors removed] then holds exactly
+/// for n = 0..N, and the energy is a result. Owns no plans; immutable, may be shared between threads.
+class NonlinearMode {
+ public:
+  /// Throws std::invalid_argument for a model or options out of range. O(1).
+  NonlinearMode(ModalModel model, NonlinearModeOptions options);
+
+  const ModalModel& model() const { return model_; }
+  const NonlinearModeOptions& options() const { return options_; }
+  double linear_omega() const;    ///< rad/s, of the linear mode continued
+  double grazing_energy() const;  ///< gamma = m/2 [LL10, eq. (12)] of the linear mode that just reaches a gap
+
+  /// The motion at omega from an active set; empty: that of the grazing linear mode. O(active^3 + c^2 (r N +
+  /// m)).
+  ModePoint at_frequency(double omega, const std::vector<int>& active = {}) const;
+  /// The same through the harmonic levels 2, 3, .., N, each from the active set of the one before: reaches
+  /// the mode beyond a tongue, where continuation in omega leads onto it.
+  ModePoint at_frequency_lifted(double omega) const;
+  /// The linear mode at an energy ratio <= 1.
+  ModePoint linear_mode(double energy_ratio) const;
+
+ private:
+  friend class ModeSolver;
+  std::vector<int> grazing_samples() const;
+  ModalModel model_;
+  NonlinearModeOptions options_;
+};
+
+struct BackboneOptions {
+  double first_ratio = 1.001;    ///< omega / linear omega of the first point
+  double last_ratio = 1.3;       ///< and of the last
+  int points = 200;              ///< uniform in omega
+  double largest_energy = 10.0;  ///< stop once the energy ratio is above
+  double largest_jump =
+      0.25;  ///< of ln(energy ratio) between accepted neighbours; above it a point is lifted anew
+};
+
+/// The points of a mode over omega, those that failed or lie on a tongue with their status. Never a silent
+/// jump: a point whose energy is more than largest_jump away from its accepted neighbour, warm-started or
+/// lifted, is on another branch, and is kept with the status tongue.
+std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options);
+
+/// The point of prescribed energy ratio on a backbone, by false position in omega between the first accepted
+/// neighbours that enclose it; the linear mode for ratios <= 1. Status no_contact when no neighbours enclose
+/// it.
+ModePoint at_energy(const NonlinearMode& mode, const std::vector<ModePoint>& points, double energy_ratio,
+                    double tolerance = 1e-10);
+
+}  // namespace wavebalance::solvers
