@@ -95,6 +95,52 @@ TEST(FrequencySweep, FindsTheFoldsOfTheDuffingCurveInBothDirections) {
   }
 }
 
+// A linear stop at a gap, one harmonic and the mean, in the limit of many points: with u = a0 + A cos(x) in
+// contact for |x| < b, the mean and the first harmonic of the force are A k_c / pi (sin b - b cos b) and
+// A k_c / pi (b - sin b cos b), a0 = gap - A cos b, and balance gives A and the frequencies for each b.
+struct LinearStop {
+  double stiffness = 2.0, start = 1.0;
+  double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
+  double tangent(double u) const { return u >= start ? stiffness : 0.0; }
+  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+
+  // Hz on the branch of the higher frequency; NaN where the load does not reach that far.
+  double frequency(double b, double load, double damping) const {
+    const double share = stiffness / std::numbers::pi;
+    const double amplitude = start / (std::cos(b) - share * (std::sin(b) - b * std::cos(b)));
+    const double k = 1.0 + share * (b - std::sin(b) * std::cos(b));
+    const double half = k - 0.5 * damping * damping, ratio = load / amplitude;
+    if (amplitude < 0.0) return std::nan("");
+    return std::sqrt(half + std::sqrt(half * half - k * k + ratio * ratio)) / two_pi;
+  }
+};
+
+TEST(FrequencySweep, FindsTheFoldsOfALinearStopInBothDirections) {
+  const LinearStop stop;
+  const double load = 0.1, damping = 0.05;
+  double lower = 1.0, upper = 0.0;
+  for (double b = 0.0; b < std::numbers::pi; b += 1e-5) {
+    const double f = stop.frequency(b, load, damping);
+    if (std::isnan(f)) break;
+    upper = std::max(upper, f);
+    lower = std::min(lower, f);
+  }
+  EXPECT_LT(lower, stop.frequency(0.0, load, damping));  // the fold lies beyond grazing
+  CondensedProblem problem(testing::fourier_pair(3, 512), oscillator(damping, load), testing::cosine_load());
+  for (const bool rising : {true, false}) {
+    FrequencySweepOptions options;
+    options.from = rising ? 0.1 : 0.3;
+    options.to = rising ? 0.3 : 0.1;
+    const FrequencySweep sweep = frequency_sweep(problem, stop, options);
+    ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+    ASSERT_GE(sweep.turning_points.size(), 2u);
+    const auto& [first, last] = std::pair{sweep.turning_points.front(), sweep.turning_points.back()};
+    EXPECT_NEAR((rising ? first : last).frequency, upper, 1e-5);  // 512 points find b to about (2 pi / 512)^2
+    EXPECT_NEAR((rising ? last : first).frequency, lower, 1e-5);
+  }
+}
+
 // Downwards from the low branch between the folds: round the lower fold and back on the unstable branch.
 TEST(FrequencySweep, SaysWhenTheCurveReturnsToWhereItStarted) {
   CondensedProblem problem(testing::fourier_pair(3, 16), oscillator(duffing_damping, duffing_load),

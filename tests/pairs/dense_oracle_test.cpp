@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "dense_system.hpp"
+#include "pairs.hpp"
+#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/translate_spectrum.hpp"
+
+// The solvers' symbols against the system of all n M unknowns that the papers assemble.
+namespace wavebalance::pairs {
+namespace {
+
+using solvers::Formulation;
+using solvers::InnerProducts;
+
+constexpr double tolerance = 1e-10;  // relative, for systems of up to 400 unknowns of condition 1e6
+
+struct Setting {
+  Pair pair;
+  Formulation formulation;
+  InnerProducts products;
+};
+
+std::string describe(const Setting& s) {
+  const char* formulations[] = {"strong", "weak", "distributional"};
+  return std::string(s.pair.name) + " " + formulations[static_cast<int>(s.formulation)] + " " +
+         (s.products == InnerProducts::exact ? "exact" : "quadrature");
+}
+
+std::vector<Setting> admissible_settings() {
+  std::vector<Setting> settings;
+  for (const Pair& pair : table_2)
+    for (const auto formulation : {Formulation::strong, Formulation::weak, Formulation::distributional})
+      for (const auto products : {InnerProducts::quadrature, InnerProducts::exact}) {
+        const auto verdict =
+            solvers::admissibility(basis(pair.trial, 8), basis(pair.weight, 8), formulation, products);
+        if (verdict.admissible) settings.push_back({pair, formulation, products});
+      }
+  return settings;
+}
+
+// Coefficients of one degree of freedom as spectra over translates, n x (M/2 + 1), and back as n M values.
+Eigen::VectorXd stacked(const Eigen::MatrixXcd& spectra, int functions) {
+  Eigen::VectorXd all(spectra.rows() * functions);
+  for (Eigen::Index i = 0; i < spectra.rows(); ++i)
+    all.segment(i * functions, functions) = solvers::translate_coefficients(spectra.row(i), functions);
+  return all;
+}
+
+class Oracle {
+ public:
+  Oracle(const Setting& setting, const Case& scene, int elements, int functions, int points)
+      : functions_(functions),
+        law_(scene.law()),
+        how_(options(setting.pair, functions, points, setting.products, setting.formulation)),
+        problem_(time_pair(setting.pair, functions, how_), scene.structure(elements), cosine_load()),
+        dense_(scene.structure(elements), law_,
+               dense::discretise(basis(setting.pair.trial, functions), basis(setting.pair.weight, functions),
+                                 how_, cosine_load())) {
+    problem_.set_frequency(scene.frequency_hz);
+    dense_.set_frequency(scene.frequency_hz);
+  }
+
+  void expect_equal_linear_response() {
+    const Eigen::VectorXd expected = dense_.linear_response();
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem_.points());
+    const Eigen::VectorXd found = stacked(problem_.full_coefficients(zero), functions_);
+    EXPECT_LE((found - expected).norm(), tolerance * expected.norm());
+    const Eigen::VectorXd samples = dense_.contact_displacement(expected);
+    EXPECT_LE((problem_.free_response() - samples).norm(), tolerance * samples.norm());
+  }
+
+  // R(u) = u - u0 + K f(u) is what G^-1 leaves of the assembled residual at the contact.
+  void expect_equal_residual() {
+    std::mt19937 generator(7);
+    std::normal_distribution<double> normal;
+    const Eigen::VectorXd response = dense_.linear_response();
+    solvers::ContactSystem system(problem_, law_);
+    for (const double noise : {0.0, 0.3}) {
+      const Eigen::VectorXd state =
+          response + noise * response.cwiseAbs().maxCoeff() *
+                         Eigen::VectorXd::NullaryExpr(response.size(), [&] { return normal(generator); });
+      const Eigen::VectorXd expected = dense_.contact_displacement(dense_.solve(dense_.residual(state)));
+      system.evaluate(dense_.contact_displacement(state));
+      EXPECT_LE((system.residual() - expected).norm(),
+                tolerance * (expected.norm() + problem_.free_response().norm()));
+    }
+  }
+
+  // Returns whether there was contact.
+  bool expect_equal_contact_solution() {
+    const solvers::PeriodicResponse response = solvers::forced_response(problem_, law_, {});
+    EXPECT_TRUE(response.converged());
+    const Eigen::VectorXd found = stacked(problem_.full_coefficients(response.contact_force), functions_);
+    EXPECT_LE(dense_.relative_residual(found), tolerance);
+    dense::Solution own = dense_.newton(dense_.linear_response());
+    // Another solution, or none, may be what Newton finds from afar: then it must find this one from nearby.
+    if (!own.converged || (own.coefficients - found).norm() > 1e-3 * found.norm())
+      own = dense_.newton(found + 1e-6 * (dense_.linear_response() - found));
+    EXPECT_TRUE(own.converged);
+    EXPECT_LE((found - own.coefficients).norm(), tolerance * own.coefficients.norm());
+    return response.contact_force.maxCoeff() > 0.0;
+  }
+
+  bool expect_equal() {
+    expect_equal_linear_response();
+    expect_equal_residual();
+    return expect_equal_contact_solution();
+  }
+
+ private:
+  int functions_;
+  solvers::AnyContactLaw law_;
+  solvers::TimePairOptions how_;
+  solvers::CondensedProblem problem_;
+  dense::DenseSystem dense_;
+};
+
+struct Sizes {
+  int elements, functions, points;
+};
+
+TEST(DenseOracle, CoversEveryPairAndFormulationThatIsAdmissible) {
+  // Exact products: all three for each of six pairs. Sums: three each for Fourier and B-spline, the
+  // distributional form for Haar trial functions, weak forms for Daubechies with one pointwise derivative.
+  EXPECT_EQ(admissible_settings().size(), 6u * 3u + 3u + 3u + 1u + 1u + 2u + 1u);
+}
+
+TEST(DenseOracle, EqualsTheSymbolsForEveryPairAndFormulation) {
+  int all = 0, with_contact = 0;
+  for (const Setting& setting : admissible_settings())
+    for (const Case& scene : cases)
+      for (const Sizes& size : {Sizes{5, 8, 64}, Sizes{7, 16, 256}}) {
+        SCOPED_TRACE(describe(setting) + ", " + scene.name + ", M " + std::to_string(size.functions));
+        with_contact += Oracle(setting, scene, size.elements, size.functions, size.points).expect_equal();
+        ++all;
+      }
+  // Sums over 64 points for 8 functions leave Daubechies:Daubechies in the weak form short of the obstacle.
+  EXPECT_GE(with_contact, all - 1);
+}
+
+TEST(DenseOracle, EqualsTheSymbolsForTheWholeBar) {
+  for (const Pair& pair : table_2)
+    for (const Case& scene : cases) {
+      const auto products = paper_options(pair, 16).inner_products;
+      SCOPED_TRACE(std::string(pair.name) + ", " + scene.name);
+      EXPECT_TRUE(Oracle({pair, Formulation::distributional, products}, scene, 25, 16, 256).expect_equal());
+    }
+}
+
+// With an odd number of functions the points need not be a multiple of them.
+TEST(DenseOracle, EqualsTheSymbolsForFullHarmonics) {
+  for (const auto formulation : {Formulation::strong, Formulation::weak, Formulation::distributional})
+    for (const Case& scene : cases)
+      for (const Sizes& size : {Sizes{5, 9, 64}, Sizes{9, 15, 256}, Sizes{3, 9, 81}}) {
+        SCOPED_TRACE(std::string(scene.name) + ", M " + std::to_string(size.functions));
+        EXPECT_TRUE(Oracle({table_2[0], formulation, InnerProducts::quadrature}, scene, size.elements,
+                           size.functions, size.points)
+                        .expect_equal());
+      }
+}
+
+// Integration by parts moves derivatives, it does not change exact products.
+TEST(DenseOracle, ExactInnerProductsAreThoseOfFineSums) {
+  const Pair pairs[] = {table_2[1], table_2[4]};
+  for (const Pair& pair : pairs) {
+    const auto how = options(pair, 8, 64, InnerProducts::exact);
+    const auto exact = dense::discretise(basis(pair.trial, 8), basis(pair.weight, 8), how, cosine_load());
+    const auto fine = dense::sampled_inner_products(basis(pair.trial, 8), basis(pair.weight, 8),
+                                                    Formulation::distributional, 1 << 14);
+    for (std::size_t d = 0; d <= 2; ++d)
+      EXPECT_LE((exact.products[d] - fine[d]).norm(), 1e-5 * exact.products[d].norm())
+          << pair.name << " " << d;
+  }
+}
+
+using Dual = Eigen::AutoDiffScalar<Eigen::VectorXd>;
+
+TEST(DenseOracle, JacobianIsTheDerivativeOfTheResidual) {
+  const Case& scene = cases[0];
+  const int elements = 2, functions = 8, points = 32;
+  for (const Pair& pair : table_2) {
+    const auto how = options(pair, functions, points, InnerProducts::exact);
+    const auto time =
+        dense::discretise(basis(pair.trial, functions), basis(pair.weight, functions), how, cosine_load());
+    dense::DenseSystem system(scene.structure(elements), scene.law(), time);
+    system.set_frequency(scene.frequency_hz);
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    const Eigen::VectorXd a =
+        Eigen::VectorXd::NullaryExpr(elements * functions, [&] { return scene.gap * normal(generator); });
+    Eigen::MatrixXd expected = system.matrix();
+    const int first = (elements - 1) * functions;
+    for (int l = 0; l < points; ++l) {
+      Dual u(0.0, Eigen::VectorXd::Zero(a.size()));
+      for (int j = 0; j < functions; ++j)
+        u += time.trial(l, j) * Dual(a[first + j], Eigen::Index(a.size()), first + j);
+      if (u.value() <= scene.gap) continue;
+      const Dual force = 1e8 * (exp(scene.exponent * (u - scene.gap)) - 1.0);
+      for (int i = 0; i < functions; ++i)
+        expected.row(first + i) += time.weight(l, i) / points * force.derivatives().transpose();
+    }
+    EXPECT_LE((system.jacobian(a) - expected).norm(), 1e-13 * expected.norm()) << pair.name;
+    EXPECT_GT((expected - system.matrix()).norm(), 1e-6 * expected.norm()) << "no sample is in contact";
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::pairs

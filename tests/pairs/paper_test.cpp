@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include "dense_system.hpp"
+#include "pairs.hpp"
+#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/frequency_sweep.hpp"
+#include "wavebalance/solvers/periodic_field.hpp"
+#include "wavebalance/solvers/shooting.hpp"
+#include "wavebalance/solvers/translate_spectrum.hpp"
+
+// The six pairs of [JL14, Table 2] on both cases of [JL14, Table 1], against shooting and against figures
+// that were computed independently of this project.
+namespace wavebalance::pairs {
+namespace {
+
+using solvers::Formulation;
+using solvers::InnerProducts;
+
+const solvers::ShootingResult& reference(const Case& scene) {
+  static const auto run = [](const Case& c) {
+    solvers::ShootingOptions how;
+    how.full_history = true;
+    return solvers::shoot(c.structure(), c.law(), c.frequency_hz, how);
+  };
+  static const solvers::ShootingResult results[] = {run(cases[0]), run(cases[1])};
+  return results[&scene - cases];
+}
+
+struct Solved {
+  solvers::CondensedProblem problem;
+  solvers::PeriodicResponse response;
+};
+
+Solved solve(const Pair& pair, const Case& scene, int functions) {
+  solvers::CondensedProblem problem(time_pair(pair, functions, paper_options(pair, functions)),
+                                    scene.structure(), cosine_load());
+  problem.set_frequency(scene.frequency_hz);
+  solvers::PeriodicResponse response = solvers::forced_response(problem, scene.law(), {});
+  return {std::move(problem), std::move(response)};
+}
+
+// Relative rms of the tip displacement [JL14, section 5.5].
+double tip_error(const Pair& pair, const Case& scene, int functions) {
+  const Solved solved = solve(pair, scene, functions);
+  EXPECT_TRUE(solved.response.converged()) << pair.name << " " << scene.name << " M " << functions;
+  solvers::TrialEvaluator evaluate(solved.problem.pair().trial(), 1024, 0);
+  const Eigen::VectorXd& exact = reference(scene).samples.displacement;
+  return (evaluate(solved.response.coefficients) - exact).norm() / exact.norm();
+}
+
+TEST(PaperPairs, ReferencesConverge) {
+  for (const Case& scene : cases) EXPECT_EQ(reference(scene).status, solvers::ShootingStatus::converged);
+}
+
+TEST(PaperPairs, ErrorsAreThoseOfAnIndependentComputation) {
+  struct Listed {
+    int pair, scene, functions;
+    double error;
+  };
+  constexpr Listed listed[] = {{1, 0, 8, 2.83e-2},   {1, 0, 16, 1.71e-2},  {1, 0, 32, 2.13e-2},
+                               {1, 0, 64, 1.69e-3},  {1, 0, 128, 3.88e-4}, {2, 0, 8, 4.48e-2},
+                               {2, 0, 16, 5.13e-1},  {2, 0, 32, 8.52e-3},  {2, 0, 64, 1.57e-3},
+                               {2, 0, 128, 1.06e-3}, {5, 1, 32, 5.78e-2},  {5, 1, 128, 1.68e-2}};
+  for (const Listed& l : listed) {
+    const double found = tip_error(table_2[l.pair], cases[l.scene], l.functions);
+    EXPECT_NEAR(found, l.error, 0.02 * l.error) << table_2[l.pair].name << " M " << l.functions;
+  }
+}
+
+TEST(PaperPairs, AllTwelveCombinationsWith64FunctionsConverge) {
+  for (const Pair& pair : table_2)
+    for (const Case& scene : cases) {
+      const bool haar = pair.trial == Family::haar;
+      EXPECT_LE(tip_error(pair, scene, 64), haar ? 4e-2 : 2e-3) << pair.name << " " << scene.name;
+    }
+}
+
+// The residual of all n M equations, assembled independently of the condensation.
+TEST(PaperPairs, EveryConvergedResponseSolvesTheAssembledSystem) {
+  for (const Pair& pair : table_2)
+    for (const Case& scene : cases) {
+      Solved solved = solve(pair, scene, 64);
+      ASSERT_TRUE(solved.response.converged());
+      dense::DenseSystem system(scene.structure(), scene.law(),
+                                dense::discretise(basis(pair.trial, 64), basis(pair.weight, 64),
+                                                  paper_options(pair, 64), cosine_load()));
+      system.set_frequency(scene.frequency_hz);
+      const Eigen::MatrixXcd spectra = solved.problem.full_coefficients(solved.response.contact_force);
+      Eigen::VectorXd coefficients(system.unknowns());
+      for (int i = 0; i < 25; ++i)
+        coefficients.segment(64 * i, 64) = solvers::translate_coefficients(spectra.row(i), 64);
+      EXPECT_LE(system.relative_residual(coefficients), 1e-10) << pair.name << " " << scene.name;
+      const Eigen::VectorXd& force = solved.response.contact_force;
+      for (int l = 0; l < force.size(); ++l) {
+        EXPECT_GE(force[l], 0.0);
+        EXPECT_EQ(force[l] > 0.0, solved.response.displacement[l] > scene.gap);
+      }
+    }
+}
+
+TEST(PaperPairs, AdmissibilityIsThatOfTheSobolevExponents) {
+  const auto verdict = [](const wavelets::ScalingFunction& trial, const wavelets::ScalingFunction& weight) {
+    return solvers::admissibility(wavelets::PeriodicBasis(trial, 5), wavelets::PeriodicBasis(weight, 5),
+                                  Formulation::distributional, InnerProducts::exact);
+  };
+  const auto haar = wavelets::ScalingFunction::haar();
+  const auto bspline = wavelets::ScalingFunction::orthonormal_bspline();
+  const auto db4 = wavelets::ScalingFunction::daubechies(4), db6 = wavelets::ScalingFunction::daubechies(6);
+  EXPECT_TRUE(verdict(haar, bspline).admissible);
+  EXPECT_TRUE(verdict(db6, db6).admissible);
+  for (const auto& [trial, weight] : {std::pair{haar, haar}, {haar, db6}, {db4, db4}}) {
+    const auto refused = verdict(trial, weight);
+    EXPECT_FALSE(refused.admissible) << trial.name() << ":" << weight.name();
+    EXPECT_NE(refused.reason.find(std::to_string(trial.sobolev_exponent())), std::string::npos)
+        << refused.reason;
+    EXPECT_NE(refused.reason.find("sum above 2"), std::string::npos) << refused.reason;
+    EXPECT_THROW(solvers::TimePair(wavelets::PeriodicBasis(trial, 5), wavelets::PeriodicBasis(weight, 5),
+                                   {.quadrature_points = 64}),
+                 solvers::InadmissiblePair);
+  }
+}
+
+// Rms over the period of the energy, over that of shooting [JL14, Fig. 10].
+TEST(PaperPairs, EnergyNormOfDaubechies6IsThatOfAnIndependentComputation) {
+  const Case& scene = cases[0];
+  const auto& samples = reference(scene).samples;
+  const double exact =
+      solvers::energy_norm(scene.structure(), scene.law(), {samples.displacements, samples.velocities});
+  struct Listed {
+    int functions;
+    double ratio;
+  };
+  for (const auto& [functions, ratio] : {Listed{8, 0.994}, Listed{16, 2.02}, Listed{32, 1.002}}) {
+    Solved solved = solve(table_2[2], scene, functions);
+    ASSERT_TRUE(solved.response.converged());
+    const auto field = solvers::periodic_field(solved.problem, solved.response.contact_force, 1024);
+    EXPECT_NEAR(solvers::energy_norm(scene.structure(), scene.law(), field) / exact, ratio, 0.01 * ratio)
+        << functions;
+  }
+  Solved fine = solve(table_2[2], cases[1], 128);
+  const auto& other = reference(cases[1]).samples;
+  const auto field = solvers::periodic_field(fine.problem, fine.response.contact_force, 1024);
+  const auto& structure = cases[1].structure();
+  EXPECT_NEAR(solvers::energy_norm(structure, cases[1].law(), field) /
+                  solvers::energy_norm(structure, cases[1].law(), {other.displacements, other.velocities}),
+              1.000, 5e-3);
+}
+
+// The steps of Haar functions make the discrete curve turn several times beside its fold; coarse steps may
+// pass some of these turns, but not the fold nor the grazing corner.
+TEST(PaperPairs, SweepsOfFourierAndHaarPassFoldAndCornerInBothDirections) {
+  for (const Pair& pair : {table_2[0], table_2[3]})
+    for (const bool rising : {true, false}) {
+      const Case& scene = cases[1];
+      solvers::CondensedProblem problem(time_pair(pair, 64, paper_options(pair, 64)), scene.structure(),
+                                        cosine_load());
+      solvers::FrequencySweepOptions how;
+      how.from = rising ? 1100.0 : 1700.0;
+      how.to = rising ? 1700.0 : 1100.0;
+      const solvers::FrequencySweep sweep = solvers::frequency_sweep(problem, scene.law(), how);
+      ASSERT_EQ(sweep.status, solvers::SweepStatus::reached_end) << pair.name;
+      ASSERT_GE(sweep.turning_points.size(), 2u);
+      const auto& fold = rising ? sweep.turning_points.front() : sweep.turning_points.back();
+      const auto& corner = rising ? sweep.turning_points.back() : sweep.turning_points.front();
+      EXPECT_NEAR(fold.frequency, 1337.748, pair.trial == Family::haar ? 1.5 : 0.1);
+      EXPECT_NEAR(corner.frequency, 1315.067, 0.1);
+      EXPECT_TRUE(corner.corner);
+    }
+}
+
+}  // namespace
+}  // namespace wavebalance::pairs
