@@ -37,20 +37,21 @@ Series reference_series(const Eigen::VectorXd& values, double from) {
 
 namespace {
 
-Panel pair_panel(const PairPanels& content, std::size_t index, const Pair& pair) {
+Panel pair_panel(const PairPanels& content, const Eigen::VectorXd& values, const Pair& pair) {
   Panel panel;
-  Series series = periodic_series(pair.label, content.values[index], content.from);
+  Series series = periodic_series(pair.label, content.scale * values, content.from);
   series.colour = pair.colour;
-  panel.add(series).add(reference_series(content.reference, content.from));
+  panel.add(series).add(reference_series(content.scale * content.reference, content.from));
   panel.x = axis("Normalised time t/T", content.from, content.from + 1.0);
-  panel.y.label = content.y_label;
+  panel.y = content.y;
   panel.legend = Legend::none;
-  if (content.level) panel.mark_y(*content.level);
+  if (content.level) panel.mark_y(content.scale * *content.level);
   return panel;
 }
 
 Panel zoomed(Panel panel, const Zoom& zoom) {
   panel.x = axis(panel.x.label, zoom.from, zoom.to);
+  panel.x.ticks = zoom.ticks;
   panel.y = axis(panel.y.label, zoom.lower, zoom.upper);
   return panel;
 }
@@ -65,40 +66,17 @@ Figure pair_figure(const PairPanels& content) {
   figure.panel_height = content.zoom ? 260 : 300;
   figure.letters = false;
   const auto chosen = panel_pairs();
+  const Values values = reordered(content.values, pairs(), chosen);
   for (std::size_t row = 0; row < chosen.size(); row += columns) {
     for (const bool zoom : {false, true}) {
       if (zoom && !content.zoom) continue;
       for (std::size_t i = row; i < row + columns; ++i) {
-        Panel panel = pair_panel(content, i, chosen[i]);
+        Panel panel = pair_panel(content, values[i], chosen[i]);
         const std::string letter = std::string("{/:Bold (") + static_cast<char>('a' + i) + ")}  ";
         panel.title = letter + (zoom ? "enlarged" : chosen[i].label);
         figure.panels.push_back(zoom ? zoomed(panel, *content.zoom) : panel);
       }
     }
-  }
-  return figure;
-}
-
-Figure convergence_figure(const Table& table, const std::string& column, const std::string& label,
-                          bool logarithmic) {
-  Figure figure;
-  figure.columns = 2;
-  figure.panel_width = 560;
-  figure.panel_height = 420;
-  for (const int number : {1, 2}) {
-    Panel& panel = figure.add_panel();
-    const Table of_case = table.where("case", std::to_string(number));
-    for (const Pair& pair : pairs()) {
-      const Table rows = of_case.where("trial", pair.trial).where("weight", pair.weight);
-      Series series(pair.label, rows, "functions", column, SeriesStyle::line_points);
-      series.colour = pair.colour;
-      series.marker = pair.marker;
-      panel.add(std::move(series));
-    }
-    panel.x = {"Number of basis functions", 7.0, 147.0, true, {8, 16, 32, 64, 128}, "%g"};
-    panel.y.label = label;
-    panel.y.logarithmic = logarithmic;
-    panel.legend = number == 1 ? Legend::top_right : Legend::none;
   }
   return figure;
 }

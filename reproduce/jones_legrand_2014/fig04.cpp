@@ -23,11 +23,12 @@ void claim_levels(report::Artefact& artefact) {
     measured += (level == 0 ? "" : ", ") + report::number(error) + " at J = " + std::to_string(level);
     (level <= 2 ? low : high) = level <= 2 ? std::min(low, error) : std::max(high, error);
   }
-  artefact.claim({"section 3.4",
-                  "the wrapping procedure results in functions which are no longer scale-invariant at low J values",
-                  "max |g_{J+1}(t/2) - g_J(t)| is above 1e-3 for J = 0, 1, 2, where the support 5/2^J exceeds the "
-                  "circle, and below 1e-12 for J = 3, 4",
-                  measured, low > 1e-3 && high < 1e-12});
+  artefact.claim(
+      {"section 3.4",
+       "the wrapping procedure results in functions which are no longer scale-invariant at low J values",
+       "max |g_{J+1}(t/2) - g_J(t)| is above 1e-3 for J = 0, 1, 2, where the support 5/2^J exceeds the "
+       "circle, and below 1e-12 for J = 3, 4",
+       measured, low > 1e-3 && high < 1e-12});
 }
 
 void claim_shape(report::Artefact& artefact) {

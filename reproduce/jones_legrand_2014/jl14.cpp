@@ -41,8 +41,6 @@ const Pair& pair(const std::string& name) {
 
 bool has_haar_trial(const Pair& pair) { return pair.trial == "haar"; }
 
-std::vector<int> sizes() { return {8, 16, 32, 64, 128}; }
-
 Case::Case(report::Artefact& artefact, int number)
     : artefact_(artefact),
       number_(number),
@@ -61,10 +59,11 @@ Case::Case(report::Artefact& artefact, int number)
 
 std::string Case::frequency_text() const { return report::number(scene_.forcing.frequency, 6) + " Hz"; }
 
-reproduce::Scene Case::scene_for(const Pair& pair, int functions) {
-  return artefact_.scene("case" + std::to_string(number_) + ".toml",
-                         {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
-                          "time.functions=" + std::to_string(functions)});
+reproduce::Scene Case::scene_for(const Pair& pair, int functions, const std::string& inner_products) {
+  return artefact_.scene(
+      "case" + std::to_string(number_) + ".toml",
+      {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
+       "time.functions=" + std::to_string(functions), "time.inner_products=" + inner_products});
 }
 
 reproduce::Response Case::solve(const Pair& pair, int functions, bool full_history) {
@@ -78,15 +77,39 @@ reproduce::Response Case::solve(const Pair& pair, int functions, bool full_histo
   return response;
 }
 
+reproduce::Response Case::solve_exactly(const Pair& pair, int functions) {
+  return reproduce::weighted_residual_response(scene_for(pair, functions, "exact"));
+}
+
 std::vector<reproduce::Response> Case::solve_all(const std::vector<Pair>& chosen) {
   std::vector<reproduce::Response> responses;
   for (const Pair& pair : chosen) responses.push_back(solve(pair, scene_.time.functions));
   return responses;
 }
 
-Eigen::VectorXd drawn(const reproduce::Response& response, const Eigen::VectorXd& values) {
-  if (response.converged) return values;
-  return Eigen::VectorXd::Constant(values.size(), std::numeric_limits<double>::quiet_NaN());
+Values drawn(const std::vector<reproduce::Response>& responses,
+             Eigen::VectorXd solvers::PeriodSamples::*quantity) {
+  Values values;
+  for (const auto& response : responses) {
+    values.push_back(response.samples.*quantity);
+    if (!response.converged) values.back().setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
+
+Values reordered(const Values& values, const std::vector<Pair>& from, const std::vector<Pair>& to) {
+  Values result;
+  for (const Pair& wanted : to)
+    for (std::size_t i = 0; i < from.size(); ++i)
+      if (from[i].name() == wanted.name()) result.push_back(values[i]);
+  return result;
+}
+
+std::vector<double> measured(const Values& values, const Eigen::VectorXd& reference,
+                             double (*measure)(const Eigen::VectorXd&, const Eigen::VectorXd&)) {
+  std::vector<double> results;
+  for (const auto& one : values) results.push_back(measure(one, reference));
+  return results;
 }
 
 Eigen::VectorXd half_turn(const Eigen::VectorXd& values) {
@@ -95,30 +118,11 @@ Eigen::VectorXd half_turn(const Eigen::VectorXd& values) {
   return turned;
 }
 
-Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference,
-                       const std::vector<Pair>& chosen, const std::vector<Eigen::VectorXd>& values) {
+Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference, const Values& values) {
   Table table;
   table.add_column("time_fraction", time).add_column("reference", reference);
-  for (const Pair& pair : pairs())
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      if (chosen[i].name() == pair.name()) table.add_column(pair.name(), values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) table.add_column(pairs()[i].name(), values[i]);
   return table;
-}
-
-double entry(const Table& table, int case_number, const Pair& pair, int functions,
-             const std::string& column) {
-  const Table found = table.where("case", std::to_string(case_number))
-                          .where("trial", pair.trial)
-                          .where("weight", pair.weight)
-                          .where("functions", std::to_string(functions));
-  return found.numbers(column).at(0);
-}
-
-std::vector<double> entries(const Table& table, int case_number, const std::vector<Pair>& chosen, int functions,
-                            const std::string& column) {
-  std::vector<double> values;
-  for (const Pair& pair : chosen) values.push_back(entry(table, case_number, pair, functions, column));
-  return values;
 }
 
 std::vector<Pair> pairs_named(const std::vector<std::string>& names) {
@@ -127,21 +131,9 @@ std::vector<Pair> pairs_named(const std::vector<std::string>& names) {
   return chosen;
 }
 
-Table convergence_table(report::Artefact& artefact, const std::string& column, bool full_history,
-                        const std::function<double(Case&, const reproduce::Response&)>& measure) {
-  Table table({"case", "trial", "weight", "functions", column, "converged"});
-  for (const int number : {1, 2}) {
-    Case study(artefact, number);
-    for (const Pair& pair : pairs())
-      for (const int functions : sizes()) {
-        const auto response = study.solve(pair, functions, full_history);
-        const double value =
-            response.converged ? measure(study, response) : std::numeric_limits<double>::quiet_NaN();
-        table.append_row({std::int64_t{number}, pair.trial, pair.weight, std::int64_t{functions}, value,
-                          response.converged});
-      }
-  }
-  return table;
+const Pair& lowest(const std::vector<double>& values) {
+  return pairs().at(
+      static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin()));
 }
 
 std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,9 +36,6 @@ std::vector<Pair> panel_pairs();
 const Pair& pair(const std::string& name);
 bool has_haar_trial(const Pair& pair);
 
-/// 8, 16, ..., 128 functions [JL14, Figs. 10 and 11].
-std::vector<int> sizes();
-
 /// One of the two cases of [JL14, Table 1]: its scene, its time-stepping reference and its solutions.
 class Case {
  public:
@@ -56,10 +52,13 @@ class Case {
 
   /// The scene with this pair, solved. A response that has not converged is noted in the artefact.
   reproduce::Response solve(const Pair& pair, int functions, bool full_history = false);
+  /// The same with exact inner products in place of sums over 256 points.
+  reproduce::Response solve_exactly(const Pair& pair, int functions);
   /// All of `chosen` with the scene's number of functions.
   std::vector<reproduce::Response> solve_all(const std::vector<Pair>& chosen);
   /// The scene that solve() solves.
-  reproduce::Scene scene_for(const Pair& pair, int functions);
+  reproduce::Scene scene_for(const Pair& pair, int functions,
+                             const std::string& inner_products = "quadrature");
 
  private:
   report::Artefact& artefact_;
@@ -70,8 +69,15 @@ class Case {
   Eigen::VectorXd reference_energy_;
 };
 
-/// `values` of a converged response; missing values otherwise.
-Eigen::VectorXd drawn(const reproduce::Response& response, const Eigen::VectorXd& values);
+/// The tip's samples of one kind of every response; missing values where it has not converged.
+using Values = std::vector<Eigen::VectorXd>;
+Values drawn(const std::vector<reproduce::Response>& responses,
+             Eigen::VectorXd solvers::PeriodSamples::*quantity);
+/// In the order of `to`, what is in the order of `from`.
+Values reordered(const Values& values, const std::vector<Pair>& from, const std::vector<Pair>& to);
+/// A measure of each of `values` against the reference.
+std::vector<double> measured(const Values& values, const Eigen::VectorXd& reference,
+                             double (*measure)(const Eigen::VectorXd&, const Eigen::VectorXd&));
 
 /// An axis with its limits.
 reproduce::Axis axis(const std::string& label, double lower, double upper);
@@ -81,24 +87,25 @@ Series periodic_series(const std::string& label, const Eigen::VectorXd& values, 
 /// The reference's look: black and dashed.
 Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 
-/// time_fraction, reference and a column a pair.
-Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference,
-                       const std::vector<Pair>& chosen, const std::vector<Eigen::VectorXd>& values);
+/// time_fraction, reference and a column a pair, `values` in the order of pairs().
+Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference, const Values& values);
 
 /// A part of the period drawn again on its own axes.
 struct Zoom {
-  double from = 0.0, to = 1.0;    ///< t/T
+  double from = 0.0, to = 1.0;      ///< t/T
   double lower = 0.0, upper = 1.0;  ///< of the ordinate
+  std::vector<double> ticks;        ///< t/T
 };
 
 /// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a
 /// second panel below each.
 struct PairPanels {
-  std::string y_label;
-  double from = 0.0;  ///< t/T at the left edge
+  reproduce::Axis y;
+  double from = 0.0;   ///< t/T at the left edge
+  double scale = 1.0;  ///< of reference, values and level on the ordinate, 1e3 for mm
   Eigen::VectorXd reference;
-  std::vector<Eigen::VectorXd> values;  ///< of panel_pairs()
-  std::optional<double> level;          ///< an ordinate to mark, such as the gap
+  Values values;                ///< in the order of pairs()
+  std::optional<double> level;  ///< an ordinate to mark, such as the gap
   std::optional<Zoom> zoom;
 };
 reproduce::Figure pair_figure(const PairPanels& content);
@@ -106,21 +113,11 @@ reproduce::Figure pair_figure(const PairPanels& content);
 /// `values` from t/T = 1/2 round to 1/2, so that what happens about t = 0 stands together.
 Eigen::VectorXd half_turn(const Eigen::VectorXd& values);
 
-/// Fig. 10 or 11: one curve a pair over the number of functions, one panel a case, from a table with columns
-/// case, trial, weight, functions and `column`.
-reproduce::Figure convergence_figure(const Table& table, const std::string& column, const std::string& label,
-                                     bool logarithmic);
-/// Such a table: `measure` of each pair, number of functions and case; missing where a response has not converged.
-Table convergence_table(report::Artefact& artefact, const std::string& column, bool full_history,
-                        const std::function<double(Case&, const reproduce::Response&)>& measure);
-/// The entry of such a table.
-double entry(const Table& table, int case_number, const Pair& pair, int functions, const std::string& column);
-
-/// The entries of `chosen`.
-std::vector<double> entries(const Table& table, int case_number, const std::vector<Pair>& chosen, int functions,
-                            const std::string& column);
 /// Pairs of Table 2 by name.
 std::vector<Pair> pairs_named(const std::vector<std::string>& names);
+
+/// The pair of Table 2 with the lowest of `values`.
+const Pair& lowest(const std::vector<double>& values);
 
 /// "Fourier:Fourier 0.12 %, DB6:Fourier 0.3 %", values as percentages.
 std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values);

@@ -40,8 +40,7 @@ int main(int argc, char** argv) {
         reproduce::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
     artefact.note("An independent shooting solution differs from it by " + report::number(difference) +
                   " (relative rms of the tip displacement); largest displacement " +
-                  report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) +
-                  " mm, in contact for " + report::percent(reproduce::contact_fraction(stepping.samples), 4) +
-                  " of the period.");
+                  report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) + " mm, in contact for " +
+                  report::percent(reproduce::contact_fraction(stepping.samples), 4) + " of the period.");
   });
 }

@@ -48,6 +48,19 @@ Eigen::VectorXd select(const Eigen::VectorXd& values, const Eigen::Array<bool, E
   return selected;
 }
 
+double relative_mean_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference) {
+  require_equal(values.size(), reference.size(), "relative_mean_error");
+  return (values - reference).cwiseAbs().mean() / reference.cwiseAbs().mean();
+}
+
+Eigen::VectorXd cell_midpoints(const Eigen::VectorXd& values, int cells) {
+  if (cells < 1 || values.size() % (2 * cells) != 0)
+    throw std::invalid_argument("cell_midpoints: cells is " + std::to_string(cells) +
+                                "; twice that must divide " + std::to_string(values.size()) + " values");
+  const Eigen::Index width = values.size() / cells;
+  return Eigen::VectorXd::NullaryExpr(cells, [&](Eigen::Index j) { return values[j * width + width / 2]; });
+}
+
 int sign_changes(const Eigen::VectorXd& values) {
   int changes = 0;
   double previous = 0.0;

@@ -19,6 +19,14 @@ double largest_change(const Eigen::VectorXd& values, int steps);
 /// lengths differ.
 Eigen::VectorXd select(const Eigen::VectorXd& values, const Eigen::Array<bool, Eigen::Dynamic, 1>& where);
 
+/// mean |values - reference| / mean |reference|: like relative_rms_error(), but short spikes weigh less.
+/// Throws std::invalid_argument if the lengths differ.
+double relative_mean_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
+
+/// The entries in the middle of `cells` equal cells of the period: at (j + 1/2) n / cells. Throws
+/// std::invalid_argument unless 2 cells divides n.
+Eigen::VectorXd cell_midpoints(const Eigen::VectorXd& values, int cells);
+
 /// Sign changes of consecutive entries, zeros skipped, ends not joined.
 int sign_changes(const Eigen::VectorXd& values);
 

@@ -1,0 +1,104 @@
+#include "sweeps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace wavebalance::jl14 {
+namespace {
+
+constexpr double millimetres = 1e3;
+
+/// The displacement of sweep points or turning points over the frequency.
+template <class Points>
+Series curve(const std::string& label, const Points& points) {
+  std::vector<double> x, y;
+  for (const auto& point : points) {
+    x.push_back(point.frequency);
+    y.push_back(millimetres * point.max_displacement);
+  }
+  return Series(label, x, y);
+}
+
+}  // namespace
+
+Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs) {
+  Resonance resonance{pairs, {}, {}, 0.0};
+  for (const auto& pair : pairs) {
+    const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
+    resonance.sweeps.push_back(reproduce::frequency_sweep(scene));
+    resonance.gap = scene.contact.gap;
+    const auto& sweep = resonance.sweeps.back();
+    if (!sweep.converged())
+      artefact.note(pair.label + " in " + file + " ended early: " + to_string(sweep.curve.status));
+  }
+  auto free = artefact.scene(file);
+  free.contact = {};
+  resonance.free = reproduce::frequency_sweep(reproduce::complete_scene(free));
+  return resonance;
+}
+
+solvers::SweepPoint peak(const reproduce::Sweep& sweep) {
+  const auto& points = sweep.curve.points;
+  return *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.max_displacement < b.max_displacement;
+  });
+}
+
+std::string turns_text(const reproduce::Sweep& sweep) {
+  std::string text;
+  for (const auto& turn : sweep.curve.turning_points)
+    text += (text.empty() ? "" : " and ") + report::number(turn.frequency, 7) + " Hz";
+  return text.empty() ? "none" : text;
+}
+
+double turns_spread(const std::vector<reproduce::Sweep>& sweeps) {
+  double largest = 0.0;
+  const auto& first = sweeps.at(0).curve.turning_points;
+  for (const auto& sweep : sweeps) {
+    const auto& turns = sweep.curve.turning_points;
+    if (turns.size() != first.size()) return std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < turns.size(); ++k)
+      largest = std::max(largest, std::abs(turns[k].frequency - first[k].frequency));
+  }
+  return largest;
+}
+
+reproduce::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
+  reproduce::Panel panel;
+  panel.title = title;
+  Series free = curve("without contact", resonance.free.curve.points);
+  free.colour = reproduce::Colour::grey;
+  free.dash = reproduce::Dash::dashed;
+  panel.add(std::move(free));
+  for (std::size_t i = 0; i < resonance.pairs.size(); ++i) {
+    Series series = curve(resonance.pairs[i].label, resonance.sweeps[i].curve.points);
+    series.colour = resonance.pairs[i].colour;
+    if (i > 0) series.dash = reproduce::Dash::dotted;
+    series.width = i > 0 ? 2.4 : 1.6;
+    panel.add(std::move(series));
+  }
+  Series turns = curve("turning points", resonance.sweeps[0].curve.turning_points);
+  turns.style = reproduce::SeriesStyle::points;
+  turns.colour = reproduce::Colour::black;
+  turns.marker = 1;
+  panel.add(std::move(turns));
+  panel.mark_y(millimetres * resonance.gap);
+  panel.x.label = "Forcing frequency (Hz)";
+  panel.y.label = "Largest tip displacement (mm)";
+  panel.y.lower = 0.0;
+  return panel;
+}
+
+Table sweeps_table(const Resonance& resonance) {
+  Table table({"trial", "weight", "frequency_Hz", "max_displacement_m", "rms_displacement_m"});
+  for (std::size_t i = 0; i < resonance.pairs.size(); ++i)
+    for (const auto& point : resonance.sweeps[i].curve.points)
+      table.append_row({resonance.pairs[i].trial, resonance.pairs[i].weight, point.frequency,
+                        point.max_displacement, point.rms_displacement});
+  return table;
+}
+
+}  // namespace wavebalance::jl14

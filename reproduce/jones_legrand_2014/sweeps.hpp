@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "jl14.hpp"
+#include "wavebalance/reproduce/analysis.hpp"
+
+namespace wavebalance::jl14 {
+
+/// The frequency response of one scene with some pairs, and of the same without contact.
+struct Resonance {
+  std::vector<Pair> pairs;
+  std::vector<reproduce::Sweep> sweeps;  ///< one a pair
+  reproduce::Sweep free;
+  double gap = 0.0;  ///< m
+};
+
+/// Follows the response of the scene `file`; a curve that ends early is noted in the artefact.
+Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs);
+
+/// The point of the largest displacement.
+solvers::SweepPoint peak(const reproduce::Sweep& sweep);
+/// "1337.73 Hz and 1315.01 Hz"
+std::string turns_text(const reproduce::Sweep& sweep);
+/// Largest distance of a turning point from that of the first sweep, Hz; NaN where their numbers differ.
+double turns_spread(const std::vector<reproduce::Sweep>& sweeps);
+
+/// One panel: the pairs' curves, the response without contact dashed, turning points of the first pair, the
+/// gap.
+reproduce::Panel sweep_panel(const std::string& title, const Resonance& resonance);
+
+/// Columns trial, weight, frequency_Hz, max_displacement_m, rms_displacement_m of all pairs.
+Table sweeps_table(const Resonance& resonance);
+
+}  // namespace wavebalance::jl14
