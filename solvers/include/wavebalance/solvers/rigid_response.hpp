@@ -1,0 +1,46 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "wavebalance/solvers/forced_response.hpp"
+
+namespace wavebalance::solvers {
+
+/// How far samples are from u <= gap, force >= 0 and their product 0.
+struct Complementarity {
+  double max_penetration = 0.0;  ///< max(u - gap), m; negative when nothing touches
+  double min_force = 0.0;        ///< N
+  double product = 0.0;  ///< max |force (gap - u)| over max force and max |gap - u|; 0 without contact
+};
+
+Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
+                                double gap);
+
+struct RigidResponseOptions {
+  double tolerance = 1e-6;  ///< penetration at the N points over the largest |u0| that counts as rigid
+  double stiffest = 1e8;    ///< spring stiffness times the largest compliance, at which the path ends
+  int max_steps = 4000;     ///< of the path
+  NewtonOptions newton;
+  SolveObserver observer;
+};
+
+/// A response with rigid (Signorini) contact. `response.status` is converged only when complementarity holds
+/// at every one of the N points to the tolerance; otherwise the stiffest spring reached is what it describes.
+struct RigidResponse {
+  PeriodicResponse response;
+  Complementarity complementarity;
+  double stiffness = 0.0;  ///< N/m of the last spring; infinity when the active set was solved exactly
+  int active_samples = 0;
+};
+
+/// The periodic response of `problem` (frequency set before) against a rigid obstacle at `gap`, which is any
+/// sign:
+///
+///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at the N points.
+///
+/// An active set started from the contact-free response cycles in nearly every case. A unilateral spring is
+/// stiffened by arc length instead, from one that hardly acts to one whose penetration meets the tolerance,
+/// through folds and corners; its active samples are then solved with u = gap, which is accepted when every
+/// sign holds. O(steps (active^3 + N log N)).
+RigidResponse rigid_response(CondensedProblem& problem, double gap, const RigidResponseOptions& options);
+
+}  // namespace wavebalance::solvers
