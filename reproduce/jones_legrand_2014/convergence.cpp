@@ -87,6 +87,8 @@ Convergence Convergence::mapped(const std::function<double(double)>& change) con
   return result;
 }
 
+using reproduce::Legend;
+
 reproduce::Figure Convergence::figure(const std::string& label, bool logarithmic) const {
   reproduce::Figure figure;
   figure.columns = 2;
@@ -108,7 +110,7 @@ reproduce::Figure Convergence::figure(const std::string& label, bool logarithmic
     panel.x.tick_format = "%g";
     panel.y.label = label;
     panel.y.logarithmic = logarithmic;
-    panel.legend = number == 2 ? reproduce::Legend::top_right : reproduce::Legend::none;
+    panel.legend = number == 1 ? Legend::none : logarithmic ? Legend::bottom_left : Legend::top_right;
   }
   return figure;
 }

@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
                                         reference,
                                         v,
                                         {},
-                                        jl14::Zoom{-0.17, 0.17, -1.6, 1.6, {-0.1, 0.0, 0.1}}}));
+                                        jl14::Zoom{-0.17, 0.17, -1.6, 1.6, {}}}));
     artefact.caption(
         "64 functions at 150 Hz; dashed: time stepping. Haar trial functions: the jump between neighbouring "
         "cells divided by the cell width, placed at the cell edge.");

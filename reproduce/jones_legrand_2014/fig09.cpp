@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
                                         reference,
                                         forces,
                                         {},
-                                        jl14::Zoom{-0.17, 0.17, 0.0, 0.35, {-0.1, 0.0, 0.1}}}));
+                                        jl14::Zoom{-0.17, 0.17, 0.0, 0.4, {}}}));
     artefact.caption(
         "64 functions at 150 Hz; dashed: time stepping. The force is eq. (5) of the predicted displacement.");
     claim_duration(artefact, reference, forces);

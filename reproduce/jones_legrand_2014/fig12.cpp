@@ -78,9 +78,8 @@ void claim_second(report::Artefact& artefact, const Resonance& second, const Res
       report::number(1e3 * near.gap, 4) +
       " mm, the same half of the peak without contact that 14.5 mm is at the first resonance: the peak moves "
       "from " +
-      frequency + " to " + report::number(jl14::peak(near.sweeps[0]).frequency, 5) +
-      " Hz; turning points: " + jl14::turns_text(near.sweeps[0]) +
-      ", since the stiffness-proportional damping is three times that of the first.");
+      frequency + " to " + report::number(jl14::peak(near.sweeps[0]).frequency, 5) + " Hz; turning points: " +
+      jl14::turns_text(near.sweeps[0]) + "; the damping ratio grows with the frequency.");
 }
 
 }  // namespace

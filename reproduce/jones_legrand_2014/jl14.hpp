@@ -94,7 +94,7 @@ Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& refer
 struct Zoom {
   double from = 0.0, to = 1.0;      ///< t/T
   double lower = 0.0, upper = 1.0;  ///< of the ordinate
-  std::vector<double> ticks;        ///< t/T
+  std::vector<double> ticks;        ///< t/T; chosen by gnuplot when empty
 };
 
 /// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a

@@ -1,0 +1,32 @@
+// Gathers the records below a results folder into its index.html.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "wavebalance/report/page.hpp"
+#include "wavebalance/reproduce/output.hpp"
+
+using namespace wavebalance;
+
+int main(int argc, char** argv) {
+  std::string results = "results";
+  CLI::App app("Writes index.html over the results of the papers");
+  app.add_option("--results", results, "folder that holds a folder a paper")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    std::vector<report::Section> sections;
+    for (const auto& paper : report::papers()) {
+      const auto folder = std::filesystem::path(results) / paper.folder / "records";
+      if (std::filesystem::is_directory(folder)) sections.push_back({paper, report::read_records(folder)});
+    }
+    if (sections.empty()) throw reproduce::IoError(results, "holds no results of a paper");
+    reproduce::write_file(std::filesystem::path(results) / "index.html", report::page_html(sections));
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "wavebalance_report: " << error.what() << "\n";
+    return 2;
+  }
+}

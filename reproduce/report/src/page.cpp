@@ -1,0 +1,185 @@
+#include "wavebalance/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "wavebalance/reproduce/output.hpp"
+
+namespace wavebalance::report {
+namespace {
+
+const char* style = R"(
+body { font: 16px/1.5 system-ui, sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+h1, h2, h3 { line-height: 1.25; }
+h2 { border-bottom: 2px solid #ddd; padding-bottom: .2rem; margin-top: 3rem; }
+section { margin: 2.5rem 0; }
+img { max-width: 100%; height: auto; border: 1px solid #eee; }
+table { border-collapse: collapse; width: 100%; font-size: .9rem; margin: .8rem 0; }
+th, td { text-align: left; vertical-align: top; padding: .35rem .6rem; border-top: 1px solid #ddd; }
+th { background: #f6f6f6; }
+q { font-style: italic; }
+.place, .files, .note { color: #555; font-size: .88rem; }
+.verdict { white-space: nowrap; font-weight: 600; }
+.agrees { color: #00684a; }
+.differs { color: #a03c00; }
+nav a { margin-right: .8rem; white-space: nowrap; }
+)";
+
+std::string verdict(const Claim& claim) {
+  const char* word = claim.holds ? "agrees" : "differs";
+  return fmt::format("<td class=\"verdict {0}\">{0}</td>", word);
+}
+
+std::string claims_table(const std::vector<Claim>& claims) {
+  if (claims.empty()) return "";
+  std::string text =
+      "<table><tr><th>The paper says</th><th>Measured, and what decides</th><th>Found in this "
+      "run</th><th></th></tr>\n";
+  for (const Claim& claim : claims)
+    text +=
+        fmt::format("<tr><td><q>{}</q> <span class=\"place\">({})</span></td><td>{}</td><td>{}</td>{}</tr>\n",
+                    escaped(claim.quote), escaped(claim.place), escaped(claim.criterion),
+                    escaped(claim.measured), verdict(claim));
+  return text + "</table>\n";
+}
+
+std::string table_row(const std::string& line, const char* tag) {
+  std::string text = "<tr>";
+  std::istringstream cells(line.substr(1));  // the first | opens the row
+  for (std::string cell; std::getline(cells, cell, '|');)
+    text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  return text + "</tr>\n";
+}
+
+/// A Markdown table as markdown_text() writes it.
+std::string data_table(const std::string& markdown) {
+  if (markdown.empty()) return "";
+  std::istringstream lines(markdown);
+  std::string text = "<table>\n";
+  int number = 0;
+  for (std::string line; std::getline(lines, line); ++number)
+    if (number != 1 && !line.empty()) text += table_row(line, number == 0 ? "th" : "td");
+  return text + "</table>\n";
+}
+
+std::string picture(const Record& record) {
+  const std::string svg = record.identity.stem + ".svg", png = record.identity.stem + ".png";
+  if (std::find(record.files.begin(), record.files.end(), svg) == record.files.end()) return "";
+  const std::string folder = record.identity.paper + "/";
+  return fmt::format("<a href=\"{0}{1}\"><img src=\"{0}{2}\" alt=\"{3}\" loading=\"lazy\"></a>\n", folder,
+                     svg, png, escaped(record.identity.number + ": " + record.identity.title));
+}
+
+std::string origins(const Record& record) {
+  std::string text = "<p class=\"files\">";
+  for (const auto& file : record.files)
+    text += fmt::format("<a href=\"{0}/{1}\">{1}</a> ", record.identity.paper, escaped(file));
+  if (!record.scenes.empty()) {
+    text += "· scenes:";
+    for (const auto& scene : record.scenes) text += " " + escaped(scene);
+  }
+  return text + fmt::format(" · {:.2f} s</p>\n", record.wall_seconds);
+}
+
+std::string artefact_section(const Record& record) {
+  std::string text = fmt::format("<section id=\"{}\">\n<h3>{}: {}</h3>\n", record.identity.stem,
+                                 escaped(record.identity.number), escaped(record.identity.title));
+  text += picture(record) + "<p>" + escaped(record.caption) + "</p>\n" + data_table(record.table);
+  text += claims_table(record.claims);
+  for (const auto& note : record.notes) text += "<p class=\"note\">" + escaped(note) + "</p>\n";
+  return text + origins(record) + "</section>\n";
+}
+
+std::string differing(const Section& section) {
+  std::string rows;
+  for (const Record& record : section.records)
+    for (const Claim& claim : record.claims)
+      if (!claim.holds)
+        rows += fmt::format(
+            "<tr><td><a href=\"#{}\">{}</a></td><td><q>{}</q> <span "
+            "class=\"place\">({})</span></td><td>{}</td></tr>\n",
+            record.identity.stem, escaped(record.identity.number), escaped(claim.quote), escaped(claim.place),
+            escaped(claim.measured));
+  if (rows.empty()) return "";
+  return "<h3>Statements that do not hold as measured here</h3>\n"
+         "<table><tr><th></th><th>The paper says</th><th>Found in this run</th></tr>\n" +
+         rows + "</table>\n";
+}
+
+std::string overview(const Section& section) {
+  int claims = 0, holding = 0;
+  double seconds = 0.0;
+  std::string links;
+  for (const Record& record : section.records) {
+    seconds += record.wall_seconds;
+    links += fmt::format("<a href=\"#{}\">{}</a>\n", record.identity.stem, escaped(record.identity.number));
+    for (const Claim& claim : record.claims) {
+      ++claims;
+      holding += claim.holds ? 1 : 0;
+    }
+  }
+  return fmt::format(
+      "<p>{} figures, tables and references in {:.1f} s of computing. Of {} statements of the paper <span "
+      "class=\"verdict agrees\">{} agree</span> and <span class=\"verdict differs\">{} differ</span> by the "
+      "thresholds given with each.</p>\n<nav>{}</nav>\n",
+      section.records.size(), seconds, claims, holding, claims - holding, links);
+}
+
+std::string paper_section(const Section& section) {
+  std::string text = fmt::format(
+      "<h2>{}</h2>\n<p class=\"place\">Text: <a href=\"{}\">{}</a>. Sentences are quoted from it "
+      "under {}.</p>\n",
+      escaped(section.paper.citation), section.paper.link, escaped(section.paper.link),
+      escaped(section.paper.licence));
+  text += overview(section) + differing(section);
+  for (const Record& record : section.records) text += artefact_section(record);
+  return text;
+}
+
+}  // namespace
+
+const std::vector<Paper>& papers() {
+  static const std::vector<Paper> all{
+      {"jones_legrand_2014",
+       "Jones & Legrand 2014, Vibrations of an axial bar experiencing periodic unilateral contact using the "
+       "wavelet "
+       "balance method",
+       "https://hal.science/hal-01403614", "CC BY 4.0"},
+  };
+  return all;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string page_html(const std::vector<Section>& sections) {
+  std::string text =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width\">\n<title>Wavebalance: results</title>\n<style>" +
+      std::string(style) + "</style>\n</head>\n<body>\n<h1>Wavebalance: papers regenerated</h1>\n";
+  text += fmt::format(
+      "<p>Every figure and table below was computed from scene files by Wavebalance {}. Each statement "
+      "of a paper stands beside the figures of this run; the verdict is computed from them by the "
+      "threshold that is given.</p>\n",
+      reproduce::version());
+  for (const Section& section : sections) text += paper_section(section);
+  return text + "</body>\n</html>\n";
+}
+
+}  // namespace wavebalance::report
