@@ -1,6 +1,8 @@
 #include "commands.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 #include "interrupt_guard.hpp"
 #include "progress_bar.hpp"
@@ -102,7 +104,12 @@ int run_scene(const RunArguments& arguments) {
 }
 
 int check_scene(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
-  std::fputs(describe_scene(load_scene(scene, overrides)).c_str(), stdout);
+  return print(describe_scene(load_scene(scene, overrides)));
+}
+
+int print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw IoError("standard output", std::string("cannot be written: ") + std::strerror(errno));
   return solved;
 }
 

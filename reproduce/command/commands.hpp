@@ -23,6 +23,9 @@ int run_scene(const RunArguments& arguments);
 /// Validates a scene and says what would be solved. Throws SceneError.
 int check_scene(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
 
+/// Writes `text` to the standard output. Throws IoError.
+int print(const std::string& text);
+
 /// Case 1 of Jones & Legrand 2014, which the help shows.
 Scene example_scene();
 

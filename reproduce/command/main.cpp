@@ -62,7 +62,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? solved : bad_input;
   }
-  if (keys.parsed()) return std::fputs(describe_scene_keys().c_str(), stdout) < 0 ? bad_input : solved;
+  if (keys.parsed()) return print(describe_scene_keys());
   return check.parsed() ? check_scene(arguments.scene, arguments.overrides) : run_scene(arguments);
 }
 

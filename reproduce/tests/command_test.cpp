@@ -191,6 +191,14 @@ TEST(CommandKeys, ListsEveryKey) {
   EXPECT_EQ(outcome.output, describe_scene_keys());
 }
 
+TEST(CommandKeys, FullStandardOutputIsTwo) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      Command(folder, {"-c", "\"$0\" keys > /dev/full", WAVEBALANCE_COMMAND}, "sh").wait();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors, "wavebalance: standard output: cannot be written: No space left on device\n");
+}
+
 TEST(CommandHelp, HoldsASceneThatLoads) {
   const TemporaryFolder folder;
   const Outcome outcome = run(folder, {"--help"});
