@@ -1,9 +1,11 @@
 #include "convergence.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "wavebalance/reproduce/curve_measures.hpp"
+#include "wavebalance/reproduce/nyquist_resonances.hpp"
 
 namespace wavebalance::jl14 {
 
@@ -113,6 +115,27 @@ reproduce::Figure Convergence::figure(const std::string& label, bool logarithmic
     panel.legend = number == 1 ? Legend::none : logarithmic ? Legend::bottom_left : Legend::top_right;
   }
   return figure;
+}
+
+void note_nyquist_resonances(report::Artefact& artefact) {
+  for (const int number : {1, 2}) {
+    Case study(artefact, number);
+    const double forcing = study.scene().forcing.frequency;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::string where;
+    for (const Pair& one : pairs())
+      for (const int functions : sizes())
+        for (const double frequency :
+             reproduce::nyquist_resonances(study.scene_for(one, functions), 0.5 * forcing, 2.0 * forcing)) {
+          if (std::abs(frequency - forcing) >= std::abs(nearest - forcing)) continue;
+          nearest = frequency;
+          where = one.label + " with " + std::to_string(functions) + " functions";
+        }
+    artefact.note("At " + study.frequency_text() +
+                  ": the Nyquist coefficient of an even number of functions is undamped "
+                  "in the Galerkin pairs; of its resonances the nearest to the forcing is that of " +
+                  where + ", at " + report::number(nearest, 6) + " Hz.");
+  }
 }
 
 }  // namespace wavebalance::jl14

@@ -40,4 +40,8 @@ class Convergence {
   Table table_;
 };
 
+/// Notes, a case each, which pair and number of functions has a resonance of its own Nyquist coefficient (see
+/// reproduce::nyquist_resonances) nearest to the forcing frequency.
+void note_nyquist_resonances(report::Artefact& artefact);
+
 }  // namespace wavebalance::jl14

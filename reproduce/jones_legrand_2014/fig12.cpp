@@ -7,7 +7,8 @@ namespace {
 
 const char* units = "SI; a column's name ends in its unit; points in their order along the curve";
 
-reproduce::Figure drawn(const Resonance& first, const Resonance& second, const Resonance& near) {
+reproduce::Figure drawn(const Resonance& first, const reproduce::Sweep& full, const Resonance& second,
+                        const Resonance& near) {
   reproduce::Figure figure;
   figure.columns = 2;
   figure.panel_width = 560;
@@ -15,6 +16,11 @@ reproduce::Figure drawn(const Resonance& first, const Resonance& second, const R
   figure.panels.push_back(
       jl14::sweep_panel("first resonance, gap " + report::number(1e3 * first.gap) + " mm", first));
   figure.panels.push_back(jl14::sweep_panel("the same, enlarged", first));
+  auto series = jl14::sweep_series("", full);
+  series.colour = reproduce::Colour::black;
+  series.width = 0.9;
+  figure.panels[1].add(series);
+  figure.panels[1].texts.push_back({1272.0, 14.0, "thin black: Fourier:Fourier, 63 functions"});
   figure.panels[1].x = jl14::axis("Forcing frequency (Hz)", 1215.0, 1355.0);
   figure.panels[1].y = jl14::axis("Largest tip displacement (mm)", 13.5, 16.0);
   for (const auto* resonance : {&second, &near}) {
@@ -93,12 +99,14 @@ int main(int argc, char** argv) {
     const auto second = jl14::swept(artefact, "case2_sweep_second.toml", pairs);
     const auto near = jl14::swept(artefact, "case2_sweep_second_small_gap.toml", pairs);
     const auto all = jl14::swept(artefact, "case2_sweep.toml", jl14::pairs());
-    artefact.picture(drawn(first, second, near));
+    const auto full = jl14::swept_with_full_harmonics(artefact, "case2_sweep.toml");
+    artefact.picture(drawn(first, full, second, near));
     artefact.data(jl14::sweeps_table(first), units, {"first resonance"});
     artefact.more_data("second", jl14::sweeps_table(second), units);
     artefact.more_data("second_small_gap", jl14::sweeps_table(near), units);
     artefact.more_data("without_contact", reproduce::sweep_table(first.free.curve), units);
     artefact.caption("64 functions, constants of case 2 but for the gap of (d); dotted line: the gap.");
+    jl14::note_nyquist_resonances(artefact, "case2_sweep.toml", full);
     claim_stiffening(artefact, first);
     claim_agreement(artefact, first, all);
     claim_second(artefact, second, near);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wavebalance/reproduce/nyquist_resonances.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
@@ -38,6 +39,37 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
   free.contact = {};
   resonance.free = reproduce::frequency_sweep(reproduce::complete_scene(free));
   return resonance;
+}
+
+reproduce::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file) {
+  return reproduce::frequency_sweep(
+      artefact.scene(file, {"time.functions=63", "analysis.first_step=0.5", "analysis.largest_step=1.0"}));
+}
+
+Series sweep_series(const std::string& label, const reproduce::Sweep& sweep) {
+  return curve(label, sweep.curve.points);
+}
+
+void note_nyquist_resonances(report::Artefact& artefact, const std::string& file,
+                             const reproduce::Sweep& full) {
+  std::string text;
+  for (const auto& pair : pairs()) {
+    const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
+    std::string listed;
+    for (const double frequency :
+         reproduce::nyquist_resonances(scene, scene.analysis.frequency_from, scene.analysis.frequency_to))
+      listed += (listed.empty() ? " " : ", ") + report::number(frequency, 6);
+    if (!listed.empty()) text += (text.empty() ? "" : "; ") + pair.label + listed + " Hz";
+  }
+  artefact.note(
+      "An even number of functions leaves the coefficient of the Nyquist function without damping in some "
+      "pairs; "
+      "the contact force excites it near frequencies that mean nothing to the bar: " +
+      text +
+      ". A kink of a curve near one of them is such a resonance; steps of a few Hz pass them, steps of 1 Hz "
+      "may "
+      "follow them away. Fourier:Fourier with 63 functions (31 full harmonics) has none: turning points " +
+      turns_text(full) + ".");
 }
 
 solvers::SweepPoint peak(const reproduce::Sweep& sweep) {

@@ -17,6 +17,14 @@ struct Resonance {
 
 /// Follows the response of the scene `file`; a curve that ends early is noted in the artefact.
 Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs);
+/// Fourier:Fourier with 63 functions, 31 full harmonics, and steps of 1 Hz at most.
+reproduce::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file);
+/// Notes where the scene's sweep meets resonances of the discretisation itself (see nyquist_resonances()),
+/// which `full` does not have.
+void note_nyquist_resonances(report::Artefact& artefact, const std::string& file,
+                             const reproduce::Sweep& full);
+/// The curve of a sweep in mm over Hz.
+Series sweep_series(const std::string& label, const reproduce::Sweep& sweep);
 
 /// The point of the largest displacement.
 solvers::SweepPoint peak(const reproduce::Sweep& sweep);

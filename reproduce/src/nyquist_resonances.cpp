@@ -1,0 +1,25 @@
+#include "wavebalance/reproduce/nyquist_resonances.hpp"
+
+#include <cmath>
+
+#include "wavebalance/fem/eigenmodes.hpp"
+#include "wavebalance/reproduce/compose.hpp"
+
+namespace wavebalance::reproduce {
+
+std::vector<double> nyquist_resonances(const Scene& scene, double from, double to) {
+  if (scene.time.functions % 2 != 0) return {};
+  const solvers::TimePair pair = make_pair(scene.time);
+  const auto nyquist = [&](int derivative) { return pair.symbol(derivative)[pair.functions() / 2]; };
+  const auto ratio = nyquist(2) / nyquist(0);
+  const double scale = std::sqrt(std::abs(ratio));
+  const bool undamped = std::abs(nyquist(1) / nyquist(0)) < 1e-9 * scale;
+  if (!undamped || !(ratio.real() < 0.0) || std::abs(ratio.imag()) > 1e-9 * std::abs(ratio)) return {};
+  const solvers::LinearStructure structure = make_structure(scene);
+  std::vector<double> frequencies;
+  for (const double omega : fem::eigenmodes(structure.stiffness, structure.mass, structure.size()).omega)
+    if (omega / scale >= from && omega / scale <= to) frequencies.push_back(omega / scale);
+  return frequencies;
+}
+
+}  // namespace wavebalance::reproduce
