@@ -94,9 +94,9 @@ TEST(MultiplierUpdate, FollowsTheCorrectedAlgorithm) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(outer.inequality_multipliers()[i], multipliers[i], 8 * eps);
   EXPECT_NEAR(outer.equality_multipliers()[0], -14.0, 64 * eps);
 
-  // 0.2 is compared with 0.25, the last that improved, not with the 0.5 after it.
-  step = outer.update(Array{0.2, -1.0, -1.0}, Array{0.0});
-  EXPECT_EQ(step.inequality, MultiplierAction::multipliers_and_penalties_updated);
+  // 0.3 is compared with 0.25, the last that improved, not with the 0.5 after it.
+  step = outer.update(Array{0.3, -1.0, -1.0}, Array{0.0});
+  EXPECT_EQ(step.inequality, MultiplierAction::penalties_increased);
   EXPECT_EQ(step.equality, MultiplierAction::satisfied);
   EXPECT_FALSE(step.converged());
 }

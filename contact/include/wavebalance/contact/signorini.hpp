@@ -12,7 +12,7 @@ namespace wavebalance::contact {
 // This is one equation a pair, phi(g, lambda) = lambda - max(0, lambda + c g) = 0, for any c > 0 (N/m): c has
 // no effect on the solution, only on the path of an iteration to it. phi is piecewise linear, so Newton's
 // method on it is semismooth and coincides with an active-set method (M. Hintermueller, K. Ito, K. Kunisch,
-// The primal-dual active set strategy as a semismooth Newton method, SIAM J. Optim. 13, 2003,
+// The primal-dual active set strategy as a semismooth Newton method, SIAM J. Optim. 13, 2002,
 // doi:10.1137/S1052623401383558). All functions: O(n); std::invalid_argument if lengths differ. Output may
 // be the array of an input of the same length, but not overlap it otherwise.
 
