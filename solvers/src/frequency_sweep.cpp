@@ -84,15 +84,16 @@ class Sweep {
       if (!curve.locate(rate, turning)) turning = curve.point();
     }
     const SweepPoint measured = measure(turning);
-    result_.turning_points.push_back({measured.frequency, measured.max_displacement, turning.corner});
+    result_.turning_points.push_back(
+        {measured.frequency, measured.max_displacement, measured.max_abs_displacement, turning.corner});
   }
 
   SweepPoint measure(const CurvePoint& point) {
     problem_.set_frequency(point.parameter);
     system_.evaluate(point.displacement);
     const Eigen::VectorXd u = evaluator_(problem_.coefficients(system_.force()));
-    return {point.parameter, u.maxCoeff(), u.norm() / std::sqrt(double(u.size())), point.residual,
-            point.corner};
+    return {point.parameter,         u.maxCoeff(),   u.norm() / std::sqrt(double(u.size())),
+            u.cwiseAbs().maxCoeff(), point.residual, point.corner};
   }
 
   bool record(const CurvePoint& point) {

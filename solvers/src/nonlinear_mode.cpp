@@ -106,6 +106,7 @@ ModePoint NonlinearMode::linear_mode(double energy_ratio) const {
   const double sign = shape[largest] > 0.0 ? 1.0 : -1.0;
   point.amplitudes(options_.mode - 1, 1) = sign * std::sqrt(energy_ratio * grazing_energy());
   point.energy_ratio = energy_ratio;
+  point.max_penetration = std::sqrt(energy_ratio) - 1.0;
   point.rayleigh = point.omega * point.omega;
   return point;
 }

@@ -20,17 +20,19 @@ enum class SweepStatus {
 std::string to_string(SweepStatus status);
 
 struct SweepPoint {
-  double frequency = 0.0;         ///< Hz
-  double max_displacement = 0.0;  ///< m, over output_points of the period
-  double rms_displacement = 0.0;  ///< m
-  double residual = 0.0;          ///< relative
-  bool corner = false;            ///< the law's slope jumps here (a sample reaches the gap)
+  double frequency = 0.0;             ///< Hz
+  double max_displacement = 0.0;      ///< m, over output_points of the period
+  double rms_displacement = 0.0;      ///< m
+  double max_abs_displacement = 0.0;  ///< m
+  double residual = 0.0;              ///< relative
+  bool corner = false;                ///< the law's slope jumps here (a sample reaches the gap)
 };
 
 /// Where the curve turns in frequency: at a smooth fold or at a corner.
 struct TurningPoint {
-  double frequency = 0.0;         ///< Hz
-  double max_displacement = 0.0;  ///< m
+  double frequency = 0.0;             ///< Hz
+  double max_displacement = 0.0;      ///< m
+  double max_abs_displacement = 0.0;  ///< m
   bool corner = false;
 };
 

@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/Dense>
+
+#include "wavebalance/solvers/nonlinear_mode.hpp"
+
+namespace wavebalance::solvers::testing {
+
+/// The clamped rod of [LL10, section 5.1] in units length = E = rho = area = gap = 1, as its own linear
+/// modes.
+struct UnitRod {
+  Eigen::MatrixXd stiffness, mass;
+  Eigen::MatrixXd shapes;  // mass-normalised, columns
+  ModalModel model;
+
+  explicit UnitRod(int elements, double lumped_fraction = 0.0) {
+    stiffness = mass = Eigen::MatrixXd::Zero(elements, elements);
+    const double length = 1.0 / elements;
+    const double diagonal = length * ((1.0 - lumped_fraction) / 3.0 + lumped_fraction / 2.0);
+    const double off = length * (1.0 - lumped_fraction) / 6.0;
+    for (int right = 0; right < elements; ++right) {
+      for (const int node : {right - 1, right})
+        if (node >= 0) {
+          stiffness(node, node) += 1.0 / length;
+          mass(node, node) += diagonal;
+        }
+      if (right == 0) continue;
+      stiffness(right, right - 1) = stiffness(right - 1, right) = -1.0 / length;
+      mass(right, right - 1) = mass(right - 1, right) = off;
+    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness, mass);
+    shapes = modes.eigenvectors();
+    model = {modes.eigenvalues(), shapes.row(elements - 1), Eigen::VectorXd::Ones(1)};
+  }
+};
+
+}  // namespace wavebalance::solvers::testing

@@ -1,0 +1,91 @@
+#include "wavebalance/solvers/rigid_response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "jl14_bar.hpp"
+#include "wavebalance/spectral/fourier_basis.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+CondensedProblem fourier_problem(const LinearStructure& structure, int functions, int points,
+                                 double frequency) {
+  const spectral::FourierBasis basis(functions);
+  Eigen::VectorXcd load(2);
+  load << 0.0, 1.0;
+  CondensedProblem problem(TimePair(basis, basis, {.quadrature_points = points}), structure, load);
+  problem.set_frequency(frequency);
+  return problem;
+}
+
+struct RigidCase {
+  double frequency, beta, gap;
+  int functions, points;
+  double mean_force, tolerance;  // over the load amplitude, independent figures
+};
+
+class RigidJl14 : public ::testing::TestWithParam<RigidCase> {};
+
+TEST_P(RigidJl14, HoldsComplementarityAndTheMeanForceOfOtherComputations) {
+  const RigidCase& scene = GetParam();
+  auto problem =
+      fourier_problem(testing::jl14_bar(25, scene.beta), scene.functions, scene.points, scene.frequency);
+  const RigidResponse rigid = rigid_response(problem, scene.gap, {});
+  ASSERT_TRUE(rigid.response.converged());
+  EXPECT_LE(rigid.complementarity.max_penetration, 1e-6 * problem.free_response().cwiseAbs().maxCoeff());
+  EXPECT_GE(rigid.complementarity.min_force, 0.0);
+  EXPECT_LE(rigid.complementarity.product, 1e-6);
+  EXPECT_NEAR(rigid.response.contact_force.mean() / 250e3, scene.mean_force, scene.tolerance);
+  // The balance itself, independently of the path: u = u0 - K f.
+  Eigen::VectorXd product(scene.points);
+  problem.apply(rigid.response.contact_force, product);
+  const Eigen::VectorXd residual = rigid.response.displacement - problem.free_response() + product;
+  EXPECT_LE(residual.cwiseAbs().maxCoeff(), 1e-9 * problem.free_response().cwiseAbs().maxCoeff());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, RigidJl14,
+                         ::testing::Values(RigidCase{150.0, 1e-4, 1e-3, 63, 128, 0.0510, 0.0010},
+                                           RigidCase{150.0, 1e-4, 1e-3, 63, 256, 0.0510, 0.0010},
+                                           RigidCase{1275.0, 5e-6, 14.5e-3, 63, 128, 0.355, 0.004},
+                                           RigidCase{1275.0, 5e-6, 14.5e-3, 63, 256, 0.355, 0.004}));
+
+TEST(RigidResponse, WithoutContactItIsTheFreeResponse) {
+  auto problem = fourier_problem(testing::jl14_bar(25, 1e-4), 15, 64, 150.0);
+  const RigidResponse rigid = rigid_response(problem, 1.0, {});
+  ASSERT_TRUE(rigid.response.converged());
+  EXPECT_TRUE(rigid.response.displacement.isApprox(problem.free_response(), 0.0));
+  EXPECT_TRUE(rigid.response.contact_force.isZero(0.0));
+}
+
+TEST(RigidResponse, StaticPushAgainstTheObstacleIsHeldAtTheGap) {
+  // One degree of freedom, k = 1, quasi-static load 3 + cos: always pressed against the gap 1 with force load
+  // - 1.
+  LinearStructure structure;
+  for (auto* matrix : {&structure.mass, &structure.damping, &structure.stiffness}) {
+    matrix->resize(1, 1);
+    matrix->insert(0, 0) = 0.0;
+  }
+  structure.mass.coeffRef(0, 0) = structure.damping.coeffRef(0, 0) = 1e-9;
+  structure.stiffness.coeffRef(0, 0) = 1.0;
+  structure.load = Eigen::VectorXd::Ones(1);
+  const spectral::FourierBasis basis(7);
+  Eigen::VectorXcd load(2);
+  load << 3.0, 1.0;
+  CondensedProblem problem(TimePair(basis, basis, {.quadrature_points = 7}), structure, load);
+  problem.set_frequency(1.0);
+  const RigidResponse rigid = rigid_response(problem, 1.0, {});
+  ASSERT_TRUE(rigid.response.converged());
+  EXPECT_EQ(rigid.active_samples, 7);
+  EXPECT_NEAR(rigid.response.contact_force.mean(), 2.0, 1e-6);
+  EXPECT_NEAR(rigid.response.contact_force[0], 3.0, 1e-6);
+}
+
+TEST(RigidResponse, AnInfiniteGapIsAnError) {
+  auto problem = fourier_problem(testing::jl14_bar(5, 1e-4), 5, 16, 150.0);
+  EXPECT_THROW(rigid_response(problem, INFINITY, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
