@@ -7,7 +7,7 @@ using jl14::Convergence;
 namespace {
 
 void claim_convergence(report::Artefact& artefact, const Convergence& off) {
-  const auto& all = jl14::pairs();
+  const auto all = jl14::pairs();
   const auto compared = [&](int functions) {
     return "largest deviation " + report::percent(off.largest(1, all, functions)) + " at 150 Hz, " +
            report::percent(off.largest(2, all, functions)) + " at 1275 Hz";

@@ -1,0 +1,95 @@
+#include "wavebalance/reproduce/curve_measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace wavebalance::reproduce {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+Eigen::VectorXd sampled(int n, double (*f)(double)) {
+  return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index i) { return f(static_cast<double>(i) / n); });
+}
+
+double cosine(double t) { return std::cos(2 * std::numbers::pi * t); }
+
+TEST(TotalVariation, OfACosineIsTwiceItsRange) {
+  EXPECT_NEAR(total_variation(sampled(64, cosine)), 4.0, 64 * eps);
+}
+
+TEST(TotalVariation, ClosesThePeriod) {
+  EXPECT_DOUBLE_EQ(total_variation(Eigen::Vector3d(0.0, 1.0, 3.0)), 1.0 + 2.0 + 3.0);
+  EXPECT_EQ(total_variation(Eigen::VectorXd::Constant(1, 5.0)), 0.0);
+}
+
+TEST(ExcessVariation, MeasuresRippleAndIgnoresScale) {
+  const Eigen::VectorXd reference = sampled(256, cosine);
+  EXPECT_NEAR(excess_variation(reference, reference), 0.0, 256 * eps);
+  const Eigen::VectorXd ripple =
+      reference + sampled(256, [](double t) { return 0.1 * std::cos(64 * std::numbers::pi * t); });
+  EXPECT_GT(excess_variation(ripple, reference), 0.5);
+  EXPECT_NEAR(excess_variation(3.0 * ripple, 3.0 * reference), excess_variation(ripple, reference), 1e-13);
+  EXPECT_THROW(excess_variation(reference, Eigen::VectorXd::Ones(256)), std::invalid_argument);
+}
+
+TEST(LargestChange, GoesRoundThePeriod) {
+  const Eigen::Vector4d values(0.0, 1.0, 2.0, 7.0);
+  EXPECT_EQ(largest_change(values, 1), 7.0);  // from the last to the first
+  EXPECT_EQ(largest_change(values, 2), 6.0);
+  EXPECT_THROW(largest_change(values, 4), std::invalid_argument);
+  EXPECT_THROW(largest_change(values, 0), std::invalid_argument);
+}
+
+TEST(Select, KeepsTheOrder) {
+  Eigen::Array<bool, Eigen::Dynamic, 1> where(4);
+  where << true, false, false, true;
+  EXPECT_EQ(select(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0), where), Eigen::Vector2d(1.0, 4.0));
+  EXPECT_THROW(select(Eigen::Vector3d::Zero(), where), std::invalid_argument);
+}
+
+TEST(RelativeMeanError, WeighsSpikesLess) {
+  EXPECT_DOUBLE_EQ(relative_mean_error(Eigen::Vector2d(2.0, -1.0), Eigen::Vector2d(1.0, -1.0)), 0.5);
+  EXPECT_THROW(relative_mean_error(Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero()), std::invalid_argument);
+}
+
+TEST(CellMidpoints, TakesTheMiddleSample) {
+  const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(8, 0.0, 7.0);
+  EXPECT_EQ(cell_midpoints(values, 2), Eigen::Vector2d(2.0, 6.0));
+  EXPECT_THROW(cell_midpoints(values, 8), std::invalid_argument);
+  EXPECT_THROW(cell_midpoints(values, 0), std::invalid_argument);
+}
+
+TEST(SignChanges, SkipsZerosAndDoesNotJoinTheEnds) {
+  Eigen::VectorXd values(6);
+  values << 1.0, 0.0, -2.0, -1.0, 3.0, 0.0;
+  EXPECT_EQ(sign_changes(values), 2);
+}
+
+TEST(ObservedOrder, OfAPowerLawIsItsExponent) {
+  const std::vector<double> sizes{8, 16, 32, 64};
+  std::vector<double> errors;
+  for (const double size : sizes) errors.push_back(7.0 * std::pow(size, -3.0));
+  EXPECT_NEAR(observed_order(sizes, errors), 3.0, 100 * eps);
+  errors[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(observed_order(sizes, errors), std::invalid_argument);
+  EXPECT_THROW(observed_order(sizes, std::vector<double>{1.0}), std::invalid_argument);
+}
+
+TEST(RefinementGain, FallsByFourForASmoothFunction) {
+  const auto polygon = [](int intervals) {
+    return Eigen::VectorXd::LinSpaced(intervals + 1, 0.0, 1.0).array().square().matrix().eval();
+  };
+  const double coarse = refinement_gain(polygon(8), polygon(16));
+  EXPECT_NEAR(coarse, 1.0 / 256.0, 4 * eps);  // h^2 / 4 for t^2
+  EXPECT_NEAR(refinement_gain(polygon(16), polygon(32)), coarse / 4.0, 4 * eps);
+  EXPECT_THROW(refinement_gain(polygon(8), polygon(8)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::reproduce

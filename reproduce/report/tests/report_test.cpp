@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include "wavebalance/report/artefact.hpp"
+#include "wavebalance/report/page.hpp"
+#include "wavebalance/reproduce/output.hpp"
+
+namespace wavebalance::report {
+namespace {
+
+Record example() {
+  Record record;
+  record.identity = {"some_paper", "SP Fig. 1", "A < B & \"C\"", "fig01_example"};
+  record.caption = "caption";
+  record.files = {"fig01_example.csv", "fig01_example.svg"};
+  record.scenes = {"one.toml"};
+  record.notes = {"a note"};
+  record.claims = {{"section 1", "holds", "x < 1", "0.5", true},
+                   {"section 2", "fails", "x < 1", "1.5", false}};
+  record.table = "| a | b |\n| --- | --- |\n| 1 | 2 |\n";
+  record.wall_seconds = 0.25;
+  record.version = "0.1.0";
+  return record;
+}
+
+std::string page() {
+  return page_html({{{"some_paper", "A paper", "https://example.org", "CC BY"}, {example()}}});
+}
+
+TEST(Record, ReadsBackAsWritten) {
+  const Record record = example();
+  const Record back = parse_record(record_text(record), "there.json");
+  EXPECT_EQ(record_text(back), record_text(record));
+  EXPECT_EQ(back.identity.title, record.identity.title);
+  ASSERT_EQ(back.claims.size(), 2u);
+  EXPECT_TRUE(back.claims[0].holds);
+  EXPECT_FALSE(back.claims[1].holds);
+}
+
+TEST(Record, OtherTextIsAnErrorThatNamesTheFile) {
+  for (const std::string text : {"", "{}", "[1, 2]", "not json"}) {
+    try {
+      parse_record(text, "there.json");
+      FAIL() << text;
+    } catch (const reproduce::IoError& error) {
+      EXPECT_EQ(error.path(), "there.json");
+    }
+  }
+}
+
+TEST(Page, EscapesWhatItShows) {
+  EXPECT_EQ(escaped("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
+  EXPECT_NE(page().find("A &lt; B &amp; &quot;C&quot;"), std::string::npos);
+  EXPECT_EQ(page().find("A < B"), std::string::npos);
+}
+
+TEST(Page, CountsVerdictsAndListsWhatDiffers) {
+  EXPECT_NE(page().find("1 agree<"), std::string::npos);
+  EXPECT_NE(page().find("1 differ<"), std::string::npos);
+  const std::string differing = page().substr(page().find("Statements that do not hold"));
+  const std::string before_sections = differing.substr(0, differing.find("<section"));
+  EXPECT_NE(before_sections.find("<q>fails</q>"), std::string::npos);
+  EXPECT_EQ(before_sections.find("<q>holds</q>"), std::string::npos);
+}
+
+TEST(Page, LinksPicturesAndDataAndHasNoScript) {
+  EXPECT_NE(page().find("href=\"some_paper/fig01_example.csv\""), std::string::npos);
+  EXPECT_NE(page().find("src=\"some_paper/fig01_example.png\""), std::string::npos);
+  EXPECT_EQ(page().find("<script"), std::string::npos);
+}
+
+TEST(Markdown, HoldsARowALine) {
+  reproduce::Table table({"a", "b"});
+  table.append_row({std::string("x"), 0.5});
+  EXPECT_EQ(markdown_text(table), "| a | b |\n| --- | --- |\n| x | 0.5 |\n");
+}
+
+TEST(Numbers, AreShort) {
+  EXPECT_EQ(number(0.000123456), "0.000123");
+  EXPECT_EQ(percent(0.0123456), "1.23 %");
+}
+
+}  // namespace
+}  // namespace wavebalance::report
