@@ -65,6 +65,7 @@ Figure pair_figure(const PairPanels& content) {
   figure.panel_width = 400;
   figure.panel_height = content.zoom ? 260 : 300;
   figure.letters = false;
+  figure.title = content.title + "; dashed: time stepping";
   const auto chosen = panel_pairs();
   const Values values = reordered(content.values, pairs(), chosen);
   for (std::size_t row = 0; row < chosen.size(); row += columns) {

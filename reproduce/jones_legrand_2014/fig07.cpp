@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
     artefact.data(jl14::comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                   {"64 functions; reference: time stepping"});
     artefact.picture(
-        jl14::pair_figure({jl14::axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
+        jl14::pair_figure({"Tip displacement at 1275 Hz, 64 functions",
+                           jl14::axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
                            study.gap(), jl14::Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
     artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
     const double error = reproduce::relative_rms_error(u[0], reference);

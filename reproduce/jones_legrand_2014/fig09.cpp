@@ -86,7 +86,8 @@ int main(int argc, char** argv) {
     artefact.data(jl14::comparison_table(study.time(), reference, forces),
                   "time in periods, contact forces divided by the amplitude F of the external force",
                   {"64 functions; reference: time stepping"});
-    artefact.picture(jl14::pair_figure({jl14::axis("Contact force f_c/F (-)", 0.0, 0.7),
+    artefact.picture(jl14::pair_figure({"Contact force at 150 Hz, 64 functions",
+                                        jl14::axis("Contact force f_c/F (-)", 0.0, 0.7),
                                         -0.5,
                                         1.0,
                                         reference,

@@ -100,6 +100,7 @@ struct Zoom {
 /// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a
 /// second panel below each.
 struct PairPanels {
+  std::string title;
   reproduce::Axis y;
   double from = 0.0;   ///< t/T at the left edge
   double scale = 1.0;  ///< of reference, values and level on the ordinate, 1e3 for mm
