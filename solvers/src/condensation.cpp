@@ -1,5 +1,6 @@
 #include "wavebalance/solvers/condensation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,7 +27,11 @@ void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* na
 }
 
 double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
-  return matrix.nonZeros() == 0 ? 0.0 : matrix.coeffs().cwiseAbs().maxCoeff();
+  double largest = 0.0;
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
+      largest = std::max(largest, std::abs(entry.value()));
+  return largest;
 }
 
 std::unique_ptr<Condensation::Method> choose_method(const LinearStructure& structure) {

@@ -25,6 +25,7 @@ TimePair random_pair() {
   const int kind = *rc::gen::inRange(0, testing::pair_kind_count);
   if (kind == 0)
     return testing::fourier_pair(2 * functions + 1, 2 * functions + 1 + *rc::gen::inRange(0, 40));
+  if (kind == 1) return testing::fourier_pair(2 * functions, 2 * functions + *rc::gen::inRange(0, 40));
   return testing::pair_kinds(functions, points)[static_cast<std::size_t>(kind)];
 }
 
