@@ -51,9 +51,15 @@ std::vector<std::string> stage(OutputFiles& files, const Scene& scene, const Rec
   if (!record.sweep.empty())
     add("sweep.csv", csv_text(record.sweep, heading("Periodic responses along the frequency response curve",
                                                     arguments, record)));
+  if (!record.backbone.empty())
+    add("backbone.csv",
+        csv_text(record.backbone, heading("A nonlinear mode over its energy", arguments, record)));
   if (record.figure.panels.empty()) return names;
   const std::string drawn = picture(record.figure);
-  if (!drawn.empty()) add(record.sweep.empty() ? "response.svg" : "sweep.svg", drawn);
+  const std::string stem = !record.sweep.empty()      ? "sweep"
+                           : !record.backbone.empty() ? "backbone"
+                                                      : "response";
+  if (!drawn.empty()) add(stem + ".svg", drawn);
   return names;
 }
 

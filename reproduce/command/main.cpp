@@ -28,8 +28,11 @@ std::string footer() {
          "  wavebalance run case.toml --output results/case\n"
          "  wavebalance run case.toml --output results/haar --set time.trial=haar --set contact.gap=2e-3\n"
          "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n\n"
-         "`run` writes summary.json, response.csv (or sweep.csv), a picture (SVG) and the scene as it was\n"
-         "solved. All of them appear at once, or none. Without gnuplot the picture is left out.\n\n"
+         "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
+         "\"nonlinear_mode\" (reproduce/scenes/laxalde_legrand_2010/rod.toml).\n\n"
+         "`run` writes summary.json, response.csv (or sweep.csv, backbone.csv), a picture (SVG) and the "
+         "scene\n"
+         "as it was solved. All of them appear at once, or none. Without gnuplot the picture is left out.\n\n"
          "Exit codes: 0 solved; 2 bad input or output that cannot be written, nothing written; 3 not\n"
          "converged, the record is written and says so; 130 interrupted (Ctrl-C), nothing written.";
 }

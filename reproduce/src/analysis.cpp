@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+#include <optional>
 
+#include "mode_record.hpp"
 #include "record_figure.hpp"
+#include "summary_parts.hpp"
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/measures.hpp"
 
 namespace wavebalance::reproduce {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// Fraction of the frequency interval; falls where the curve turns back.
 Progress sweep_progress(const Analysis& analysis, int points, double frequency) {
@@ -38,26 +38,6 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   return options;
 }
 
-Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
-                double wall_seconds) {
-  return {{"converged", converged},
-          {"status", status},
-          {"residual", residual},
-          {"iterations", std::int64_t{iterations}},
-          {"unknowns", std::int64_t{unknowns}},
-          {"wall_seconds", wall_seconds}};
-}
-
-void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
-  const bool empty = samples.points() == 0;
-  const auto& u = samples.displacement;
-  summary.emplace_back("max_displacement_m", empty ? missing : u.maxCoeff());
-  summary.emplace_back("min_displacement_m", empty ? missing : u.minCoeff());
-  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u));
-  summary.emplace_back("max_contact_force_N", empty ? missing : samples.contact_force.maxCoeff());
-  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(samples));
-}
-
 Record response_record(const Scene& scene, const Response& response) {
   Record record;
   record.converged = response.converged;
@@ -69,6 +49,12 @@ Record response_record(const Scene& scene, const Response& response) {
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back("used_homotopy", response.used_homotopy);
+  if (response.rigid) {
+    record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
+    record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);
+    record.summary.emplace_back("complementarity", response.rigid->product);
+    record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
+  }
   if (response.samples.points() > 0) {
     record.response = response_table(response.samples);
     record.figure = response_figure(scene, response);
@@ -86,6 +72,10 @@ Record sweep_record(const Scene& scene, const Sweep& sweep) {
   Record record;
   record.converged = sweep.converged();
   record.status = to_string(sweep.curve.status);
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  if (sweep.unsolved > 0)
+    record.status = "no response at " + std::to_string(sweep.unsolved) + " of " +
+                    std::to_string(sweep.curve.points.size() + sweep.unsolved) + " frequencies";
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
@@ -95,23 +85,25 @@ Record sweep_record(const Scene& scene, const Sweep& sweep) {
   record.summary.emplace_back("min_displacement_m", missing);
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
-  record.summary.emplace_back("max_contact_force_N",
-                              points == 0 ? missing : make_law(scene.contact).force(highest));
+  record.summary.emplace_back("max_contact_force_N", points == 0 ? missing
+                                                     : rigid     ? sweep.max_force
+                                                                 : make_law(scene.contact).force(highest));
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
   std::vector<double> turns;
   for (const auto& turn : sweep.curve.turning_points) turns.push_back(turn.frequency);
   record.summary.emplace_back("turning_points_Hz", turns);
+  if (rigid) {
+    record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
+    record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
+  }
   record.sweep = sweep_table(sweep.curve);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
   return record;
 }
 
-}  // namespace
-
-Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
-  const auto start = std::chrono::steady_clock::now();
+Sweep arc_length_sweep(const Scene& scene, const ProgressObserver& observer) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
   int points = 0;
   if (observer)
@@ -122,6 +114,53 @@ Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
   Sweep sweep;
   solvers::CondensedProblem problem = make_problem(scene);
   sweep.curve = solvers::frequency_sweep(problem, make_law(scene.contact), options);
+  return sweep;
+}
+
+/// One point of a rigid sweep; nothing when there is no response.
+std::optional<solvers::SweepPoint> rigid_point(Scene& scene, double frequency, Sweep& sweep) {
+  scene.forcing.frequency = frequency;
+  const Response response = weighted_residual_response(scene);
+  if (!response.converged) return std::nullopt;
+  sweep.max_penetration = std::max(sweep.max_penetration, response.rigid->max_penetration);
+  sweep.max_force = std::max(sweep.max_force, response.samples.contact_force.maxCoeff());
+  const Eigen::VectorXd& u = response.samples.displacement;
+  solvers::SweepPoint point;
+  point.frequency = frequency;
+  point.max_displacement = u.maxCoeff();
+  point.rms_displacement = rms(u);
+  point.max_abs_displacement = u.cwiseAbs().maxCoeff();
+  point.residual = response.residual;
+  return point;
+}
+
+Sweep rigid_sweep(Scene scene, const ProgressObserver& observer) {
+  const Analysis& analysis = scene.analysis;
+  const double interval = analysis.frequency_to - analysis.frequency_from;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(interval) / analysis.largest_step)));
+  Sweep sweep;
+  sweep.curve.status = solvers::SweepStatus::reached_end;
+  for (int i = 0; i <= steps; ++i) {
+    if (i >= analysis.max_points) {
+      sweep.curve.status = solvers::SweepStatus::point_limit;
+      break;
+    }
+    const double frequency = analysis.frequency_from + interval * i / steps;
+    if (const auto point = rigid_point(scene, frequency, sweep))
+      sweep.curve.points.push_back(*point);
+    else
+      ++sweep.unsolved;
+    if (observer) observer(sweep_progress(analysis, i + 1, frequency));
+  }
+  return sweep;
+}
+
+}  // namespace
+
+Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  Sweep sweep = rigid ? rigid_sweep(scene, observer) : arc_length_sweep(scene, observer);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sweep;
 }
@@ -132,6 +171,8 @@ Record analyse(const Scene& scene, const ProgressObserver& observer) {
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
       return sweep_record(scene, frequency_sweep(scene, observer));
+    case AnalysisType::nonlinear_mode:
+      return mode_record(scene, observer);
     case AnalysisType::time_stepping:
       return response_record(scene, time_stepping_response(scene, options));
     case AnalysisType::forced_response:

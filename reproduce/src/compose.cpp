@@ -9,6 +9,7 @@
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/no_contact.hpp"
 #include "wavebalance/fem/bar.hpp"
+#include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 #include "wavebalance/wavelets/periodic_basis.hpp"
@@ -43,6 +44,16 @@ solvers::InnerProducts solver_value(InnerProducts products) {
                                           : solvers::InnerProducts::quadrature;
 }
 
+/// The tip's row of the consistent or lumped mass goes to its neighbour, where it acts as one rigid piece.
+void move_tip_mass(Eigen::SparseMatrix<double>& mass) {
+  const Eigen::Index tip = mass.rows() - 1;
+  const double moved = mass.coeff(tip, tip) + 2.0 * mass.coeff(tip, tip - 1);
+  mass.coeffRef(tip - 1, tip - 1) += moved;
+  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
+    mass.coeffRef(row, column) = 0.0;
+  mass.prune(0.0);
+}
+
 bool is_haar(const std::string& basis) { return basis == "haar" || basis == "daubechies2"; }
 
 /// Opposite a Haar function, whose Fourier coefficient at the Nyquist harmonic is imaginary, only the sine
@@ -64,6 +75,7 @@ solvers::LinearStructure make_structure(const Scene& scene) {
                                      .elements = bar.elements,
                                      .stiffness_damping = bar.stiffness_damping,
                                      .lumped_fraction = bar.lumped_mass_fraction});
+  if (bar.massless_tip) move_tip_mass(matrices.mass);
   solvers::LinearStructure structure;
   structure.mass = std::move(matrices.mass);
   structure.damping = std::move(matrices.damping);
@@ -80,6 +92,8 @@ solvers::AnyContactLaw make_law(const Contact& contact) {
       return contact::ExponentialLaw(contact.constant, contact.exponent, contact.gap);
     case ContactLawType::linear:
       return contact::LinearLaw(contact.stiffness, contact.gap);
+    case ContactLawType::rigid:
+      throw std::invalid_argument("make_law: rigid contact has no force as a function of the displacement");
     case ContactLawType::none:
       break;
   }
@@ -114,6 +128,25 @@ solvers::TimePair make_pair(const Time& time) {
     };
   return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
           std::move(options)};
+}
+
+StructureModes make_modes(const Scene& scene) {
+  const solvers::LinearStructure structure = make_structure(scene);
+  auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
+  if (modes.status != fem::EigenmodesStatus::converged)
+    throw std::runtime_error("make_modes: the eigenvalue solver did not find all linear modes");
+  return {{modes.omega.cwiseAbs2(), modes.shapes.row(structure.contact_dof),
+           Eigen::VectorXd::Constant(1, scene.contact.gap)},
+          modes.shapes};
+}
+
+solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model) {
+  solvers::NonlinearModeOptions options;
+  options.mode = scene.analysis.mode;
+  options.harmonics = scene.analysis.harmonics;
+  options.samples = scene.analysis.samples;
+  options.cosine_only = scene.analysis.cosine_only;
+  return {model, options};
 }
 
 solvers::CondensedProblem make_problem(const Scene& scene) {

@@ -16,14 +16,15 @@ inline constexpr std::array<std::string_view, 0> enum_names{};
 template <>
 inline constexpr std::array<std::string_view, 1> enum_names<StructureType>{"bar"};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<ContactLawType>{"none", "exponential", "linear"};
+inline constexpr std::array<std::string_view, 4> enum_names<ContactLawType>{"none", "exponential", "linear",
+                                                                            "rigid"};
 template <>
 inline constexpr std::array<std::string_view, 3> enum_names<Formulation>{"strong", "weak", "distributional"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<InnerProducts>{"quadrature", "exact"};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<AnalysisType>{"forced_response",
-                                                                          "frequency_sweep", "time_stepping"};
+inline constexpr std::array<std::string_view, 4> enum_names<AnalysisType>{
+    "forced_response", "frequency_sweep", "time_stepping", "nonlinear_mode"};
 
 template <class Enum>
 std::string enum_name(Enum value) {

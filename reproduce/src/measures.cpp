@@ -29,7 +29,9 @@ Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& 
     throw std::invalid_argument("system_energy: the samples hold " + std::to_string(u.rows()) +
                                 " degrees of freedom; they must hold all " +
                                 std::to_string(structure.size()));
-  return solvers::system_energy(structure, make_law(scene.contact), {u, v});
+  // A rigid obstacle stores no energy.
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  return solvers::system_energy(structure, make_law(rigid ? Contact{} : scene.contact), {u, v});
 }
 
 double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples) {

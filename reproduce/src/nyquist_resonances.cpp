@@ -17,7 +17,8 @@ std::vector<double> nyquist_resonances(const Scene& scene, double from, double t
   if (!undamped || !(ratio.real() < 0.0) || std::abs(ratio.imag()) > 1e-9 * std::abs(ratio)) return {};
   const solvers::LinearStructure structure = make_structure(scene);
   std::vector<double> frequencies;
-  for (const double omega : fem::eigenmodes(structure.stiffness, structure.mass, structure.size()).omega)
+  const int modes = structure.size() - (scene.structure.massless_tip ? 1 : 0);
+  for (const double omega : fem::eigenmodes(structure.stiffness, structure.mass, modes).omega)
     if (omega / scale >= from && omega / scale <= to) frequencies.push_back(omega / scale);
   return frequencies;
 }

@@ -1,6 +1,7 @@
 #include "record_figure.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wavebalance::reproduce {
 namespace {
@@ -27,6 +28,10 @@ std::string basis_title(const std::string& basis) {
 }
 
 std::string method_title(const Scene& scene) {
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    return "Mode " + std::to_string(scene.analysis.mode) + ", " + std::to_string(scene.analysis.harmonics) +
+           " harmonics, " + std::to_string(scene.analysis.samples) + " samples, " +
+           std::to_string(scene.structure.elements) + " elements";
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
@@ -61,8 +66,12 @@ void add_motion(Figure& figure, const std::string& quantity, const std::string& 
 }  // namespace
 
 Figure response_figure(const Scene& scene, const Response& response) {
+  return motion_figure(scene, response, scene.forcing.frequency);
+}
+
+Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
   Figure figure;
-  figure.title = method_title(scene) + ", " + frequency_text(scene.forcing.frequency);
+  figure.title = method_title(scene) + ", " + frequency_text(frequency);
   if (!response.converged) figure.title += " (NOT CONVERGED: last iterate)";
   figure.panel_height = 240;
   figure.panel_width = 600;
@@ -73,6 +82,38 @@ Figure response_figure(const Scene& scene, const Response& response) {
     const double factor = scale_of(response.samples.displacement.cwiseAbs().maxCoeff()).factor;
     figure.panels.front().mark_y(factor * scene.contact.gap);
   }
+  return figure;
+}
+
+Figure backbone_figure(const Scene& scene, const Table& backbone) {
+  const auto column = [&](std::string_view name, bool tongues) {
+    auto values = backbone.numbers(name);
+    const auto statuses = backbone.texts("status");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool accepted = statuses[i] == "converged" || statuses[i] == "linear";
+      if (tongues ? statuses[i] != "tongue" : !accepted) values[i] = std::nan("");
+    }
+    return values;
+  };
+  Figure figure;
+  figure.title = method_title(scene);
+  figure.panel_width = 640;
+  figure.panel_height = 420;
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Energy over that of linear grazing";
+  panel.x.lower = 0.0;
+  panel.x.upper = scene.analysis.largest_energy;
+  panel.y.label = "Frequency over the linear one";
+  panel.legend = Legend::bottom_right;
+  panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false)});
+  Series quotient("√r, Rayleigh quotient", column("energy_ratio", false),
+                  column("rayleigh_frequency_ratio", false));
+  quotient.dash = Dash::dashed;
+  panel.add(std::move(quotient));
+  Series tongues("on an internal resonance", column("energy_ratio", true), column("frequency_ratio", true),
+                 SeriesStyle::points);
+  tongues.colour = Colour::grey;
+  panel.add(std::move(tongues)).mark_x(1.0);
   return figure;
 }
 
@@ -93,8 +134,10 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   Panel& panel = figure.add_panel();
   panel.x.label = "Frequency (Hz)";
   panel.y.label = "Displacement (" + scale.prefix + "m)";
-  panel.add({"largest", scaled("frequency_Hz", 1.0), scaled("max_displacement_m", scale.factor)});
-  panel.add({"rms", scaled("frequency_Hz", 1.0), scaled("rms_displacement_m", scale.factor)});
+  // With rigid contact neighbours may lie on different branches: no line joins them.
+  const auto style = scene.contact.law == ContactLawType::rigid ? SeriesStyle::points : SeriesStyle::line;
+  panel.add({"largest", scaled("frequency_Hz", 1.0), scaled("max_displacement_m", scale.factor), style});
+  panel.add({"rms", scaled("frequency_Hz", 1.0), scaled("rms_displacement_m", scale.factor), style});
   if (scene.contact.law != ContactLawType::none) panel.mark_y(scale.factor * scene.contact.gap);
   return figure;
 }

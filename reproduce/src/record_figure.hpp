@@ -7,6 +7,13 @@ namespace wavebalance::reproduce {
 /// title and is drawn dashed and grey.
 Figure response_figure(const Scene& scene, const Response& response);
 
+/// The motion of a nonlinear mode at `frequency`, Hz.
+Figure motion_figure(const Scene& scene, const Response& response, double frequency);
+
+/// Frequency over energy from a backbone_table(): accepted points, what the generalised Rayleigh quotient
+/// would give, and points on tongues as marks.
+Figure backbone_figure(const Scene& scene, const Table& backbone);
+
 /// Largest and rms displacement over the frequency, with its turning points.
 Figure sweep_figure(const Scene& scene, const Sweep& sweep);
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "resampling.hpp"
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/solvers/periodic_field.hpp"
+#include "wavebalance/solvers/rigid_response.hpp"
 #include "wavebalance/solvers/shooting.hpp"
 #include "wavebalance/solvers/time_stepping.hpp"
 
@@ -35,14 +37,58 @@ double logarithmic_share(double error, double tolerance) {
   return std::clamp(std::log(error) / std::log(tolerance), 0.0, 1.0);
 }
 
-solvers::ForcedResponseOptions solver_options(const ResponseOptions& options) {
-  solvers::ForcedResponseOptions result;
-  if (options.observer)
-    result.observer = [observer = options.observer](const std::string& phase, int step, double residual) {
-      observer({phase, "step " + std::to_string(step) + ", residual " + short_number(residual), {}});
-      return true;
-    };
-  return result;
+solvers::SolveObserver solve_observer(const ProgressObserver& observer) {
+  if (!observer) return {};
+  return [observer](const std::string& phase, int step, double residual) {
+    observer({phase, "step " + std::to_string(step) + ", residual " + short_number(residual), {}});
+    return true;
+  };
+}
+
+/// Displacement, velocity and, if asked for, the field of all degrees of freedom.
+solvers::PeriodSamples sample_motion(solvers::CondensedProblem& problem,
+                                     const solvers::PeriodicResponse& response, int points,
+                                     bool full_history) {
+  solvers::MotionEvaluator motion(problem.pair().trial(), points);
+  solvers::PeriodSamples samples;
+  samples.displacement = motion.displacement(response.coefficients);
+  samples.velocity = motion.velocity(response.coefficients, response.frequency);
+  if (!full_history) return samples;
+  auto field = solvers::periodic_field(problem, response.contact_force, points);
+  samples.displacements = std::move(field.displacement);
+  samples.velocities = std::move(field.velocity);
+  return samples;
+}
+
+void note_solution(Response& result, const solvers::PeriodicResponse& found) {
+  result.converged = found.converged();
+  result.status = to_string(found.status);
+  result.residual = found.residual;
+  result.iterations = found.iterations;
+  result.used_homotopy = found.used_homotopy;
+}
+
+void solve_law(const Scene& scene, solvers::CondensedProblem& problem, const ResponseOptions& options,
+               Response& result) {
+  solvers::ForcedResponseOptions solver;
+  solver.observer = solve_observer(options.observer);
+  const solvers::AnyContactLaw law = make_law(scene.contact);
+  const auto found = solvers::forced_response(problem, law, solver, options.guess);
+  note_solution(result, found);
+  result.samples = sample_response(problem, found, law, scene.analysis.output_points, options.full_history);
+}
+
+void solve_rigid(const Scene& scene, solvers::CondensedProblem& problem, const ResponseOptions& options,
+                 Response& result) {
+  solvers::RigidResponseOptions solver;
+  solver.observer = solve_observer(options.observer);
+  const auto found = solvers::rigid_response(problem, scene.contact.gap, solver);
+  note_solution(result, found.response);
+  const auto& contact = found.complementarity;
+  result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
+  result.residual = std::max(found.response.residual, contact.product);
+  result.samples = sample_motion(problem, found.response, scene.analysis.output_points, options.full_history);
+  result.samples.contact_force = nearest_samples(found.response.contact_force, scene.analysis.output_points);
 }
 
 }  // namespace
@@ -50,15 +96,8 @@ solvers::ForcedResponseOptions solver_options(const ResponseOptions& options) {
 solvers::PeriodSamples sample_response(solvers::CondensedProblem& problem,
                                        const solvers::PeriodicResponse& response,
                                        const solvers::AnyContactLaw& law, int points, bool full_history) {
-  solvers::MotionEvaluator motion(problem.pair().trial(), points);
-  solvers::PeriodSamples samples;
-  samples.displacement = motion.displacement(response.coefficients);
-  samples.velocity = motion.velocity(response.coefficients, response.frequency);
+  solvers::PeriodSamples samples = sample_motion(problem, response, points, full_history);
   samples.contact_force = samples.displacement.unaryExpr([&law](double u) { return law.force(u); });
-  if (!full_history) return samples;
-  auto field = solvers::periodic_field(problem, response.contact_force, points);
-  samples.displacements = std::move(field.displacement);
-  samples.velocities = std::move(field.velocity);
   return samples;
 }
 
@@ -68,20 +107,13 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
   result.unknowns = scene.time.functions;
   try {
     solvers::CondensedProblem problem = make_problem(scene);
-    const solvers::AnyContactLaw law = make_law(scene.contact);
-    const auto found = solvers::forced_response(problem, law, solver_options(options), options.guess);
-    result.wall_seconds = seconds_since(start);
-    result.converged = found.converged();
-    result.status = to_string(found.status);
-    result.residual = found.residual;
-    result.iterations = found.iterations;
-    result.used_homotopy = found.used_homotopy;
-    result.samples = sample_response(problem, found, law, scene.analysis.output_points, options.full_history);
+    const bool rigid = scene.contact.law == ContactLawType::rigid;
+    (rigid ? solve_rigid : solve_law)(scene, problem, options, result);
   } catch (const solvers::SingularSystem& error) {
-    result.wall_seconds = seconds_since(start);
     result.status = std::string("singular: ") + error.what();
     result.residual = std::numeric_limits<double>::quiet_NaN();
   }
+  result.wall_seconds = seconds_since(start);
   return result;
 }
 

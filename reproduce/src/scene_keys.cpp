@@ -55,6 +55,8 @@ SceneKey key(std::string_view section, std::string_view name, std::string_view u
     result.choices = enum_choices<Field>();
   } else if constexpr (std::is_same_v<Field, std::string>) {
     result.type = Type::text;
+  } else if constexpr (std::is_same_v<Field, bool>) {
+    result.type = Type::boolean;
   } else {
     result.type = std::is_same_v<Field, int> ? Type::integer : Type::number;
   }
@@ -124,17 +126,22 @@ void add_structure(std::vector<SceneKey>& keys) {
                            "structure", "lumped_mass_fraction", "",
                            "0 for the consistent mass matrix, 1 for the lumped one, between them a mixture"),
                        {0, 1})));
+  keys.push_back(belonging(
+      optional(key<s, &Structure::massless_tip>("structure", "massless_tip", "",
+                                                "true moves the tip's mass to its neighbour, so that rigid "
+                                                "contact has no mass to stop at once")),
+      {"analysis.type", {"forced_response", "frequency_sweep"}}));
 }
 
 void add_contact(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::contact;
   const Condition exponential{"contact.law", {"exponential"}};
   const Condition linear{"contact.law", {"linear"}};
-  const Condition any_law{"contact.law", {"exponential", "linear"}};
+  const Condition any_law{"contact.law", {"exponential", "linear", "rigid"}};
   keys.push_back(optional(key<s, &Contact::law>(
       "contact", "law", "",
       "force at the tip once its displacement u exceeds the gap: constant (exp(exponent "
-      "(u - gap)) - 1) or stiffness (u - gap)")));
+      "(u - gap)) - 1), stiffness (u - gap), or, rigid, whatever keeps u at the gap")));
   keys.push_back(belonging(
       bounded(key<s, &Contact::constant>("contact", "constant", "N", "a_c of the exponential law"), positive),
       exponential));
@@ -152,8 +159,9 @@ void add_contact(std::vector<SceneKey>& keys) {
 
 void add_forcing(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::forcing;
-  keys.push_back(key<s, &Forcing::amplitude>("forcing", "amplitude", "N",
-                                             "force at the tip, amplitude cos(2 pi frequency t)"));
+  keys.push_back(needed(key<s, &Forcing::amplitude>("forcing", "amplitude", "N",
+                                                    "force at the tip, amplitude cos(2 pi frequency t)"),
+                        {"analysis.type", {"forced_response", "frequency_sweep", "time_stepping"}}));
   keys.push_back(
       needed(bounded(key<s, &Forcing::frequency>("forcing", "frequency", "Hz",
                                                  "frequency of the force; a sweep does not use it"),
@@ -227,6 +235,42 @@ void add_sweep(std::vector<SceneKey>& keys) {
       sweep));
 }
 
+void add_mode(std::vector<SceneKey>& keys) {
+  constexpr auto s = &Scene::analysis;
+  const auto add = [&keys](SceneKey key) {
+    keys.push_back(belonging(std::move(key), {"analysis.type", {"nonlinear_mode"}}));
+  };
+  add(optional(bounded(
+      key<s, &Analysis::mode>("analysis", "mode", "", "the linear mode that the nonlinear one continues"),
+      {1, 10'000'000})));
+  add(optional(bounded(
+      key<s, &Analysis::harmonics>("analysis", "harmonics", "", "harmonics N of the Fourier series in time"),
+      {1, 4096})));
+  add(derived(bounded(key<s, &Analysis::samples>(
+                          "analysis", "samples", "",
+                          "uniform times of one period at which contact is enforced, at least 2 x harmonics"),
+                      {2, 1 << 16}),
+              "2 x harmonics",
+              [](const Scene& scene) -> SceneValue { return std::int64_t{2} * scene.analysis.harmonics; }));
+  add(optional(key<s, &Analysis::cosine_only>("analysis", "cosine_only", "",
+                                              "true seeks motions that are even in time only")));
+  add(optional(bounded(
+      key<s, &Analysis::energy_ratio>(
+          "analysis", "energy_ratio", "",
+          "the one motion of this energy, over that of the linear mode that just touches; 0 for the curve"),
+      not_negative)));
+  add(optional(bounded(key<s, &Analysis::largest_energy>("analysis", "largest_energy", "",
+                                                         "the curve ends beyond this energy ratio"),
+                       {1, infinity, true})));
+  add(optional(bounded(
+      key<s, &Analysis::last_frequency_ratio>("analysis", "last_frequency_ratio", "",
+                                              "or beyond this ratio of the frequency to the linear one"),
+      {1.001, infinity, true})));
+  add(optional(bounded(
+      key<s, &Analysis::points>("analysis", "points", "", "of the curve, uniform in frequency up to there"),
+      {2, 1'000'000})));
+}
+
 void add_analysis(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::analysis;
   const Condition time_stepping{"analysis.type", {"time_stepping"}};
@@ -246,6 +290,7 @@ void add_analysis(std::vector<SceneKey>& keys) {
                                                                            "given up after so many periods"),
                                             {1, 100'000'000})),
                            time_stepping));
+  add_mode(keys);
 }
 
 std::vector<SceneKey> make_keys() {

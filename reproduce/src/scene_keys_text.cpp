@@ -76,6 +76,7 @@ std::string escaped(std::string_view text) {
 
 std::string toml_text(const SceneValue& value) {
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value)) return "\"" + escaped(*text) + "\"";
   const std::string number = number_text(std::get<double>(value));
   return number.find_first_of(".en") == std::string::npos ? number + ".0" : number;
@@ -95,6 +96,7 @@ std::string Condition::text() const {
 
 std::string SceneKey::expected() const {
   if (type == Type::text) return alternatives(choices);
+  if (type == Type::boolean) return "true or false";
   std::string text = type == Type::integer ? "an integer" : "a number";
   if (!unit.empty()) text += " in " + std::string(unit);
   const std::string range = bounds.text();

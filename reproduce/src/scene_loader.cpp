@@ -102,7 +102,13 @@ SceneValue checked_number(const Document& document, const DocumentEntry& entry, 
   return value;
 }
 
+SceneValue checked_truth(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  if (const auto* truth = std::get_if<bool>(&entry.value)) return *truth;
+  fail_at(document, entry, "expected " + key.expected());
+}
+
 SceneValue checked(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  if (key.type == SceneKey::Type::boolean) return checked_truth(document, entry, key);
   return key.type == SceneKey::Type::text ? checked_text(document, entry, key)
                                           : checked_number(document, entry, key);
 }

@@ -10,7 +10,7 @@
 namespace wavebalance::reproduce {
 namespace {
 
-constexpr int most_stepped_elements = 2000;  // dense matrices of twice that size
+constexpr int most_dense_elements = 2000;  // time stepping: dense matrices of twice that size; modes: of that
 
 bool is_power_of_two(int value) { return value > 0 && std::has_single_bit(static_cast<unsigned>(value)); }
 
@@ -59,6 +59,33 @@ void check_sweep(const Document& document, const Analysis& analysis) {
               "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
 }
 
+void check_mode(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  if (scene.contact.law != ContactLawType::rigid)
+    fail_rule(document, {"contact.law"}, "expected \"rigid\" for a nonlinear mode");
+  if (!(scene.contact.gap > 0.0))
+    fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
+  if (scene.structure.stiffness_damping != 0.0)
+    fail_rule(document, {"structure.stiffness_damping"},
+              "expected 0 for a nonlinear mode, which is a motion without damping");
+  if (analysis.mode > scene.structure.elements)
+    fail_rule(document, {"analysis.mode"},
+              "expected at most structure.elements = " + std::to_string(scene.structure.elements));
+  if (analysis.samples < 2 * analysis.harmonics)
+    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
+              "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+}
+
+void check_rigid(const Document& document, const Scene& scene) {
+  if (scene.contact.law != ContactLawType::rigid) return;
+  if (scene.analysis.type == AnalysisType::time_stepping)
+    fail_rule(
+        document, {"contact.law", "analysis.type"},
+        "not with time stepping: at a rigid obstacle the motion of a structure cut into elements goes "
+        "on only with a law of impact, which the scene does not have; expected a stiff \"linear\" law, or "
+        "analysis.type = \"forced_response\"");
+}
+
 }  // namespace
 
 void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
@@ -68,12 +95,19 @@ void fail_at(const Document& document, const DocumentEntry& entry, std::string a
 
 void check_scene_rules(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (type != AnalysisType::time_stepping) check_time(document, scene);
-  if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
-  if (type == AnalysisType::time_stepping && scene.structure.elements > most_stepped_elements)
+  const bool stepping = type == AnalysisType::time_stepping, mode = type == AnalysisType::nonlinear_mode;
+  if (!stepping && !mode) check_time(document, scene);
+  if (mode) check_mode(document, scene);
+  check_rigid(document, scene);
+  if (scene.structure.massless_tip && scene.structure.elements < 2)
     fail_rule(document, {"structure.elements"},
-              "expected at most " + std::to_string(most_stepped_elements) +
-                  " for time stepping, whose matrices are dense");
+              "expected 2 or more with massless_tip, whose mass goes to a neighbour");
+  if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
+  if ((stepping || mode) && scene.structure.elements > most_dense_elements)
+    fail_rule(document, {"structure.elements"},
+              "expected at most " + std::to_string(most_dense_elements) + " for " +
+                  (mode ? "a nonlinear mode, which takes all linear modes"
+                        : "time stepping, whose matrices are dense"));
 }
 
 }  // namespace wavebalance::reproduce

@@ -176,6 +176,47 @@ TEST(CommandCheck, SaysWhatWouldBeSolvedAndWritesNothing) {
   EXPECT_EQ(TemporaryFolder::count(folder.path()), 3);  // the scene and the two streams
 }
 
+TEST(CommandRun, NonlinearModeWritesItsBackbone) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("rod.toml", rod_scene);
+  const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* name : {"summary.json", "backbone.csv", "backbone.svg", "scene.toml"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 4);
+  const Table table = read_csv(folder / "out" / "backbone.csv");
+  EXPECT_TRUE(table.has_column("rayleigh_frequency_ratio"));
+  EXPECT_GT(table.rows(), 50u);
+  EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(scene));
+}
+
+TEST(CommandRun, MotionOfAPrescribedEnergyWritesAResponse) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"run", folder.write("rod.toml", rod_scene), "--output", folder / "out",
+                                       "--set", "analysis.energy_ratio=0.7"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder / "out" / "response.csv"));
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"status\": \"linear\""), std::string::npos);
+}
+
+TEST(CommandRun, ModeWithoutAMotionOfThatEnergyIsThree) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"run", folder.write("rod.toml", rod_scene), "--output", folder / "out",
+                                       "--set", "analysis.energy_ratio=1e9"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"converged\": false"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out" / "response.csv"));
+}
+
+TEST(CommandCheck, SaysWhatAModeWouldBe) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"check", folder.write("rod.toml", rod_scene)});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* part : {"rigid obstacle", "10 harmonics", "200 points", "20 contact forces", "1297 Hz"})
+    EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " is not in\n" << outcome.output;
+  EXPECT_EQ(outcome.output.find("forcing"), std::string::npos);
+}
+
 TEST(CommandCheck, InadmissiblePairIsTwo) {
   const TemporaryFolder folder;
   const Outcome outcome = run(folder, {"check", folder.write("case.toml", bar_scene), "--set",

@@ -186,6 +186,46 @@ TEST(SceneLoader, TimeSteppingNeedsNoBases) {
                "at most 2000");
 }
 
+TEST(SceneLoader, NonlinearModesNeedNeitherForcingNorBases) {
+  const Scene scene = parse_scene(rod_scene, "rod.toml");
+  EXPECT_EQ(scene.analysis.type, AnalysisType::nonlinear_mode);
+  EXPECT_EQ(scene.analysis.samples, 20);
+  EXPECT_FALSE(scene.analysis.cosine_only);
+  EXPECT_EQ(scene.analysis.energy_ratio, 0.0);
+  EXPECT_EQ(parse_scene(write_scene(scene), "written"), scene);
+}
+
+TEST(SceneLoader, NonlinearModesAreOfRigidContactWithoutDamping) {
+  expect_error(with(rod_scene, "law = \"rigid\"                   # 10", "law = \"linear\"\nstiffness = 1e9"),
+               10, "contact.law", "\"linear\"", "\"rigid\"");
+  expect_error(with(rod_scene, "gap = 1e-3", "gap = 0.0"), 11, "contact.gap", "0.0", "> 0");
+  expect_error(with(rod_scene, "# 8", "\nstiffness_damping = 1e-6"), 9, "structure.stiffness_damping",
+               "1e-6", "expected 0");
+  expect_error(with(rod_scene, "points = 200 ", "mode = 21 "), 14, "analysis.mode", "21", "at most");
+  expect_error(with(rod_scene, "points = 200 ", "samples = 19 "), 14, "analysis.samples", "19", "= 20");
+  expect_error(with(rod_scene, "points = 200 ", "cosine_only = 1 "), 14, "analysis.cosine_only", "1",
+               "true or false");
+  expect_error(with(rod_scene, "points = 200 ", "tolerance = 1e-3 "), 14, "analysis.tolerance", "0.001",
+               "time_stepping");
+}
+
+TEST(SceneLoader, RigidContactTakesAGapAlone) {
+  const std::string rigid =
+      with(with(with(bar_scene, "\"exponential\"", "\"rigid\""), "constant = 1e8  ", "# "), "exponent", "#");
+  const Scene scene = parse_scene(rigid, "case.toml");
+  EXPECT_EQ(scene.contact.law, ContactLawType::rigid);
+  EXPECT_EQ(parse_scene(write_scene(scene), "written"), scene);
+  expect_error(with(bar_scene, "\"exponential\"", "\"rigid\""), 11, "contact.constant", "1e8",
+               "contact.law = \"exponential\"");
+  const auto stepping = error_of(rigid, {"analysis.type=time_stepping"});
+  EXPECT_EQ(stepping.key, "contact.law");
+  EXPECT_NE(stepping.allowed.find("law of impact"), std::string::npos) << stepping.allowed;
+  EXPECT_EQ(error_of(rigid, {"structure.massless_tip=true", "structure.elements=1"}).key,
+            "structure.elements");
+  EXPECT_EQ(error_of(bar_scene, {"structure.massless_tip=true", "analysis.type=time_stepping"}).key,
+            "structure.massless_tip");
+}
+
 TEST(SceneLoader, SyntaxErrorsCarryTheirLine) {
   const auto details = error_of(with(bar_scene, "gap = 1e-3", "gap = "));
   EXPECT_EQ(details.line, 13);

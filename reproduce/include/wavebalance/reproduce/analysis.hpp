@@ -17,25 +17,34 @@ namespace wavebalance::reproduce {
 struct Sweep {
   solvers::FrequencySweep curve;
   double wall_seconds = 0.0;
+  int unsolved = 0;              ///< with rigid contact: frequencies without a response, missing in the curve
+  double max_penetration = 0.0;  ///< m, with rigid contact: at the quadrature points of the whole curve
+  double max_force = 0.0;        ///< N, with rigid contact
 
-  bool converged() const { return curve.status == solvers::SweepStatus::reached_end; }
+  bool converged() const { return curve.status == solvers::SweepStatus::reached_end && unsolved == 0; }
 };
 
 /// The scene's frequency response by arc length. Steps: a change of frequency by 1/20 of the interval and a
 /// change of displacement by the gap count alike; analysis.first_step and analysis.largest_step are in Hz of
 /// the former.
+///
+/// With rigid contact each sample that opens or closes makes a corner of the curve, and arc length with a
+/// spring stiff enough to stand for the obstacle loses its way among them. The response is solved anew
+/// instead at uniform frequencies, analysis.largest_step apart at most: all points meet complementarity, but
+/// where several responses exist which one is found may change from one frequency to the next.
 Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {});
 
 using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
 using Summary = std::vector<std::pair<std::string, SummaryValue>>;
 
-/// What an analysis leaves behind: summary.json, response.csv or sweep.csv, and a picture.
+/// What an analysis leaves behind: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
 struct Record {
   bool converged = false;
   std::string status;
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
-  Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a sweep
+  Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< frequency_Hz, max_displacement_m, rms_displacement_m; empty otherwise
+  Table backbone;   ///< of a nonlinear mode, see backbone_table(); empty otherwise
   Figure figure;    ///< without panels when there is nothing to draw
 };
 

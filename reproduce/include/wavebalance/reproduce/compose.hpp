@@ -3,6 +3,7 @@
 #include "wavebalance/solvers/condensed_problem.hpp"
 #include "wavebalance/solvers/contact_law.hpp"
 #include "wavebalance/solvers/linear_structure.hpp"
+#include "wavebalance/solvers/nonlinear_mode.hpp"
 #include "wavebalance/solvers/time_pair.hpp"
 
 namespace wavebalance::reproduce {
@@ -11,6 +12,7 @@ namespace wavebalance::reproduce {
 /// O(elements).
 solvers::LinearStructure make_structure(const Scene& scene);
 
+/// Throws std::invalid_argument for rigid contact, which is no law but a complementarity.
 solvers::AnyContactLaw make_law(const Contact& contact);
 
 /// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a
@@ -29,6 +31,18 @@ solvers::Admissibility pair_admissibility(const Time& time);
 /// Fourier functions ends with sin(M pi t) in place of cos(M pi t), which Haar functions and their even
 /// derivatives do not see.
 solvers::TimePair make_pair(const Time& time);
+
+/// The structure without damping in its own linear modes, all of them.
+struct StructureModes {
+  solvers::ModalModel model;
+  Eigen::MatrixXd shapes;  ///< n x r, mass-normalised
+};
+
+/// Throws std::runtime_error if the eigenvalue solver does not converge. O(n^3).
+StructureModes make_modes(const Scene& scene);
+
+/// The scene's nonlinear mode on these modes.
+solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model);
 
 /// Bar, law's place and pair condensed on the tip; at forcing.frequency if that is set.
 solvers::CondensedProblem make_problem(const Scene& scene);

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "wavebalance/reproduce/scene.hpp"
@@ -21,6 +22,14 @@ struct Progress {
 /// Told from time to time; may be empty.
 using ProgressObserver = std::function<void(const Progress&)>;
 
+/// What rigid contact leaves besides the motion.
+struct RigidContact {
+  double max_penetration = 0.0;  ///< m, at the quadrature points, where contact is enforced; negative: none
+  double min_force = 0.0;        ///< N, at the quadrature points
+  double product = 0.0;          ///< of force and opening over their largest, at the quadrature points
+  double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
+};
+
 /// A periodic response of a scene's tip, or an honest failure to find one.
 struct Response {
   bool converged = false;
@@ -30,7 +39,8 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
   bool used_homotopy = false;
-  double wall_seconds = 0.0;  ///< composition and solution
+  double wall_seconds = 0.0;          ///< composition, solution and samples
+  std::optional<RigidContact> rigid;  ///< of scenes with rigid contact
   solvers::PeriodSamples
       samples;  ///< analysis.output_points samples: SI units; empty if there is nothing at all
 };
@@ -44,6 +54,10 @@ struct ResponseOptions {
 /// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
 /// singular system is told by `converged` and `status`; then `samples` hold the last iterate. Throws
 /// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would not have let pass.
+///
+/// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature
+/// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is
+/// known at these points only: the samples hold that of the nearest one.
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
 
 /// The scene's response by time stepping until two periods agree to analysis.tolerance.

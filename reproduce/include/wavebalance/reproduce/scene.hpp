@@ -4,10 +4,10 @@
 namespace wavebalance::reproduce {
 
 enum class StructureType { bar };
-enum class ContactLawType { none, exponential, linear };
+enum class ContactLawType { none, exponential, linear, rigid };
 enum class Formulation { strong, weak, distributional };
 enum class InnerProducts { quadrature, exact };
-enum class AnalysisType { forced_response, frequency_sweep, time_stepping };
+enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
 
 /// The vibrating structure: an axial bar, clamped at x = 0, whose tip x = length may touch an obstacle [JL14,
 /// Fig. 1].
@@ -20,11 +20,13 @@ struct Structure {
   int elements = 0;                   ///< two-node elements, >= 1; as many degrees of freedom
   double stiffness_damping = 0.0;     ///< s, beta in C = beta K, >= 0
   double lumped_mass_fraction = 0.0;  ///< 0 consistent mass, 1 lumped mass, between them a mixture
+  bool massless_tip = false;          ///< the tip's mass is moved to its neighbour: forced_response and sweep
 
   bool operator==(const Structure&) const = default;
 };
 
-/// The contact force at the tip as a function of its displacement u; zero for u <= gap.
+/// The contact force at the tip as a function of its displacement u; zero for u < gap. Rigid contact has no
+/// such function: u <= gap, force >= 0, product 0.
 struct Contact {
   ContactLawType law = ContactLawType::none;
   double constant = 0.0;   ///< N, > 0, a_c of the exponential law [JL14, eq. (5)]
@@ -35,7 +37,7 @@ struct Contact {
   bool operator==(const Contact&) const = default;
 };
 
-/// The force amplitude * cos(2 pi frequency t) at the tip.
+/// The force amplitude * cos(2 pi frequency t) at the tip. Nonlinear modes do not use it.
 struct Forcing {
   double amplitude = 0.0;  ///< N
   double frequency = 0.0;  ///< Hz, > 0; a frequency sweep does not use it
@@ -44,7 +46,7 @@ struct Forcing {
 };
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
-/// 2>". Time stepping does not use it.
+/// 2>". Time stepping and nonlinear modes do not use it.
 struct Time {
   std::string trial;
   std::string weight;
@@ -69,6 +71,15 @@ struct Analysis {
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
+
+  int mode = 1;                       ///< nonlinear_mode: the linear mode that is continued, from 1
+  int harmonics = 10;                 ///< nonlinear_mode: N of the Fourier series
+  int samples = 0;                    ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
+  bool cosine_only = false;           ///< nonlinear_mode: motions that are even in time only
+  double energy_ratio = 0.0;          ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
+  double largest_energy = 10.0;       ///< nonlinear_mode: energy ratio at which the curve ends
+  double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
+  int points = 200;                   ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio
 
   bool operator==(const Analysis&) const = default;
 };

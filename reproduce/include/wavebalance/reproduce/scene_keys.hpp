@@ -12,7 +12,7 @@
 namespace wavebalance::reproduce {
 
 /// The value of a scene's key.
-using SceneValue = std::variant<std::int64_t, double, std::string>;
+using SceneValue = std::variant<std::int64_t, double, std::string, bool>;
 
 /// The numbers that a key admits.
 struct Bounds {
@@ -37,7 +37,7 @@ struct Condition {
 
 /// One key of a scene file: all that the loader, the writer and the help know about it.
 struct SceneKey {
-  enum class Type { integer, number, text };
+  enum class Type { integer, number, text, boolean };
   enum class Default { required, value, derived };
 
   std::string_view section;

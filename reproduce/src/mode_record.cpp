@@ -1,0 +1,152 @@
+#include "mode_record.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "record_figure.hpp"
+#include "summary_parts.hpp"
+#include "wavebalance/reproduce/modes.hpp"
+
+namespace wavebalance::reproduce {
+namespace {
+
+using solvers::ModePoint;
+using solvers::ModeStatus;
+
+/// The largest of a number over the accepted points.
+template <class Number>
+double largest(const Backbone& curve, Number number) {
+  double value = missing;
+  for (const ModePoint& point : curve.points)
+    if (point.accepted()) value = std::fmax(value, number(point));
+  return value;
+}
+
+std::string joined_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::string> all_tongues(const Backbone& curve) {
+  std::vector<std::string> names;
+  for (const Interruption& gap : curve.interruptions)
+    for (const auto& name : gap.tongues)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+int iterations_of(const Backbone& curve) {
+  int total = 0;
+  for (const ModePoint& point : curve.points) total += point.iterations;
+  return total;
+}
+
+double worst_residual(const Backbone& curve) {
+  double value = missing;
+  for (std::size_t i = 0; i < curve.points.size(); ++i)
+    if (curve.points[i].accepted()) value = std::fmax(value, curve.residuals[i]);
+  return value;
+}
+
+void append_discretisation(Summary& summary, const ModeStudy& study) {
+  const Analysis& analysis = study.scene().analysis;
+  summary.emplace_back("analysis", name_of(analysis.type));
+  summary.emplace_back("mode", std::int64_t{analysis.mode});
+  summary.emplace_back("harmonics", std::int64_t{analysis.harmonics});
+  summary.emplace_back("samples", std::int64_t{analysis.samples});
+  summary.emplace_back("linear_frequency_Hz", study.linear_frequency());
+}
+
+void append_curve(Summary& summary, const Backbone& curve, double gap) {
+  const double penetration = largest(curve, [](const auto& point) { return point.max_penetration; });
+  summary.emplace_back("max_displacement_m", gap * (1.0 + penetration));
+  summary.emplace_back("min_displacement_m", missing);
+  summary.emplace_back("rms_displacement_m", missing);
+  summary.emplace_back("max_contact_force_N",
+                       largest(curve, [](const auto& point) { return point.force.maxCoeff(); }));
+  summary.emplace_back("contact_fraction",
+                       largest(curve, [](const auto& point) { return point.contact_fraction; }));
+}
+
+void append_statuses(Summary& summary, const Backbone& curve) {
+  summary.emplace_back("points", static_cast<std::int64_t>(curve.points.size()));
+  for (const auto status : {ModeStatus::converged, ModeStatus::tongue, ModeStatus::cycling,
+                            ModeStatus::no_contact, ModeStatus::singular})
+    summary.emplace_back("points_" + to_string(status), std::int64_t{curve.count(status)});
+  summary.emplace_back("tongues", joined_names(all_tongues(curve)));
+  summary.emplace_back("interruptions", static_cast<std::int64_t>(curve.interruptions.size()));
+}
+
+void append_quality(Summary& summary, double penetration, double min_force, double identity) {
+  summary.emplace_back("max_penetration_over_gap", std::max(0.0, penetration));
+  summary.emplace_back("min_contact_force_N", min_force);
+  summary.emplace_back("identity_defect", identity);
+}
+
+Record curve_record(const ModeStudy& study) {
+  const Backbone curve = study.backbone();
+  Record record;
+  record.converged = curve.converged();
+  record.status = curve.status();
+  record.summary = opening(record.converged, record.status, worst_residual(curve), iterations_of(curve),
+                           study.scene().analysis.samples, curve.wall_seconds);
+  append_curve(record.summary, curve, study.scene().contact.gap);
+  append_discretisation(record.summary, study);
+  append_statuses(record.summary, curve);
+  append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
+                 -largest(curve, [](const auto& point) { return -point.min_force; }),
+                 largest(curve, [](const auto& point) { return point.identity_defect; }));
+  record.summary.emplace_back("largest_energy_ratio",
+                              largest(curve, [](const auto& point) { return point.energy_ratio; }));
+  record.summary.emplace_back("largest_frequency_ratio", largest(curve, [&](const auto& point) {
+                                return point.omega / study.mode().linear_omega();
+                              }));
+  record.backbone = backbone_table(study, curve);
+  record.figure = backbone_figure(study.scene(), record.backbone);
+  if (!record.converged) record.figure.title += " (INCOMPLETE: " + record.status + ")";
+  return record;
+}
+
+Record motion_record(const ModeStudy& study) {
+  const Scene& scene = study.scene();
+  const auto start = std::chrono::steady_clock::now();
+  const ModePoint point = study.at_energy(scene.analysis.energy_ratio);
+  Response response;
+  response.samples = study.samples(point, scene.analysis.output_points, false);
+  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const bool moves = response.samples.points() > 0;
+  Record record;
+  record.converged = response.converged = point.accepted();
+  record.status = to_string(point.status);
+  if (point.status == ModeStatus::tongue) record.status += " " + tongue_name(point.tongue);
+  record.summary = opening(record.converged, record.status, moves ? study.residual(point) : missing,
+                           point.iterations, scene.analysis.samples, response.wall_seconds);
+  append_motion(record.summary, response.samples);
+  append_discretisation(record.summary, study);
+  const double ratio = point.omega / study.mode().linear_omega();
+  record.summary.emplace_back("frequency_Hz", moves ? ratio * study.linear_frequency() : missing);
+  record.summary.emplace_back("frequency_ratio", moves ? ratio : missing);
+  record.summary.emplace_back("rayleigh_frequency_ratio",
+                              moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
+  record.summary.emplace_back("energy_ratio", moves ? point.energy_ratio : missing);
+  append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
+                 moves ? point.identity_defect : missing);
+  if (!moves) return record;
+  record.response = response_table(response.samples);
+  record.figure =
+      motion_figure(scene, response, std::round(100.0 * ratio * study.linear_frequency()) / 100.0);
+  return record;
+}
+
+}  // namespace
+
+Record mode_record(const Scene& scene, const ProgressObserver& observer) {
+  if (observer) observer({"nonlinear mode", "linear modes", {}});
+  const ModeStudy study(scene);
+  if (observer) observer({"nonlinear mode", "backbone", {}});
+  return scene.analysis.energy_ratio > 0.0 ? motion_record(study) : curve_record(study);
+}
+
+}  // namespace wavebalance::reproduce

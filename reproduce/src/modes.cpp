@@ -1,0 +1,185 @@
+#include "wavebalance/reproduce/modes.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "resampling.hpp"
+
+namespace wavebalance::reproduce {
+namespace {
+
+using solvers::ModePoint;
+using solvers::ModeStatus;
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr int linear_points = 6;  // of the branch below contact, energies 0, 0.2, ..
+
+bool is_solution(const ModePoint& point) { return point.accepted() || point.status == ModeStatus::tongue; }
+
+solvers::BackboneOptions curve_options(const Analysis& analysis) {
+  solvers::BackboneOptions options;
+  options.last_ratio = analysis.last_frequency_ratio;
+  options.points = analysis.points;
+  options.largest_energy = analysis.largest_energy;
+  return options;
+}
+
+void add_to(Interruption& gap, const ModePoint& point, double ratio) {
+  gap.last_ratio = ratio;
+  if (point.status != ModeStatus::tongue) {
+    if (gap.status.empty()) gap.status = to_string(point.status);
+    return;
+  }
+  const std::string name = tongue_name(point.tongue);
+  if (std::find(gap.tongues.begin(), gap.tongues.end(), name) == gap.tongues.end())
+    gap.tongues.push_back(name);
+}
+
+std::vector<Interruption> interruptions_of(const std::vector<ModePoint>& points, double linear_omega) {
+  std::vector<Interruption> gaps;
+  bool open = false;
+  for (const ModePoint& point : points) {
+    const double ratio = point.omega / linear_omega;
+    if (point.accepted()) {
+      if (open) gaps.back().bridged = true;
+      open = false;
+      continue;
+    }
+    if (!open) gaps.push_back({ratio, ratio, {}, "", false});
+    open = true;
+    add_to(gaps.back(), point, ratio);
+  }
+  return gaps;
+}
+
+/// u_n of the structure, n x (N + 1).
+Eigen::MatrixXcd physical(const StructureModes& modes, const ModePoint& point) {
+  return modes.shapes * point.amplitudes;
+}
+
+/// Re sum_n factor_n column_n exp(2 pi i n l / points), with both signs of n > 0.
+Eigen::MatrixXd synthesis(const Eigen::MatrixXcd& columns, int points) {
+  Eigen::MatrixXcd waves(columns.cols(), points);
+  for (Eigen::Index n = 0; n < waves.rows(); ++n)
+    for (Eigen::Index l = 0; l < points; ++l)
+      waves(n, l) =
+          std::polar(n == 0 ? 1.0 : 2.0, 2.0 * std::numbers::pi * static_cast<double>(n * l % points) /
+                                             static_cast<double>(points));
+  return (columns * waves).real();
+}
+
+}  // namespace
+
+int Backbone::count(ModeStatus status) const {
+  return static_cast<int>(std::count_if(points.begin(), points.end(),
+                                        [&](const ModePoint& point) { return point.status == status; }));
+}
+
+bool Backbone::converged() const { return status() == "converged"; }
+
+std::string Backbone::status() const {
+  if (count(ModeStatus::converged) == 0) return "no motion with contact was found";
+  for (const Interruption& gap : interruptions)
+    if (gap.tongues.empty())
+      return gap.status + " at frequency ratio " + std::to_string(gap.first_ratio) + ", on no known tongue";
+  return "converged";
+}
+
+ModeStudy::ModeStudy(const Scene& scene)
+    : scene_(scene),
+      structure_(make_structure(scene)),
+      modes_(make_modes(scene)),
+      mode_(make_nonlinear_mode(scene, modes_.model)) {}
+
+double ModeStudy::linear_frequency() const { return mode_.linear_omega() / (2.0 * std::numbers::pi); }
+
+Backbone ModeStudy::backbone() const {
+  const auto start = std::chrono::steady_clock::now();
+  Backbone curve;
+  curve.points = solvers::backbone(mode_, curve_options(scene_.analysis));
+  curve.interruptions = interruptions_of(curve.points, mode_.linear_omega());
+  curve.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const ModePoint& point : curve.points)
+    curve.residuals.push_back(is_solution(point) ? residual(point) : missing);
+  return curve;
+}
+
+ModePoint ModeStudy::at_energy(double energy_ratio) const {
+  if (energy_ratio <= 1.0) return mode_.linear_mode(energy_ratio);
+  solvers::BackboneOptions options = curve_options(scene_.analysis);
+  options.largest_energy = energy_ratio;
+  return solvers::at_energy(mode_, solvers::backbone(mode_, options), energy_ratio);
+}
+
+ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const {
+  return solvers::at_energy(mode_, curve.points, energy_ratio);
+}
+
+solvers::PeriodSamples ModeStudy::samples(const ModePoint& point, int points, bool full_history) const {
+  if (!is_solution(point) || point.amplitudes.size() == 0) return {};
+  const Eigen::MatrixXcd u = full_history ? physical(modes_, point)
+                                          : Eigen::MatrixXcd(mode_.model().contact_shapes * point.amplitudes);
+  Eigen::MatrixXcd v = u;
+  for (Eigen::Index n = 0; n < v.cols(); ++n)
+    v.col(n) *= std::complex<double>(0.0, static_cast<double>(n) * point.omega);
+  const Eigen::MatrixXd displacements = synthesis(u, points), velocities = synthesis(v, points);
+  const Eigen::Index row = full_history ? structure_.contact_dof : 0;
+  solvers::PeriodSamples samples;
+  samples.displacement = displacements.row(row);
+  samples.velocity = velocities.row(row);
+  samples.contact_force = nearest_samples(point.force.row(0), points);
+  if (!full_history) return samples;
+  samples.displacements = displacements;
+  samples.velocities = velocities;
+  return samples;
+}
+
+double ModeStudy::residual(const ModePoint& point) const {
+  const Eigen::MatrixXcd u = physical(modes_, point);
+  double largest = 0.0, scale = 0.0;
+  for (Eigen::Index n = 0; n < u.cols(); ++n) {
+    const auto order = static_cast<double>(n) * point.omega;
+    const Eigen::VectorXcd elastic = structure_.stiffness * u.col(n);
+    Eigen::VectorXcd rest = elastic - order * order * (structure_.mass * u.col(n));
+    const auto count = point.force.cols();
+    for (Eigen::Index k = 0; k < count; ++k)
+      rest[structure_.contact_dof] +=
+          point.force(0, k) / static_cast<double>(count) *
+          std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(n * k) / static_cast<double>(count));
+    largest = std::max(largest, rest.norm());
+    scale = std::max(scale, elastic.norm());
+  }
+  return scale > 0.0 ? largest / scale : missing;
+}
+
+std::string tongue_name(const solvers::Tongue& tongue) {
+  return std::to_string(tongue.harmonic) + ":" + std::to_string(tongue.mode);
+}
+
+Table backbone_table(const ModeStudy& study, const Backbone& curve) {
+  Table table({"energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio",
+               "contact_fraction", "status", "residual", "identity_defect", "max_penetration_over_gap",
+               "min_contact_force_N", "tongue", "tongue_share"});
+  const double linear = study.mode().linear_omega();
+  const auto add = [&](const ModePoint& point, double residual) {
+    const bool found = is_solution(point);
+    const auto value = [&](double number) { return found ? number : missing; };
+    table.append_row({value(point.energy_ratio), point.omega / (2.0 * std::numbers::pi), point.omega / linear,
+                      value(std::sqrt(point.rayleigh) / linear), value(point.contact_fraction),
+                      to_string(point.status), residual, value(point.identity_defect),
+                      value(point.max_penetration), value(point.min_force),
+                      point.tongue.harmonic > 0 ? tongue_name(point.tongue) : std::string("none"),
+                      value(point.tongue.share)});
+  };
+  for (int i = 0; i < linear_points; ++i) {
+    const auto point = study.mode().linear_mode(static_cast<double>(i) / (linear_points - 1));
+    add(point, study.residual(point));
+  }
+  for (std::size_t i = 0; i < curve.points.size(); ++i) add(curve.points[i], curve.residuals[i]);
+  return table;
+}
+
+}  // namespace wavebalance::reproduce

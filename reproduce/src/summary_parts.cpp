@@ -1,0 +1,27 @@
+#include "summary_parts.hpp"
+
+#include "wavebalance/reproduce/measures.hpp"
+
+namespace wavebalance::reproduce {
+
+Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
+                double wall_seconds) {
+  return {{"converged", converged},
+          {"status", status},
+          {"residual", residual},
+          {"iterations", std::int64_t{iterations}},
+          {"unknowns", std::int64_t{unknowns}},
+          {"wall_seconds", wall_seconds}};
+}
+
+void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
+  const bool empty = samples.points() == 0;
+  const auto& u = samples.displacement;
+  summary.emplace_back("max_displacement_m", empty ? missing : u.maxCoeff());
+  summary.emplace_back("min_displacement_m", empty ? missing : u.minCoeff());
+  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u));
+  summary.emplace_back("max_contact_force_N", empty ? missing : samples.contact_force.maxCoeff());
+  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(samples));
+}
+
+}  // namespace wavebalance::reproduce
