@@ -102,6 +102,7 @@ bool shown(double value, const Axis& axis) {
 }
 
 bool has_points(const Series& series, const Panel& panel) {
+  if (panel.z) return !series.x.empty();
   for (std::size_t i = 0; i < series.x.size(); ++i)
     if (shown(series.x[i], panel.x) && shown(series.y[i], panel.y)) return true;
   return false;
@@ -116,8 +117,27 @@ std::string coordinate(double value) { return std::isfinite(value) ? number_text
 std::string data_block(const Series& series, const std::string& name) {
   std::string text = name + " << END\n";
   for (std::size_t i = 0; i < series.x.size(); ++i)
-    text += coordinate(series.x[i]) + " " + coordinate(series.y[i]) + "\n";
+    text += coordinate(series.x[i]) + " " + coordinate(series.y[i]) +
+            (series.z.empty() ? "" : " " + coordinate(series.z[i])) + "\n";
   return text + "END\n";
+}
+
+std::string map_name(std::size_t panel) { return "$panel" + std::to_string(panel) + "_map"; }
+
+std::string map_block(const HeatMap& map, const std::string& name) {
+  std::string text = name + " << END\n";
+  for (std::size_t row = 0; row < map.y.size(); ++row)
+    for (std::size_t column = 0; column < map.x.size(); ++column)
+      text += coordinate(map.x[column]) + " " + coordinate(map.y[row]) + " " +
+              coordinate(map.values[row * map.x.size() + column]) + "\n";
+  return text + "END\n";
+}
+
+std::string map_text(const HeatMap& map) {
+  const std::string end = number_text(map.largest);
+  return "set palette defined (-1 '#0072B2', -0.5 '#7FB8D8', 0 '#FFFFFF', 0.5 '#EAAE7F', 1 '#D55E00')\n"
+         "set cbrange [-" +
+         end + ":" + end + "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics scale 0.4\n";
 }
 
 /// `empty` says that no point fixes the range, which gnuplot then refuses to choose.
@@ -204,12 +224,17 @@ std::string heading_text(const std::string& letter, const std::string& title) {
 }
 
 std::string plot_command(const Panel& panel, std::size_t panel_index) {
+  const std::string command = panel.z ? "splot " : "plot ";
   std::string text;
+  // Pixels are drawn one by one: the same in every terminal, and sharp.
+  if (panel.heat_map) text = command + map_name(panel_index) + " using 1:2:3 with image pixels notitle";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
     // A curve with nothing to show keeps its place in the legend.
-    const std::string data = has_points(series, panel) ? block_name(panel_index, i) + " using 1:2" : "NaN";
-    text += (text.empty() ? "plot " : ", ") + data + " with " + style_text(series, i) +
+    const std::string data = has_points(series, panel)
+                                 ? block_name(panel_index, i) + (panel.z ? " using 1:2:3" : " using 1:2")
+                                 : "NaN";
+    text += (text.empty() ? command : ", ") + data + " with " + style_text(series, i) +
             (series.label.empty() ? " notitle" : " title " + quoted(series.label));
   }
   return (text.empty() ? "plot NaN notitle" : text) + "\n";
@@ -221,6 +246,10 @@ std::string panel_text(const Panel& panel, std::size_t index, const std::string&
                                   [&](const Series& series) { return has_points(series, panel); });
   std::string text = "unset label\nunset arrow\nunset object\n" + frame_text(panel.frame, aligned);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
+  if (panel.z)
+    text += axis_text("z", *panel.z, empty) +
+            "set view 65,35,1,0.9\nset xyplane relative 0\nset border 127\nset zlabel rotate\n";
+  if (panel.heat_map) text += map_text(*panel.heat_map) + "unset grid\n";
   if (!panel.frame) text += "unset xtics\nunset ytics\n";
   text += legend_text(panel) + heading_text(letter, title);
   for (const auto& rectangle : panel.rectangles) text += rectangle_text(rectangle);
@@ -236,11 +265,21 @@ void check(const Axis& axis, const char* name) {
                                 " must be positive");
 }
 
+void check(const HeatMap& map) {
+  if (map.values.size() != map.x.size() * map.y.size() || map.x.size() < 2 || map.y.size() < 2)
+    throw std::invalid_argument("Figure: a heat map has " + std::to_string(map.values.size()) +
+                                " values for a grid of " + std::to_string(map.x.size()) + " x " +
+                                std::to_string(map.y.size()) + "; at least 2 x 2 are needed");
+  if (!(map.largest > 0.0))
+    throw std::invalid_argument("Figure: the largest value of a heat map is not positive");
+}
+
 void check(const Figure& figure) {
   if (figure.panels.empty())
     throw std::invalid_argument("Figure: it has no panel; it must have one at least");
   if (figure.columns < 1) throw std::invalid_argument("Figure: columns is not positive");
   for (const Panel& panel : figure.panels) {
+    if (panel.heat_map) check(*panel.heat_map);
     check(panel.x, "x");
     check(panel.y, "y");
     for (const Series& series : panel.series)
@@ -248,6 +287,11 @@ void check(const Figure& figure) {
         throw std::invalid_argument(
             "Figure: series \"" + series.label + "\" has " + std::to_string(series.x.size()) +
             " abscissae and " + std::to_string(series.y.size()) + " ordinates; their numbers must be equal");
+      else if (series.z.size() != (panel.z ? series.x.size() : 0))
+        throw std::invalid_argument(
+            "Figure: series \"" + series.label + "\" has " + std::to_string(series.z.size()) +
+            " heights for " + std::to_string(series.x.size()) + " points; a panel with a z axis needs " +
+            "as many, one without needs none");
   }
 }
 
@@ -263,6 +307,8 @@ std::string gnuplot_script(const Figure& figure) {
   std::string text =
       "set encoding utf8\nset samples 2\nset tics textcolor rgb '" + std::string(text_colour) + "'\n";
   text += "set autoscale xfix\nset pointsize 1\n";
+  for (std::size_t p = 0; p < figure.panels.size(); ++p)
+    if (figure.panels[p].heat_map) text += map_block(*figure.panels[p].heat_map, map_name(p));
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
     for (std::size_t s = 0; s < figure.panels[p].series.size(); ++s)
       text += data_block(figure.panels[p].series[s], block_name(p, s));

@@ -47,6 +47,7 @@ struct Series {
   std::string label;  ///< in the legend; none when empty
   std::vector<double> x;
   std::vector<double> y;  ///< of x's length
+  std::vector<double> z;  ///< of x's length in a panel of three dimensions, empty otherwise
   SeriesStyle style = SeriesStyle::line;
   Colour colour = Colour::automatic;
   Dash dash = Dash::solid;
@@ -64,6 +65,15 @@ struct Axis {
   bool logarithmic = false;
   std::vector<double> ticks;  ///< chosen by gnuplot when empty
   std::string tick_format;    ///< of gnuplot, "%.1f"; empty for its default
+};
+
+/// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest.
+struct HeatMap {
+  std::vector<double> x;       ///< columns, uniform
+  std::vector<double> y;       ///< rows, uniform
+  std::vector<double> values;  ///< rows of x's length, one a y; NaN is left out
+  double largest = 1.0;        ///< > 0: colours end at -largest and largest
+  std::string label;           ///< of the colours
 };
 
 /// Where the legend of a panel stands.
@@ -103,6 +113,8 @@ struct Panel {
   std::string title;
   Axis x;
   Axis y;
+  std::optional<Axis> z;            ///< set: three dimensions in perspective; each series needs its z
+  std::optional<HeatMap> heat_map;  ///< below the series
   std::vector<Series> series;
   Legend legend = Legend::top_right;
   bool frame = true;  ///< false leaves axes, ticks and grid out, for sketches
@@ -134,8 +146,8 @@ struct Figure {
 enum class PictureFormat { svg, png };
 
 /// The picture as the bytes of a file. One figure gives the same bytes every time. Throws PlotError, and
-/// std::invalid_argument if a figure has no panel, x and y of a series differ in length or a logarithmic axis
-/// has a limit that is not positive.
+/// std::invalid_argument if a figure has no panel, the coordinates of a series or a heat map differ in length
+/// or a logarithmic axis has a limit that is not positive.
 std::string render(const Figure& figure, PictureFormat format);
 
 /// Writes stem.svg and stem.png, each complete or not at all; a folder that is missing is made.
