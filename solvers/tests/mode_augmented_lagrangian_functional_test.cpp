@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ostream>
 #include <unsupported/Eigen/AutoDiff>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct State {
   ModeFormulation formulation;
   bool cosine_only;
   unsigned seed;
+
+  friend void PrintTo(const State& state, std::ostream* out) {
+    *out << (state.formulation == ModeFormulation::published ? "published" : "consistent")
+         << (state.cosine_only ? ", cosine, " : ", full, ") << "seed " << state.seed;
+  }
 };
 
 // Two contacts, unequal penalties and multipliers, a random motion large enough to touch at some samples.

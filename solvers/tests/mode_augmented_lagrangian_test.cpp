@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 
 #include "ll10_rod.hpp"
 #include "wavebalance/contact/multipliers.hpp"
@@ -73,6 +74,10 @@ TEST(LagrangianMode, BelowContactTheLinearModeIsTheCriticalPoint) {
 struct Cold {
   int harmonics;
   bool cosine_only;
+
+  friend void PrintTo(const Cold& start, std::ostream* out) {
+    *out << "N = " << start.harmonics << (start.cosine_only ? ", cosine" : ", full");
+  }
 };
 
 class ColdBranch : public ::testing::TestWithParam<Cold> {};
@@ -104,6 +109,11 @@ struct Warm {
   int harmonics;
   bool cosine_only;
   double lumped_fraction;
+
+  friend void PrintTo(const Warm& start, std::ostream* out) {
+    *out << "N = " << start.harmonics << (start.cosine_only ? ", cosine" : ", full") << ", lumped "
+         << start.lumped_fraction;
+  }
 };
 
 class WarmStart : public ::testing::TestWithParam<Warm> {};
@@ -134,6 +144,16 @@ TEST_P(WarmStart, AgreesWithTheCondensedSolverToSevenDigits) {
 INSTANTIATE_TEST_SUITE_P(Rod, WarmStart,
                          ::testing::Values(Warm{5, true, 0.0}, Warm{5, false, 0.0}, Warm{10, true, 0.5}));
 
+// Independent figures: energy ratios at three frequency ratios, N = 2, m = 20, 20 consistent elements.
+TEST(LagrangianMode, FrequencyAgreesWithTheIndependentFigures) {
+  const UnitRod rod(20);
+  const LagrangianMode mode(rod.model, {.cosine_only = true});
+  const std::vector<double> listed{1.227941, 1.626491, 2.400736}, ratio{1.05, 1.10, 1.15};
+  const auto points = mode.branch(listed, strategy(mode), mode.linear_start(1.0));
+  ASSERT_EQ(points.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].omega / mode.linear_omega(), ratio[i], 1e-6);
+}
+
 TEST(LagrangianMode, AtEnergyTenOmegaIsNearTheExactModeAndRootRIsSevenPercentBelow) {
   const UnitRod rod(20, 0.5);
   const NonlinearMode condensed(rod.model, {.cosine_only = true});
@@ -160,6 +180,16 @@ TEST(LagrangianMode, PublishedEquationsHaveASolutionThatIsNoMotionAtAnyFrequency
       EXPECT_GT(std::abs(point.energy_ratio - point.prescribed_ratio), 1e-2);  // h without n^2 is no energy
     }
   }
+}
+
+TEST(LagrangianMode, PublishedFrequencyAtEnergyTenIsFivePercentBelowTheConsistentOne) {
+  const UnitRod rod(20);
+  const LagrangianMode published(rod.model, {.cosine_only = true, .formulation = ModeFormulation::published});
+  const LagrangianMode consistent(rod.model, {.cosine_only = true});
+  const LagrangianPoint a = cold_branch(published, 10.0, 0.25).back(),
+                        b = cold_branch(consistent, 10.0, 0.25).back();
+  ASSERT_TRUE(a.accepted() && b.accepted());
+  EXPECT_LT(a.omega, 0.95 * b.omega);
 }
 
 // The frozen eigenvalue is taken up by the multiplier of h, which has the same form with n^2.
@@ -263,14 +293,25 @@ TEST(LagrangianMode, RunningOutOfIterationsIsAStatus) {
   EXPECT_EQ(outer.solve(1.1, one, outer.linear_start(1.1)).status, LagrangianStatus::outer_limit);
 }
 
-TEST(LagrangianMode, ColdWithThreeHarmonicsTheTongueOrTheFailureIsNamed) {
+// Cold, more harmonics follow the 3:1 resonance with mode 2, 2.7 Hz above the mode.
+TEST(LagrangianMode, ColdWithThreeHarmonicsTheTongueIsNamed) {
   const UnitRod rod(20);
   const LagrangianMode mode(rod.model, {.harmonics = 3, .cosine_only = true});
-  const auto points = cold_branch(mode, 3.0, 0.02);
-  EXPECT_FALSE(points.back().accepted());
-  EXPECT_NEAR(points[points.size() - 2].omega / mode.linear_omega(), 1.0, 0.01);
-  EXPECT_EQ(points[points.size() - 2].tongue.harmonic, 3);
-  EXPECT_EQ(points[points.size() - 2].tongue.mode, 2);
+  const LagrangianPoint point = cold_branch(mode, 3.0, 0.05).back();
+  EXPECT_EQ(point.status, LagrangianStatus::tongue);
+  EXPECT_EQ(point.tongue.harmonic, 3);
+  EXPECT_EQ(point.tongue.mode, 2);
+  EXPECT_LE(point.equation_residual, 1e-9);
+}
+
+// With the half-lumped mass mode 2 is at three times mode 1, and no step beyond grazing succeeds.
+TEST(LagrangianMode, ColdAtAnExactResonanceTheFailureIsNamed) {
+  const UnitRod rod(20, 0.5);
+  const LagrangianMode mode(rod.model, {.harmonics = 3, .cosine_only = true});
+  const auto points = cold_branch(mode, 2.0, 0.25);
+  EXPECT_EQ(points.front().status, LagrangianStatus::linear);
+  EXPECT_EQ(to_string(points.back().status), "inner_stalled");
+  EXPECT_LT(points.back().prescribed_ratio, 1.25);
 }
 
 TEST(LagrangianMode, BadArgumentsAreErrors) {
