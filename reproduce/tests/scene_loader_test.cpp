@@ -199,8 +199,8 @@ TEST(SceneLoader, NonlinearModesAreOfRigidContactWithoutDamping) {
   expect_error(with(rod_scene, "law = \"rigid\"                   # 10", "law = \"linear\"\nstiffness = 1e9"),
                10, "contact.law", "\"linear\"", "\"rigid\"");
   expect_error(with(rod_scene, "gap = 1e-3", "gap = 0.0"), 11, "contact.gap", "0.0", "> 0");
-  expect_error(with(rod_scene, "# 8", "\nstiffness_damping = 1e-6"), 9, "structure.stiffness_damping",
-               "1e-6", "expected 0");
+  expect_error(with(rod_scene, "# 8", "\nstiffness_damping = 1e-6"), 9, "structure.stiffness_damping", "1e-6",
+               "expected 0");
   expect_error(with(rod_scene, "points = 200 ", "mode = 21 "), 14, "analysis.mode", "21", "at most");
   expect_error(with(rod_scene, "points = 200 ", "samples = 19 "), 14, "analysis.samples", "19", "= 20");
   expect_error(with(rod_scene, "points = 200 ", "cosine_only = 1 "), 14, "analysis.cosine_only", "1",

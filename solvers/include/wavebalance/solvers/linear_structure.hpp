@@ -4,8 +4,8 @@
 
 namespace wavebalance::solvers {
 
-/// The linear part of a vibrating structure, M u'' + C u' + K u = load cos(2 pi f t) - e f_c(u_c), with one contact
-/// degree of freedom c and e its unit vector. SI units or any other consistent set.
+/// The linear part of a vibrating structure, M u'' + C u' + K u = load cos(2 pi f t) - e f_c(u_c), with one
+/// contact degree of freedom c and e its unit vector. SI units or any other consistent set.
 struct LinearStructure {
   Eigen::SparseMatrix<double> mass;       ///< n x n, kg
   Eigen::SparseMatrix<double> damping;    ///< n x n, N s/m
