@@ -216,10 +216,11 @@ std::string frame_text(bool frame, bool aligned) {
 }
 
 /// The heading stands at the left so that letters of panels line up.
-std::string heading_text(const std::string& letter, const std::string& title) {
+std::string heading_text(const std::string& letter, const std::string& title, bool perspective) {
   const std::string text =
       letter.empty() ? title : "{/:Bold " + letter + "}" + (title.empty() ? "" : "  " + title);
   if (text.empty()) return "set tmargin 1\n";
+  if (perspective) return "set tmargin 2.2\nset title " + quoted(text) + "\n";
   return "set tmargin 2.2\nset label " + quoted(text) + " at graph 0,graph 1 left offset 0,0.9\n";
 }
 
@@ -244,14 +245,16 @@ std::string panel_text(const Panel& panel, std::size_t index, const std::string&
                        const std::string& title, bool aligned) {
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
-  std::string text = "unset label\nunset arrow\nunset object\n" + frame_text(panel.frame, aligned);
+  std::string text =
+      "unset title\nunset label\nunset arrow\nunset object\n" + frame_text(panel.frame, aligned);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +
-            "set view 65,35,1,0.9\nset xyplane relative 0\nset border 127\nset zlabel rotate\n";
+            "set view 62,35,1,1.2\nset xyplane relative 0\nset border 4095\nset zlabel rotate offset 1,0\n"
+            "set lmargin 2\nset rmargin 2\nset xlabel offset 0,-0.6\nset ylabel offset 0,-0.6\n";
   if (panel.heat_map) text += map_text(*panel.heat_map) + "unset grid\n";
   if (!panel.frame) text += "unset xtics\nunset ytics\n";
-  text += legend_text(panel) + heading_text(letter, title);
+  text += legend_text(panel) + heading_text(letter, title, panel.z.has_value());
   for (const auto& rectangle : panel.rectangles) text += rectangle_text(rectangle);
   for (const auto& segment : panel.segments) text += segment_text(segment);
   for (const auto& mark : panel.texts) text += mark_text(mark);

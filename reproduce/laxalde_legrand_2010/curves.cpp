@@ -1,0 +1,106 @@
+#include "curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wavebalance/contact/multipliers.hpp"
+
+namespace wavebalance::ll10 {
+namespace {
+
+using solvers::LagrangianMode;
+using solvers::LagrangianModeOptions;
+using solvers::LagrangianPoint;
+
+// In units omega_1 = gap = 1, where the inner Newton iterations are well scaled.
+constexpr double penalty = 300.0;
+
+contact::MultiplierUpdate strategy(const LagrangianMode& mode) {
+  return contact::MultiplierUpdate(std::vector<double>(static_cast<std::size_t>(mode.constraints()), penalty),
+                                   {penalty});
+}
+
+LagrangianModeOptions options_of(const reproduce::Scene& scene, int harmonics) {
+  LagrangianModeOptions options;
+  options.mode = scene.analysis.mode;
+  options.harmonics = harmonics;
+  options.samples = scene.analysis.samples;
+  options.cosine_only = scene.analysis.cosine_only;
+  return options;
+}
+
+void add_row(Table& table, const std::string& formulation, double energy, double frequency, double rayleigh) {
+  table.append_row({formulation, energy, frequency, rayleigh});
+}
+
+}  // namespace
+
+std::vector<LagrangianPoint> published_branch(const reproduce::ModeStudy& study, int harmonics,
+                                              double largest, double step) {
+  LagrangianModeOptions options = options_of(study.scene(), harmonics);
+  options.formulation = solvers::ModeFormulation::published;
+  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
+  const LagrangianMode mode(study.mode().model(), options);
+  std::vector<double> energies;
+  for (int i = 0; 1.0 + i * step <= largest + 1e-9; ++i) energies.push_back(1.0 + i * step);
+  return mode.branch(energies, strategy(mode), mode.linear_start(1.0));
+}
+
+Agreement lagrangian_agreement(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+                               const std::vector<double>& energies) {
+  const LagrangianMode mode(study.mode().model(),
+                            options_of(study.scene(), study.scene().analysis.harmonics));
+  Agreement result;
+  for (const double energy : energies) {
+    const auto condensed = study.at_energy(curve, energy);
+    if (!condensed.accepted()) continue;
+    auto outer = strategy(mode);
+    const auto point = mode.solve(energy, outer, {condensed.amplitudes, condensed.force});
+    if (!point.accepted()) continue;
+    result.largest = std::max(result.largest, std::abs(point.omega / condensed.omega - 1.0));
+    ++result.points;
+  }
+  return result;
+}
+
+Distance exact_distance(const reproduce::ModeStudy& study, const reproduce::Backbone& curve) {
+  std::vector<double> errors;
+  for (const auto& point : curve.points) {
+    if (!point.accepted() || point.energy_ratio < 1.2 || point.energy_ratio > 10.0) continue;
+    const double exact = exact_mode(study.scene(), point.energy_ratio).frequency_ratio();
+    errors.push_back(std::abs(point.omega / study.mode().linear_omega() / exact - 1.0));
+  }
+  if (errors.empty()) throw report::NotConverged("no accepted points at energy ratios 1.2 to 10");
+  std::sort(errors.begin(), errors.end());
+  return {errors[errors.size() / 2], errors.back(), static_cast<int>(errors.size())};
+}
+
+Table backbones_table(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+                      const std::vector<LagrangianPoint>& published) {
+  const double linear = study.mode().linear_omega();
+  Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
+  for (const auto* name : {"published", "consistent"}) {
+    add_row(table, name, 0.0, 1.0, 1.0);
+    if (name == std::string("published"))
+      for (const auto& point : published) {
+        const double root = std::sqrt(point.rayleigh) / linear;
+        if (point.accepted()) add_row(table, name, point.prescribed_ratio, root, root);
+      }
+    else
+      for (const auto& point : curve.points)
+        if (point.accepted())
+          add_row(table, name, point.energy_ratio, point.omega / linear, std::sqrt(point.rayleigh) / linear);
+  }
+  add_row(table, "exact", 0.0, 1.0, 1.0);
+  add_row(table, "exact", 1.0, 1.0, 1.0);
+  const double onset = contact::ExactBarMode::onset_energy(1, contact::EnergyMeasure::modal);
+  constexpr int points = 200;
+  for (int i = 1; i <= points; ++i) {
+    const double energy = onset * std::pow(10.0 / onset, static_cast<double>(i) / points);
+    const auto mode = exact_mode(study.scene(), energy);
+    add_row(table, "exact", energy, mode.frequency_ratio(), mode.rayleigh_frequency_ratio());
+  }
+  return table;
+}
+
+}  // namespace wavebalance::ll10

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ll10.hpp"
+#include "wavebalance/solvers/mode_augmented_lagrangian.hpp"
+
+namespace wavebalance::ll10 {
+
+/// LL10's equations as printed (h without n^2, omega^2 = r, Algorithm 2), in energy steps from grazing to
+/// `largest`. Ends at the first point that is not accepted, which is kept.
+std::vector<solvers::LagrangianPoint> published_branch(const reproduce::ModeStudy& study, int harmonics,
+                                                       double largest, double step);
+
+/// Largest relative difference of omega between the condensed solver and the consistent augmented Lagrangian
+/// (Algorithm 1) started from it, over those of `energies` that both reach.
+struct Agreement {
+  double largest = 0.0;
+  int points = 0;
+};
+Agreement lagrangian_agreement(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+                               const std::vector<double>& energies);
+
+/// |omega / omega_exact - 1| at the energies of the accepted points of a curve with energy ratios in 1.2..10.
+struct Distance {
+  double median = 0.0;
+  double largest = 0.0;
+  int points = 0;
+};
+Distance exact_distance(const reproduce::ModeStudy& study, const reproduce::Backbone& curve);
+
+/// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
+/// root of r), consistent (accepted points) and exact, the linear branch below contact included.
+Table backbones_table(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+                      const std::vector<solvers::LagrangianPoint>& published);
+
+}  // namespace wavebalance::ll10

@@ -1,0 +1,90 @@
+#include <array>
+
+#include "ll10.hpp"
+
+using namespace wavebalance;
+using reproduce::Colour;
+
+namespace {
+
+struct Polyline {
+  std::string part;
+  std::vector<std::array<double, 2>> points;
+};
+
+/// The sketch in units of the rod's length.
+std::vector<Polyline> outline() {
+  std::vector<Polyline> lines{
+      {"clamp", {{0, -0.2}, {0, 0.2}}},
+      {"rod", {{0, -0.06}, {1, -0.06}, {1, 0.06}, {0, 0.06}}},
+      {"obstacle", {{1.12, -0.2}, {1.12, 0.2}}},
+  };
+  for (int stroke = 0; stroke < 8; ++stroke) {
+    const double y = -0.19 + 0.05 * stroke;
+    lines.push_back({"hatching", {{-0.04, y - 0.03}, {0, y + 0.02}}});
+    lines.push_back({"hatching", {{1.12, y - 0.03}, {1.16, y + 0.02}}});
+  }
+  return lines;
+}
+
+void annotate(reproduce::Panel& panel) {
+  const auto arrow = [&](double x1, double y1, double x2, double y2) {
+    panel.segments.push_back({x1, y1, x2, y2, true, reproduce::Dash::solid, Colour::black, 1.3});
+  };
+  const auto text = [&](double x, double y, const char* words) { panel.texts.push_back({x, y, words}); };
+  panel.rectangles.push_back({0, -0.06, 1, 0.06, Colour::sky_blue, 0.35});
+  arrow(0, -0.15, 0.2, -0.15);
+  text(0.24, -0.15, "{/:Italic x}");
+  text(0.5, 0, "{/:Italic E, ρ, A, L}");
+  arrow(1, 0.14, 1.12, 0.14);
+  arrow(1.12, 0.14, 1, 0.14);
+  text(1.06, 0.19, "{/:Italic g}_0");
+  arrow(0.8, 0.12, 0.98, 0.12);
+  text(0.72, 0.16, "{/:Italic u}({/:Italic L}, {/:Italic t}) ≤ {/:Italic g}_0");
+}
+
+reproduce::Figure drawn(const std::vector<Polyline>& lines) {
+  reproduce::Figure figure;
+  figure.panel_width = 700;
+  figure.panel_height = 250;
+  auto& panel = figure.add_panel();
+  panel.frame = false;
+  panel.x = ll10::axis("", -0.08, 1.2);
+  panel.y = ll10::axis("", -0.23, 0.24);
+  panel.legend = reproduce::Legend::none;
+  for (const auto& line : lines) {
+    std::vector<double> x, y;
+    for (const auto& point : line.points) {
+      x.push_back(point[0]);
+      y.push_back(point[1]);
+    }
+    ll10::Series series("", x, y);
+    series.colour = Colour::black;
+    series.width = line.part == "hatching" ? 0.8 : 1.6;
+    panel.add(std::move(series));
+  }
+  annotate(panel);
+  return figure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto identity =
+      ll10::identity("Fig. 2", "Thin rod in contact against a rigid foundation", "fig02_rod_sketch");
+  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
+    const auto lines = outline();
+    ll10::Table table({"line", "part", "x", "y"});
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].part, x, y});
+    artefact.data(table, "units of the rod's length");
+    artefact.picture(drawn(lines));
+    const auto& rod = artefact.scene("rod.toml").structure;
+    artefact.caption(
+        "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = " +
+        report::number(rod.youngs_modulus) + " Pa, density " + report::number(rod.density, 4) +
+        " kg/m³, area " + report::number(rod.area) + " m², length " + report::number(rod.length) +
+        " m. The displacement towards the obstacle is positive; compression there is -EA u_x, where "
+        "the paper has EA u_x as a stress.");
+  });
+}

@@ -1,0 +1,100 @@
+#include "ll10.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace wavebalance::ll10 {
+namespace {
+
+using contact::EnergyMeasure;
+using contact::ExactBarMode;
+
+Eigen::VectorXd node_positions(int elements) { return Eigen::VectorXd::LinSpaced(elements + 1, 0.0, 1.0); }
+
+/// t/T from 0 to 1, both included.
+Eigen::VectorXd times_of(int times) { return Eigen::VectorXd::LinSpaced(times + 1, 0.0, 1.0); }
+
+/// Samples of one period from t = 0 as samples from -T/2 to T/2, both ends included, below a row of zeros.
+Eigen::MatrixXd centred(const Eigen::MatrixXd& values) {
+  const Eigen::Index count = values.cols();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(values.rows() + 1, count + 1);
+  for (Eigen::Index l = 0; l <= count; ++l)
+    result.col(l).tail(values.rows()) = values.col((l + count / 2) % count);
+  return result;
+}
+
+double linear_omega(const reproduce::Scene& scene) {
+  return 2.0 * std::numbers::pi * ExactBarMode::linear_frequency(exact_bar(scene), 1);
+}
+
+Motion linear_motion(double energy_ratio, Motion motion) {
+  const Eigen::VectorXd shape =
+      std::sqrt(energy_ratio) * (0.5 * std::numbers::pi * motion.position.array()).sin();
+  const Eigen::RowVectorXd phase = 2.0 * std::numbers::pi * (motion.time.array() - 0.5).matrix().transpose();
+  motion.displacement = shape * phase.array().cos().matrix();
+  motion.velocity = -shape * phase.array().sin().matrix();
+  return motion;
+}
+
+}  // namespace
+
+report::Identity identity(const std::string& number, const std::string& title, const std::string& stem) {
+  return {"laxalde_legrand_2010", "LL10 " + number, title, stem};
+}
+
+contact::RigidObstacleBar exact_bar(const reproduce::Scene& scene) {
+  const auto& bar = scene.structure;
+  return {.youngs_modulus = bar.youngs_modulus,
+          .density = bar.density,
+          .area = bar.area,
+          .length = bar.length,
+          .gap = scene.contact.gap};
+}
+
+contact::ExactBarMode exact_mode(const reproduce::Scene& scene, double energy_ratio) {
+  return ExactBarMode::at_energy(exact_bar(scene), 1, EnergyMeasure::modal, energy_ratio);
+}
+
+Motion computed_motion(const reproduce::ModeStudy& study, double energy_ratio, int times) {
+  const auto& scene = study.scene();
+  const auto point = study.at_energy(energy_ratio);
+  if (!point.accepted())
+    throw report::NotConverged("energy ratio " + report::number(energy_ratio) + ": " +
+                               to_string(point.status));
+  const auto samples = study.samples(point, times, true);
+  const double gap = scene.contact.gap;
+  return {node_positions(scene.structure.elements), times_of(times), centred(samples.displacements) / gap,
+          centred(samples.velocities) / (gap * linear_omega(scene))};
+}
+
+Motion exact_motion(const reproduce::Scene& scene, double energy_ratio, int times) {
+  Motion motion{node_positions(scene.structure.elements), times_of(times), {}, {}};
+  if (energy_ratio <= 1.0) return linear_motion(energy_ratio, std::move(motion));
+  const auto mode = exact_mode(scene, energy_ratio);
+  const double gap = scene.contact.gap;
+  motion.displacement.resize(motion.position.size(), motion.time.size());
+  motion.velocity.resizeLike(motion.displacement);
+  for (Eigen::Index i = 0; i < motion.position.size(); ++i)
+    for (Eigen::Index l = 0; l < motion.time.size(); ++l) {
+      const double x = motion.position[i] * scene.structure.length;
+      const double t = (motion.time[l] - 0.5) * mode.period();
+      motion.displacement(i, l) = mode.displacement(x, t) / gap;
+      motion.velocity(i, l) = mode.velocity(x, t) / (gap * linear_omega(scene));
+    }
+  return motion;
+}
+
+std::string discretisation(const reproduce::Scene& scene) {
+  return std::to_string(scene.analysis.harmonics) + " harmonics, " + std::to_string(scene.analysis.samples) +
+         " samples, " + std::to_string(scene.structure.elements) + " elements";
+}
+
+reproduce::Axis axis(const std::string& label, double lower, double upper) {
+  reproduce::Axis result;
+  result.label = label;
+  result.lower = lower;
+  result.upper = upper;
+  return result;
+}
+
+}  // namespace wavebalance::ll10

@@ -1,0 +1,46 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "wavebalance/report/artefact.hpp"
+#include "wavebalance/reproduce/modes.hpp"
+#include "wavebalance/reproduce/plot.hpp"
+
+/// What the figures of Laxalde & Legrand (2010), section 5.1, share.
+namespace wavebalance::ll10 {
+
+using reproduce::Series;
+using reproduce::Table;
+
+/// "laxalde_legrand_2010", "LL10 Fig. 3", ...
+report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
+
+/// The scene's bar for the exact solution.
+contact::RigidObstacleBar exact_bar(const reproduce::Scene& scene);
+/// Its exact mode 1 at an energy ratio of LL10's measure.
+contact::ExactBarMode exact_mode(const reproduce::Scene& scene, double energy_ratio);
+
+/// A motion over one period at all nodes x = 0, ..., length, the clamped one included, in the units of LL10's
+/// pictures: displacements over the gap, velocities over gap times linear frequency (rad/s).
+struct Motion {
+  Eigen::VectorXd position;      ///< nodes, x over length
+  Eigen::VectorXd time;          ///< t/T
+  Eigen::MatrixXd displacement;  ///< nodes x times
+  Eigen::MatrixXd velocity;      ///< nodes x times
+};
+
+/// The point of the scene's mode at an energy ratio, with contact in the middle of the time axis. Throws
+/// report::NotConverged when there is none.
+Motion computed_motion(const reproduce::ModeStudy& study, double energy_ratio, int times);
+/// The exact solution at the same nodes and times; below contact the linear mode of the bar.
+Motion exact_motion(const reproduce::Scene& scene, double energy_ratio, int times);
+
+/// "10 harmonics, 20 samples, 20 elements"
+std::string discretisation(const reproduce::Scene& scene);
+
+/// An axis with its limits.
+reproduce::Axis axis(const std::string& label, double lower, double upper);
+
+}  // namespace wavebalance::ll10
