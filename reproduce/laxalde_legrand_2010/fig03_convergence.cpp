@@ -66,9 +66,11 @@ void add_panel(reproduce::Figure& figure, const std::string& title, const std::s
   panel.x.label = abscissa;
   panel.x.logarithmic = panel.y.logarithmic = true;
   panel.x.ticks = column(rows, size);
+  panel.x.lower = 0.8 * panel.x.ticks.front();
+  panel.x.upper = 1.25 * panel.x.ticks.back();
   panel.x.tick_format = "%g";
   panel.y.label = "Relative error of ω";
-  panel.legend = reproduce::Legend::bottom_left;
+  panel.legend = reproduce::Legend::below_panel;
   using enum reproduce::SeriesStyle;
   panel.add({"largest, energies 1.2 to 10", column(rows, size), column(rows, largest), line_points});
   panel.add({"median", column(rows, size), column(rows, median), line_points});
@@ -104,7 +106,7 @@ int main(int argc, char** argv) {
     reproduce::Figure figure;
     figure.columns = 3;
     figure.panel_width = 400;
-    figure.panel_height = 340;
+    figure.panel_height = 420;
     add_panel(figure, "80 elements, half-lumped mass", "Harmonics N, m = 2N samples", over_harmonics,
               harmonics, false);
     add_panel(figure, "N = 5, half-lumped mass", "Elements", over_elements, elements, true);

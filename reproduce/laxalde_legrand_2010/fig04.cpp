@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
                high = ll10::computed_motion(study, 1.8, times);
     const auto exact = ll10::exact_motion(study.scene(), 1.8, times);
     reproduce::Figure figure;
+    figure.title = "Energy 0.7 (blue) and 1.8 (orange), exact at 1.8 (dashed)";
     figure.columns = 2;
     figure.panel_width = 520;
     figure.panel_height = 420;
@@ -74,7 +75,8 @@ int main(int argc, char** argv) {
       panel.z.emplace().label = last ? "Last node, u / g_0" : "First node, u / g_0";
       panel.x.ticks = {-0.8, -0.4, 0.0, 0.4, 0.8};
       panel.y.ticks = {-1.0, 0.0, 1.0};
-      panel.legend = last ? reproduce::Legend::top_left : reproduce::Legend::none;
+      panel.z->ticks = last ? std::vector<double>{-1.0, 0.0, 1.0} : std::vector<double>{-0.1, 0.0, 0.1};
+      panel.legend = reproduce::Legend::none;
       const Eigen::Index node = last ? low.position.size() - 1 : 1;
       panel.add(orbit("energy 1.8, exact", exact, node, Colour::black, Dash::dashed));
       panel.add(orbit("energy 0.7", low, node, Colour::sky_blue, Dash::solid));

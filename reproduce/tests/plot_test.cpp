@@ -109,6 +109,35 @@ TEST(Render, FiguresThatCannotBeDrawnAreRefused) {
   EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
 }
 
+TEST(Render, HeatMapsDrawEveryValueOnce) {
+  Figure figure;
+  Panel& panel = figure.add_panel("map");
+  panel.heat_map = HeatMap{{0.0, 1.0, 2.0}, {0.0, 1.0}, {0.25, -0.5, 1.0, 0.125, 0.0, -1.0}, 1.0, "u / g_0"};
+  const std::string script = gnuplot_script(figure);
+  for (const char* line : {"0 0 0.25\n", "2 0 1\n", "0 1 0.125\n", "2 1 -1\n", "cbrange [-1:1]"})
+    EXPECT_NE(script.find(line), std::string::npos) << line;
+  EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
+  panel.heat_map->values.pop_back();
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+  panel.heat_map->values.push_back(0.0);
+  panel.heat_map->largest = 0.0;
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+}
+
+TEST(Render, CurvesInThreeDimensionsNeedTheirHeights) {
+  Figure figure;
+  Panel& panel = figure.add_panel("orbit");
+  panel.z.emplace().label = "Last node";
+  Series series("", std::vector<double>{0.0, 1.0}, std::vector<double>{2.0, 3.0});
+  panel.add(series);
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+  panel.series[0].z = {4.0, 5.0};
+  EXPECT_NE(gnuplot_script(figure).find("1 3 5\n"), std::string::npos);
+  EXPECT_NE(render(figure, PictureFormat::svg).find("Last node"), std::string::npos);
+  panel.z.reset();
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+}
+
 TEST(Render, WordsOfGnuplotAreInTheError) {
   Figure figure = simple_figure();
   figure.panels[0].x.tick_format = "%";  // gnuplot refuses it only when it draws

@@ -147,6 +147,10 @@ const std::vector<Paper>& papers() {
        "wavelet "
        "balance method",
        "https://hal.science/hal-01403614", "CC BY 4.0"},
+      {"laxalde_legrand_2010",
+       "Laxalde & Legrand 2010, Nonlinear modal analysis of mechanical systems with frictionless contact "
+       "interfaces (preprint, version 1)",
+       "https://hal.science/hal-00492775", "the right of quotation"},
   };
   return all;
 }
