@@ -50,7 +50,7 @@ void add_panels(reproduce::Figure& figure, const Study& study) {
   motion.x = force.x = first ? jl14::axis("Time (fraction of a period)", -0.16, 0.16)
                              : jl14::axis("Time (fraction of a period)", 0.01, 0.15);
   motion.y = jl14::axis("Displacement (mm)", (first ? 0.97 : 0.93) * gap, (first ? 1.022 : 1.055) * gap);
-  force.y.label = "Force over amplitude";
+  force.y = jl14::axis("Force over amplitude", 0.0, first ? 0.4 : 20.0);
   const double scale = 1.0 / study.scene.forcing.amplitude;
   auto penalty = centred("", millimetres * study.penalty.samples.displacement, Colour::black);
   penalty.dash = reproduce::Dash::dashed;

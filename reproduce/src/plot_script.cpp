@@ -250,7 +250,7 @@ std::string panel_text(const Panel& panel, std::size_t index, const std::string&
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +
-            "set view 62,35,1,1.2\nset xyplane relative 0\nset border 4095\nset zlabel rotate\n"
+            "set view 60,325,1,1.2\nset xyplane relative 0\nset border 4095\nset zlabel rotate\n"
             "set lmargin 2\nset rmargin 2\nset xlabel offset 0,-0.6\nset ylabel offset 0,-0.6\n";
   if (panel.heat_map) text += map_text(*panel.heat_map) + "unset grid\n";
   if (!panel.frame) text += "unset xtics\nunset ytics\n";

@@ -133,7 +133,7 @@ TEST(Render, CurvesInThreeDimensionsNeedTheirHeights) {
   EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
   panel.series[0].z = {4.0, 5.0};
   EXPECT_NE(gnuplot_script(figure).find("1 3 5\n"), std::string::npos);
-  EXPECT_NE(render(figure, PictureFormat::svg).find("Last node"), std::string::npos);
+  EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
   panel.z.reset();
   EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
 }
