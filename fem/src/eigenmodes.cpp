@@ -3,7 +3,6 @@
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +11,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "shift_invert.hpp"
+
 namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-using Factor = Eigen::SimplicialLDLT<Sparse>;
+using Factor = detail::SymmetricFactor;
 
 // Squares of the angular frequencies, ascending, and the mass-normalised shapes.
 struct Modes {
@@ -27,17 +28,6 @@ struct Modes {
 
 void require(bool valid, const std::string& message) {
   if (!valid) throw std::invalid_argument("eigenmodes: " + message);
-}
-
-void require_symmetric(const Sparse& matrix, const char* name) {
-  const Eigen::Map<const Eigen::VectorXd> entries(matrix.valuePtr(), matrix.nonZeros());
-  require(entries.allFinite(), std::string(name) + " has an entry that is not finite");
-  const Sparse difference = matrix - Sparse(matrix.transpose());
-  const double scale = entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0.0;
-  const double asymmetry = difference.nonZeros() > 0 ? difference.coeffs().abs().maxCoeff() : 0.0;
-  require(asymmetry <= 1e-10 * scale, std::string(name) + " is not symmetric: entries differ by " +
-                                          std::to_string(asymmetry / scale) +
-                                          " of the largest; store both triangles");
 }
 
 void validate(const Sparse& stiffness, const Sparse& mass, int count, const EigenmodesOptions& options) {
@@ -90,11 +80,11 @@ class ScaledInverse {
   using Scalar = double;
   ScaledInverse(const Factor& factor, double scale) : factor_(&factor), scale_(scale) {}
   Eigen::Index rows() const { return factor_->rows(); }
-  Eigen::Index cols() const { return factor_->cols(); }
+  Eigen::Index cols() const { return factor_->rows(); }
   void set_shift(double) {}
   void perform_op(const double* in, double* out) const {
-    const Eigen::Map<const Eigen::VectorXd> given(in, rows());
-    Eigen::Map<Eigen::VectorXd>(out, rows()) = scale_ * factor_->solve(given);
+    factor_->solve(in, out);
+    Eigen::Map<Eigen::VectorXd>(out, rows()) *= scale_;
   }
 
  private:
@@ -165,16 +155,13 @@ int missing_modes(const Sparse& stiffness, const Sparse& mass, const Modes& mode
   const double highest = modes.squares[std::min<Eigen::Index>(count, modes.squares.size()) - 1];
   const double below = highest - 1e-7 * std::abs(highest);
   const Factor factor(stiffness - below * mass);
-  if (factor.info() != Eigen::Success) return 0;  // a zero pivot: no count to be had
-  const auto expected = (factor.vectorD().array() < 0.0).count();
+  if (!factor.complete()) return 0;  // a zero pivot: no count to be had
+  const auto expected = (factor.pivots().array() < 0.0).count();
   return static_cast<int>(std::max<Eigen::Index>(0, expected - (modes.squares.array() < below).count()));
 }
 
 Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& shifted, int count,
-                   const EigenmodesOptions& options) {
-  const Factor factor(shifted);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0))
-    reject_stiffness(options.shift);
+                   const EigenmodesOptions& options, const Factor& factor) {
   const int most = static_cast<int>(mass.rows()) - 1;
   int wanted = count;
   Modes modes;
@@ -224,6 +211,33 @@ EigenmodesResult make_result(Modes modes, const Sparse& stiffness, const Sparse&
 
 }  // namespace
 
+namespace detail {
+
+EigenmodesResult sparse_eigenmodes(const SymmetricFactor& factor, const Sparse& stiffness, const Sparse& mass,
+                                   int count, const EigenmodesOptions& options) {
+  const Sparse shifted = stiffness - options.shift * mass;
+  return make_result(sparse_modes(stiffness, mass, shifted, count, options, factor), stiffness, mass);
+}
+
+void require_symmetric(const Sparse& matrix, const char* caller, const char* name) {
+  const auto reject = [&](const std::string& what) {
+    throw std::invalid_argument(std::string(caller) + ": " + name + what);
+  };
+  double scale = 0.0;
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
+      if (!std::isfinite(entry.value())) reject(" has an entry that is not finite");
+      scale = std::max(scale, std::abs(entry.value()));
+    }
+  const Sparse difference = matrix - Sparse(matrix.transpose());
+  const double asymmetry = difference.nonZeros() > 0 ? difference.coeffs().abs().maxCoeff() : 0.0;
+  if (asymmetry > 1e-10 * scale)
+    reject(" is not symmetric: entries differ by " + std::to_string(asymmetry / scale) +
+           " of the largest; store both triangles");
+}
+
+}  // namespace detail
+
 EigenmodesResult eigenmodes(const Sparse& given_stiffness, const Sparse& given_mass, int count,
                             const EigenmodesOptions& options) {
   validate(given_stiffness, given_mass, count, options);
@@ -231,14 +245,15 @@ EigenmodesResult eigenmodes(const Sparse& given_stiffness, const Sparse& given_m
   Sparse mass = given_mass;
   stiffness.makeCompressed();
   mass.makeCompressed();
-  require_symmetric(stiffness, "stiffness");
-  require_symmetric(mass, "mass");
+  detail::require_symmetric(stiffness, "eigenmodes", "stiffness");
+  detail::require_symmetric(mass, "eigenmodes", "mass");
   const Sparse shifted = stiffness - options.shift * mass;
   const Eigen::Index size = stiffness.rows();
-  const bool dense = size <= options.dense_up_to || 2 * static_cast<Eigen::Index>(count) >= size;
-  Modes modes = dense ? dense_modes(shifted, mass, count, options.shift)
-                      : sparse_modes(stiffness, mass, shifted, count, options);
-  return make_result(std::move(modes), stiffness, mass);
+  if (size <= options.dense_up_to || 2 * static_cast<Eigen::Index>(count) >= size)
+    return make_result(dense_modes(shifted, mass, count, options.shift), stiffness, mass);
+  const Factor factor(shifted);
+  if (!factor.positive_definite()) reject_stiffness(options.shift);
+  return detail::sparse_eigenmodes(factor, stiffness, mass, count, options);
 }
 
 }  // namespace wavebalance::fem

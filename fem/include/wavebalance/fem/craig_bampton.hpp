@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <span>
+
+#include "wavebalance/fem/eigenmodes.hpp"
+#include "wavebalance/fem/matrices.hpp"
+
+namespace wavebalance::fem {
+
+struct CraigBamptonOptions {
+  int modes = 40;            ///< fixed-interface modes to keep, 0..unknowns that are not on the boundary
+  EigenmodesOptions solver;  ///< of the fixed-interface modes; its shift must be 0
+};
+
+/// A structure reduced to b boundary unknowns and m fixed-interface modes [CB68]: u = T q, with
+///
+///     T = [I 0; Psi Phi],   Psi = -K_ii^-1 K_ib,   K_ii Phi = M_ii Phi diag(omega^2),   Phi^T M_ii Phi = I,
+///
+/// rows in the order (boundary, interior) there and in that of the structure in `transformation`. The
+/// boundary displacements are the first b coordinates, in the order given, so that contact on them needs no
+/// recovery.
+struct CraigBampton {
+  EigenmodesStatus status = EigenmodesStatus::converged;  ///< of the fixed-interface modes
+  Eigen::VectorXi boundary;   ///< unknowns of the structure that are the first b coordinates
+  Eigen::VectorXd omega;      ///< rad/s, m: of the fixed-interface modes
+  Eigen::MatrixXd mass;       ///< (b+m) x (b+m), kg
+  Eigen::MatrixXd damping;    ///< N s/m
+  Eigen::MatrixXd stiffness;  ///< N/m; its blocks boundary-mode are zero, that of the modes diag(omega^2)
+  Eigen::MatrixXd transformation;  ///< n x (b+m)
+
+  /// T^T A T for another symmetric n x n matrix of the structure. O(nnz (b+m) + n (b+m)^2).
+  Eigen::MatrixXd project(const Eigen::SparseMatrix<double>& matrix) const;
+  /// T^T f for a load on the n unknowns.
+  Eigen::VectorXd project_load(const Eigen::VectorXd& load) const;
+  /// T q: displacements (n) of the structure from the b+m coordinates.
+  Eigen::VectorXd recover(const Eigen::VectorXd& coordinates) const;
+};
+
+/// Reduces a structure with symmetric stiffness, positive definite once the boundary is held, and symmetric
+/// mass; an empty damping matrix (0 x 0) counts as zero. One sparse factorisation of K_ii serves constraint
+/// modes and iteration; another, of K_ii - s M_ii, counts the modes. The interior may not be empty.
+///
+/// Throws std::invalid_argument if sizes, symmetry, boundary (out of range, twice) or options do not fit,
+/// std::domain_error if K_ii is not positive definite.
+CraigBampton craig_bampton(const Matrices& matrices, std::span<const int> boundary,
+                           const CraigBamptonOptions& options = {});
+
+}  // namespace wavebalance::fem

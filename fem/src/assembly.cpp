@@ -1,0 +1,145 @@
+#include "wavebalance/fem/assembly.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::fem {
+namespace {
+
+void require(bool valid, const std::string& message) {
+  if (!valid) throw std::invalid_argument(message);
+}
+
+void require_size(const char* where, const char* name, Eigen::Index found, Eigen::Index expected) {
+  require(found == expected, std::string(where) + ": " + name + " has size " + std::to_string(found) +
+                                 "; it must be " + std::to_string(expected));
+}
+
+// For every unknown the elements that have it: lists one after the other, and where each starts.
+struct Incidence {
+  std::vector<int> starts;
+  std::vector<int> elements;
+};
+
+Incidence incidence(int unknowns, const Connectivity& connectivity) {
+  Incidence result;
+  result.starts.assign(static_cast<std::size_t>(unknowns) + 1, 0);
+  for (int unknown : connectivity.reshaped())
+    if (unknown >= 0) ++result.starts[static_cast<std::size_t>(unknown) + 1];
+  for (std::size_t i = 1; i < result.starts.size(); ++i) result.starts[i] += result.starts[i - 1];
+  result.elements.resize(static_cast<std::size_t>(result.starts.back()));
+  std::vector<int> next(result.starts.begin(), result.starts.end() - 1);
+  for (int element = 0; element < connectivity.cols(); ++element)
+    for (int unknown : connectivity.col(element))
+      if (unknown >= 0)
+        result.elements[static_cast<std::size_t>(next[static_cast<std::size_t>(unknown)]++)] = element;
+  return result;
+}
+
+}  // namespace
+
+FreeDofs::FreeDofs(int dofs, std::span<const int> held) {
+  require(dofs >= 0, "FreeDofs: dofs is " + std::to_string(dofs) + "; it must not be negative");
+  unknowns_.assign(static_cast<std::size_t>(dofs), 0);
+  for (int dof : held) {
+    require(dof >= 0 && dof < dofs, "FreeDofs: held has the dof " + std::to_string(dof) +
+                                        "; it must be in 0.." + std::to_string(dofs - 1));
+    unknowns_[static_cast<std::size_t>(dof)] = -1;
+  }
+  for (int dof = 0; dof < dofs; ++dof) {
+    int& unknown = unknowns_[static_cast<std::size_t>(dof)];
+    if (unknown < 0) continue;
+    unknown = count();
+    free_.push_back(dof);
+  }
+}
+
+Eigen::VectorXd FreeDofs::expand(const Eigen::VectorXd& unknowns) const {
+  require_size("FreeDofs::expand", "unknowns", unknowns.size(), count());
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(dofs());
+  for (int i = 0; i < count(); ++i) values[free_[static_cast<std::size_t>(i)]] = unknowns[i];
+  return values;
+}
+
+Eigen::VectorXd FreeDofs::restrict_to_free(const Eigen::VectorXd& values) const {
+  require_size("FreeDofs::restrict_to_free", "values", values.size(), dofs());
+  return values(free_);
+}
+
+Connectivity FreeDofs::unknowns(const Connectivity& dofs) const {
+  return dofs.unaryExpr([this](int dof) { return unknown(dof); });
+}
+
+Assembly::Assembly(int unknowns, Connectivity connectivity) : connectivity_(std::move(connectivity)) {
+  require(unknowns >= 0, "Assembly: unknowns is " + std::to_string(unknowns) + "; it must not be negative");
+  for (int unknown : connectivity_.reshaped())
+    require(unknown >= -1 && unknown < unknowns, "Assembly: connectivity has " + std::to_string(unknown) +
+                                                     "; it must be in -1.." + std::to_string(unknowns - 1));
+  pattern_.resize(unknowns, unknowns);
+  find_pattern();
+}
+
+void Assembly::find_pattern() {
+  const int unknowns = static_cast<int>(pattern_.cols());
+  const Incidence elements = incidence(unknowns, connectivity_);
+  std::vector<int> last_column(static_cast<std::size_t>(unknowns), -1);
+  std::vector<int> rows;
+  int* starts = pattern_.outerIndexPtr();
+  for (int column = 0; column < unknowns; ++column) {
+    const auto first = static_cast<std::ptrdiff_t>(rows.size());
+    starts[column] = static_cast<int>(first);
+    for (int i = elements.starts[static_cast<std::size_t>(column)];
+         i < elements.starts[static_cast<std::size_t>(column) + 1]; ++i)
+      for (int row : connectivity_.col(elements.elements[static_cast<std::size_t>(i)])) {
+        if (row < 0 || last_column[static_cast<std::size_t>(row)] == column) continue;
+        last_column[static_cast<std::size_t>(row)] = column;
+        rows.push_back(row);
+      }
+    std::sort(rows.begin() + first, rows.end());
+  }
+  require(rows.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
+          "Assembly: the matrix would have " + std::to_string(rows.size()) + " entries; the index is 32 bit");
+  starts[unknowns] = static_cast<int>(rows.size());
+  pattern_.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+  std::copy(rows.begin(), rows.end(), pattern_.innerIndexPtr());
+  pattern_.coeffs().setZero();
+}
+
+Eigen::SparseMatrix<double> Assembly::matrix(
+    const std::function<Eigen::MatrixXd(int)>& element_matrix) const {
+  Eigen::SparseMatrix<double> sum = pattern_;
+  const int* starts = sum.outerIndexPtr();
+  const int* rows = sum.innerIndexPtr();
+  double* values = sum.valuePtr();
+  for (int element = 0; element < connectivity_.cols(); ++element) {
+    const Eigen::MatrixXd part = element_matrix(element);
+    require_size("Assembly::matrix", "rows of an element matrix", part.rows(), connectivity_.rows());
+    require_size("Assembly::matrix", "columns of an element matrix", part.cols(), connectivity_.rows());
+    for (Eigen::Index j = 0; j < part.cols(); ++j) {
+      const int column = connectivity_(j, element);
+      if (column < 0) continue;
+      for (Eigen::Index i = 0; i < part.rows(); ++i) {
+        const int row = connectivity_(i, element);
+        if (row < 0) continue;
+        const int* place = std::lower_bound(rows + starts[column], rows + starts[column + 1], row);
+        values[place - rows] += part(i, j);
+      }
+    }
+  }
+  return sum;
+}
+
+Eigen::VectorXd Assembly::vector(const std::function<Eigen::VectorXd(int)>& element_vector) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(pattern_.rows());
+  for (int element = 0; element < connectivity_.cols(); ++element) {
+    const Eigen::VectorXd part = element_vector(element);
+    require_size("Assembly::vector", "an element vector", part.size(), connectivity_.rows());
+    for (Eigen::Index i = 0; i < part.size(); ++i)
+      if (connectivity_(i, element) >= 0) sum[connectivity_(i, element)] += part[i];
+  }
+  return sum;
+}
+
+}  // namespace wavebalance::fem

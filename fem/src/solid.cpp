@@ -1,0 +1,189 @@
+#include "wavebalance/fem/solid.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "hexahedron.hpp"
+
+namespace wavebalance::fem {
+namespace {
+
+void require(bool valid, const std::string& message) {
+  if (!valid) throw std::invalid_argument(message);
+}
+
+void require_member(bool valid, const char* member, double value, const char* allowed) {
+  if (valid) return;
+  std::ostringstream message;
+  message.precision(17);
+  message << "SolidMaterial: " << member << " is " << value << "; it must be " << allowed;
+  throw std::invalid_argument(message.str());
+}
+
+void require_displacements(Eigen::Index found, Eigen::Index expected) {
+  require(found == expected, "solid: displacements has " + std::to_string(found) +
+                                 " columns; it must have one for each of the " + std::to_string(expected) +
+                                 " nodes");
+}
+
+// Runs a computation on one element and says which one it was that failed.
+template <typename Function>
+auto on_element(int index, Function&& function) {
+  try {
+    return function();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("element " + std::to_string(index) + ": " + error.what());
+  }
+}
+
+// Trilinear extension of values at the 2 x 2 x 2 Gauss points: 8 x k weights.
+Eigen::MatrixXd extension_to_nodes(SolidElement element) {
+  const Eigen::Matrix3Xd nodes = detail::natural_nodes(element);
+  const Eigen::Matrix3Xd signs = detail::gauss_rule(2).points * std::sqrt(3.0);
+  Eigen::MatrixXd weights(8, nodes.cols());
+  for (Eigen::Index node = 0; node < nodes.cols(); ++node)
+    for (Eigen::Index p = 0; p < 8; ++p)
+      weights(p, node) = (1.0 + std::sqrt(3.0) * signs.col(p).array() * nodes.col(node).array()).prod() / 8.0;
+  return weights;
+}
+
+}  // namespace
+
+int nodes_per_element(SolidElement element) { return element == SolidElement::hexahedron8 ? 8 : 20; }
+
+void SolidMaterial::validate() const {
+  require_member(youngs_modulus > 0.0 && std::isfinite(youngs_modulus), "youngs_modulus", youngs_modulus,
+                 "positive and finite");
+  require_member(poissons_ratio > -1.0 && poissons_ratio < 0.5, "poissons_ratio", poissons_ratio,
+                 "in (-1, 1/2)");
+  require_member(density > 0.0 && std::isfinite(density), "density", density, "positive and finite");
+}
+
+Eigen::Matrix3Xd SolidMesh::coordinates(int index) const {
+  if (index < 0 || index >= elements.cols())
+    throw std::out_of_range("SolidMesh: element " + std::to_string(index) + " is not in 0.." +
+                            std::to_string(elements.cols() - 1));
+  return nodes(Eigen::all, elements.col(index));
+}
+
+void SolidMesh::validate() const {
+  require(elements.cols() >= 1, "SolidMesh: there are no elements");
+  require(elements.rows() == nodes_per_element(element),
+          "SolidMesh: elements has " + std::to_string(elements.rows()) + " rows; it must have " +
+              std::to_string(nodes_per_element(element)));
+  require(nodes.allFinite(), "SolidMesh: nodes has a coordinate that is not finite");
+  for (Eigen::Index index = 0; index < elements.cols(); ++index)
+    for (int node : elements.col(index))
+      require(node >= 0 && node < nodes.cols(), "SolidMesh: element " + std::to_string(index) + " has node " +
+                                                    std::to_string(node) + "; it must be in 0.." +
+                                                    std::to_string(nodes.cols() - 1));
+}
+
+Eigen::MatrixXd element_stiffness(SolidElement element, const Eigen::Matrix3Xd& coordinates,
+                                  const SolidMaterial& material) {
+  material.validate();
+  const detail::Samples samples = detail::sample(element, coordinates, detail::stiffness_rule(element));
+  const Eigen::MatrixXd full = detail::elastic_matrix(samples, material);
+  if (element != SolidElement::hexahedron8) return full;
+  const Eigen::MatrixXd coupling = full.bottomLeftCorner(9, 24);
+  const Eigen::MatrixXd condensed =
+      full.topLeftCorner(24, 24) - coupling.transpose() * full.bottomRightCorner(9, 9).llt().solve(coupling);
+  return (condensed + condensed.transpose()) / 2.0;
+}
+
+Eigen::MatrixXd element_mass(SolidElement element, const Eigen::Matrix3Xd& coordinates,
+                             const SolidMaterial& material) {
+  material.validate();
+  return detail::expand_by_block(detail::scalar_mass(element, coordinates, material.density),
+                                 Eigen::Matrix3d::Identity());
+}
+
+Stress element_stress(SolidElement element, const Eigen::Matrix3Xd& coordinates,
+                      const SolidMaterial& material, const Eigen::Matrix3Xd& displacements,
+                      const Eigen::Vector3d& point) {
+  material.validate();
+  require_displacements(displacements.cols(), nodes_per_element(element));
+  const detail::Samples samples = detail::sample(element, coordinates, {point, Eigen::VectorXd::Ones(1)});
+  return detail::stress_at(samples, material,
+                           detail::with_incompatible_modes(element, coordinates, material, displacements));
+}
+
+Eigen::Matrix3Xd SolidModel::displacements(const Eigen::VectorXd& unknowns) const {
+  return dofs.expand(unknowns).reshaped(3, mesh.nodes.cols());
+}
+
+Assembly SolidModel::assembly() const {
+  mesh.validate();
+  material.validate();
+  require(dofs.dofs() == 3 * mesh.nodes.cols(), "SolidModel: dofs counts " + std::to_string(dofs.dofs()) +
+                                                    "; it must be 3 x " + std::to_string(mesh.nodes.cols()));
+  Connectivity unknowns(3 * mesh.elements.rows(), mesh.elements.cols());
+  for (Eigen::Index index = 0; index < mesh.elements.cols(); ++index)
+    for (Eigen::Index i = 0; i < unknowns.rows(); ++i)
+      unknowns(i, index) = dofs.unknown(3 * mesh.elements(i / 3, index) + static_cast<int>(i % 3));
+  return Assembly(dofs.count(), std::move(unknowns));
+}
+
+SolidModel hold_nodes(SolidMesh mesh, const SolidMaterial& material, const std::vector<int>& nodes) {
+  mesh.validate();
+  material.validate();
+  std::vector<int> held;
+  for (int node : nodes) {
+    require(node >= 0 && node < mesh.nodes.cols(), "hold_nodes: nodes has " + std::to_string(node) +
+                                                       "; it must be in 0.." +
+                                                       std::to_string(mesh.nodes.cols() - 1));
+    for (int axis = 0; axis < 3; ++axis) held.push_back(3 * node + axis);
+  }
+  const FreeDofs dofs(3 * static_cast<int>(mesh.nodes.cols()), held);
+  return {std::move(mesh), material, dofs};
+}
+
+Matrices solid_matrices(const SolidModel& model, double stiffness_damping) {
+  require(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping),
+          "solid_matrices: stiffness_damping is " + std::to_string(stiffness_damping) +
+              "; it must be finite and not negative");
+  const Assembly assembly = model.assembly();
+  const SolidMesh& mesh = model.mesh;
+  Matrices matrices;
+  matrices.stiffness = assembly.matrix([&](int index) {
+    return on_element(
+        index, [&] { return element_stiffness(mesh.element, mesh.coordinates(index), model.material); });
+  });
+  matrices.mass = assembly.matrix([&](int index) {
+    return on_element(index,
+                      [&] { return element_mass(mesh.element, mesh.coordinates(index), model.material); });
+  });
+  // Directions do not share mass: two thirds of the pattern are zeros.
+  matrices.mass.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  matrices.damping = stiffness_damping * matrices.stiffness;
+  return matrices;
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> nodal_stress(const SolidModel& model,
+                                                      const Eigen::Matrix3Xd& displacements) {
+  const SolidMesh& mesh = model.mesh;
+  mesh.validate();
+  model.material.validate();
+  require_displacements(displacements.cols(), mesh.nodes.cols());
+  const Eigen::MatrixXd extension = extension_to_nodes(mesh.element);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> sum =
+      Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, mesh.nodes.cols());
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(mesh.nodes.cols());
+  for (int index = 0; index < mesh.elements.cols(); ++index) {
+    const Eigen::Matrix3Xd coordinates = mesh.coordinates(index);
+    const Eigen::Matrix3Xd moved = displacements(Eigen::all, mesh.elements.col(index));
+    const auto coefficients =
+        detail::with_incompatible_modes(mesh.element, coordinates, model.material, moved);
+    const auto samples = detail::sample(mesh.element, coordinates, detail::gauss_rule(2));
+    sum(Eigen::all, mesh.elements.col(index)) +=
+        detail::stress_at(samples, model.material, coefficients) * extension;
+    for (int node : mesh.elements.col(index)) shares[node] += 1.0;
+  }
+  return sum * shares.cwiseMax(1.0).cwiseInverse().asDiagonal();
+}
+
+}  // namespace wavebalance::fem
