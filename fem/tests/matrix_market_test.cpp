@@ -1,0 +1,157 @@
+#include "wavebalance/fem/matrix_market.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "wavebalance/fem/bar.hpp"
+
+namespace wavebalance::fem {
+namespace {
+
+const std::string general = "%%MatrixMarket matrix coordinate real general\n";
+const std::string symmetric = "%%MatrixMarket matrix coordinate real symmetric\n";
+
+Eigen::SparseMatrix<double> read(const std::string& text) {
+  std::istringstream input(text);
+  return read_matrix_market(input, "given.mtx");
+}
+
+template <typename Function>
+void expect_error(Function&& function, const std::string& part) {
+  try {
+    function();
+    FAIL() << "accepted; expected: " << part;
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what() << "\nlacks: " << part;
+  }
+}
+
+TEST(MatrixMarket, ReadsGeneralAndSymmetricMatrices) {
+  Eigen::Matrix3d expected;
+  expected << 2, -1, 0, -1, 2.5e-3, 4, 0, 4, 0;
+  EXPECT_EQ(Eigen::MatrixXd(read(symmetric + "% note\n\n3 3 4\n1 1 2\n2 1 -1\n3 2 +4.0\n2 2 2.5E-3\n")),
+            expected);
+  EXPECT_EQ(
+      Eigen::MatrixXd(read(general + "3 3 6\r\n2 1 -1\r\n1 1 2\r\n1 2 -1\r\n2 2 .0025\r\n2 3 4\r\n3 2 4")),
+      expected);
+  EXPECT_EQ(read("%%matrixmarket MATRIX coordinate Integer GENERAL\n2 3 1\n2 3 7\n").coeff(1, 2), 7.0);
+  EXPECT_EQ(read(general + "0 0 0\n").nonZeros(), 0);
+}
+
+TEST(MatrixMarket, GivesBackWhatItWroteToTheLastBit) {
+  BarOptions options;
+  options.length = 1.0 / 3.0;
+  const Eigen::SparseMatrix<double> matrix = bar(options).stiffness;
+  for (auto symmetry : {MatrixMarketSymmetry::general, MatrixMarketSymmetry::symmetric}) {
+    std::stringstream file;
+    write_matrix_market(file, matrix, symmetry);
+    const Eigen::SparseMatrix<double> found = read_matrix_market(file, "written");
+    EXPECT_TRUE(found.isCompressed());
+    EXPECT_EQ(found.nonZeros(), matrix.nonZeros());
+    EXPECT_EQ(Eigen::MatrixXd(found), Eigen::MatrixXd(matrix));
+  }
+  const auto file = std::filesystem::path(testing::TempDir()) / "wavebalance_fem_matrix.mtx";
+  write_matrix_market(file, matrix);
+  EXPECT_EQ(Eigen::MatrixXd(read_matrix_market(file)), Eigen::MatrixXd(matrix));
+  std::filesystem::remove(file);
+}
+
+TEST(MatrixMarket, NamesWhatIsWrongAndWhere) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "the file is empty"},
+      {"1 1 1\n1 1 1\n", "given.mtx:1: the header must be"},
+      {"%%MatrixMarket matrix array real general\n1 1\n1\n",
+       "the format is \"array\"; it must be coordinate"},
+      {"%%MatrixMarket matrix coordinate complex general\n", "the field is \"complex\""},
+      {"%%MatrixMarket matrix coordinate pattern general\n", "the field is \"pattern\""},
+      {"%%MatrixMarket matrix coordinate real hermitian\n", "the symmetry is \"hermitian\""},
+      {general, "the line of sizes is missing"},
+      {general + "2 2\n", "the line must hold rows, columns and entries"},
+      {general + "2 -2 1\n", "the count of columns is -2"},
+      {general + "2 2.5 1\n", "must be a whole number"},
+      {general + "99999999999 1 1\n", "must be a whole number in range"},
+      {general + "2 2 5\n", "has room for 4"},
+      {symmetric + "2 3 1\n", "must be square; this one is 2 x 3"},
+      {general + "2 2 1\n3 1 1\n", "given.mtx:3: the row is 3; it must be in 1..2"},
+      {general + "2 2 1\n1 0 1\n", "the column is 0; it must be in 1..2"},
+      {symmetric + "2 2 1\n1 2 1\n", "(1, 2) is above the diagonal"},
+      {general + "2 2 2\n1 1 1\n1 1 1\n", "(1, 1) is given twice"},
+      {general + "2 2 1\n1 1 nan\n", "it must be finite"},
+      {general + "2 2 1\n1 1 -inf\n", "it must be finite"},
+      {general + "2 2 1\n1 1 1e999\n", "must be a number in range"},
+      {general + "2 2 1\n1 1 1.0x\n", "the value is \"1.0x\""},
+      {general + "2 2 1\n1 1\n", "must hold row, column and value"},
+      {general + "2 2 3\n1 1 1\n2 2 1\n", "ends after 2 of 3 entries"},
+      {general + "2 2 1\n1 1 1\n2 2 1\n", "more than the 1 entries"}};
+  for (const auto& [text, part] : cases) {
+    expect_error([&] { read(text); }, part);
+    EXPECT_THROW(read(text), MatrixMarketError) << text;
+  }
+  expect_error([] { read_matrix_market("no/such/file.mtx"); }, "no/such/file.mtx");
+}
+
+TEST(MatrixMarket, ReadsLoadVectors) {
+  const auto vector = [](const std::string& text) {
+    std::istringstream input(text);
+    return read_matrix_market_vector(input, "load.mtx");
+  };
+  const std::string header = "%%MatrixMarket matrix array real general\n";
+  EXPECT_EQ(vector(header + "3 1\n1\n-2.5\n3e4\n"), Eigen::Vector3d(1, -2.5, 3e4));
+  expect_error([&] { vector(header + "3 2\n"); }, "the count of columns is 2; it must be 1");
+  expect_error([&] { vector(header + "3 1\n1\n2\n"); }, "ends after 2 of 3");
+  expect_error([&] { vector(header + "1 1\n1\n2\n"); }, "more than the 1");
+  expect_error([&] { vector(general + "1 1 1\n"); }, "must be array");
+}
+
+TEST(MatrixMarket, RefusesToWriteWhatCouldNotBeRead) {
+  Eigen::SparseMatrix<double> matrix = bar({}).mass;
+  matrix.coeffRef(1, 0) *= 2;
+  std::ostringstream output;
+  EXPECT_THROW(write_matrix_market(output, matrix, MatrixMarketSymmetry::symmetric), std::invalid_argument);
+  matrix.coeffRef(1, 0) = std::nan("");
+  EXPECT_THROW(write_matrix_market(output, matrix), std::invalid_argument);
+  EXPECT_THROW(write_matrix_market("no/such/folder/file.mtx", bar({}).mass), MatrixMarketError);
+}
+
+TEST(StructureCheck, AcceptsABarWithOrWithoutDamping) {
+  Matrices matrices = bar({});
+  EXPECT_NO_THROW(check_structure(matrices));
+  matrices.damping.resize(0, 0);
+  EXPECT_NO_THROW(check_structure(matrices));
+}
+
+TEST(StructureCheck, NamesTheMatrixThatIsWrong) {
+  const Matrices right = bar({});
+  const auto expect_rejected = [&](auto change, const std::string& part) {
+    Matrices wrong = right;
+    change(wrong);
+    expect_error([&] { check_structure(wrong); }, part);
+  };
+  expect_rejected([](Matrices& m) { m.mass.conservativeResize(24, 24); }, "mass is 24 x 24");
+  expect_rejected([](Matrices& m) { m.damping.conservativeResize(25, 26); }, "damping is 25 x 26");
+  expect_rejected([](Matrices& m) { m = {}; }, "stiffness is 0 x 0");
+  expect_rejected([](Matrices& m) { m.stiffness.coeffRef(2, 1) *= 1.1; }, "stiffness is not symmetric");
+  expect_rejected([](Matrices& m) { m.damping.coeffRef(2, 1) += 1.0; }, "damping is not symmetric");
+  expect_rejected([](Matrices& m) { m.mass.coeffRef(3, 3) = std::nan(""); }, "row 3, column 3");
+  expect_rejected([](Matrices& m) { m.mass.coeffRef(3, 3) = -1; }, "mass is not positive definite");
+  expect_rejected([](Matrices& m) { m.mass.coeffRef(3, 3) /= 20; }, "mass is not positive definite");
+  const auto set_free = [](Matrices& m) { m.stiffness.coeffRef(0, 0) /= 2; };
+  expect_rejected(set_free, "stiffness is not positive definite");
+  Matrices floating = right;
+  set_free(floating);
+  EXPECT_NO_THROW(check_structure(floating, {.allow_free = true}));
+}
+
+TEST(StructureCheck, NamesUnknownsThatAreOutOfRangeOrRepeated) {
+  const std::vector<int> list = {4, 2, 7};
+  EXPECT_NO_THROW(check_unknowns(list, 8, "contact.dofs"));
+  expect_error([&] { check_unknowns(list, 7, "contact.dofs"); }, "contact.dofs has 7; it must be in 0..6");
+  const std::vector<int> twice = {4, 2, 4};
+  expect_error([&] { check_unknowns(twice, 8, "contact.dofs"); }, "contact.dofs has 4 twice");
+}
+
+}  // namespace
+}  // namespace wavebalance::fem
