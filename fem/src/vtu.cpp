@@ -1,0 +1,200 @@
+#include "wavebalance/fem/vtu.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+
+namespace wavebalance::fem {
+namespace {
+
+constexpr int quadratic_hexahedron = 25;
+constexpr int linear_hexahedron = 12;
+
+void require(bool valid, const std::string& message) {
+  if (!valid) throw std::invalid_argument(message);
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (char letter : text) switch (letter) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += letter;
+    }
+  return result;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t start = 0; start < bytes.size(); start += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      group = group << 8 | (start + i < bytes.size() ? static_cast<unsigned char>(bytes[start + i]) : 0u);
+    for (std::size_t i = 0; i < 4; ++i)
+      text += start + i <= bytes.size() ? digits[group >> (18 - 6 * i) & 63u] : '=';
+  }
+  return text;
+}
+
+// The data arrays of a file: as text where they stand, or collected behind the tree.
+class Arrays {
+ public:
+  Arrays(std::ostream& output, VtuFormat format) : output_(output), format_(format) {}
+
+  template <typename Number, typename Values>
+  void write(const std::string& attributes, const char* type, const Values& values, int digits = 0) {
+    output_ << "<DataArray type=\"" << type << "\" " << attributes;
+    if (format_ == VtuFormat::ascii) {
+      output_ << " format=\"ascii\">\n";
+      if (digits > 0) output_ << std::setprecision(digits);
+      for (Eigen::Index column = 0; column < values.cols(); ++column)
+        for (Eigen::Index row = 0; row < values.rows(); ++row)
+          output_ << +static_cast<Number>(values(row, column)) << (row + 1 == values.rows() ? '\n' : ' ');
+      output_ << "</DataArray>\n";
+      return;
+    }
+    output_ << " format=\"appended\" offset=\"" << appended_.size() << "\"/>\n";
+    const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> data = values.template cast<Number>();
+    const std::uint64_t size = static_cast<std::uint64_t>(data.size()) * sizeof(Number);
+    std::string bytes(sizeof size + size, '\0');
+    std::memcpy(bytes.data(), &size, sizeof size);
+    if (size > 0) std::memcpy(bytes.data() + sizeof size, data.data(), size);
+    appended_ += base64(bytes);
+  }
+  void write_appended() {
+    if (format_ == VtuFormat::ascii) return;
+    output_ << "<AppendedData encoding=\"base64\">\n_" << appended_ << "\n</AppendedData>\n";
+  }
+
+ private:
+  std::ostream& output_;
+  VtuFormat format_;
+  std::string appended_;
+};
+
+void validate(const SolidMesh& mesh, std::span<const PointField> fields) {
+  mesh.validate();
+  for (const PointField& field : fields) {
+    require(!field.name.empty(), "write_vtu: a field has no name");
+    const std::string start = "write_vtu: the field " + field.name;
+    require(field.values.cols() == mesh.nodes.cols(), start + " has " + std::to_string(field.values.cols()) +
+                                                          " columns; the mesh has " +
+                                                          std::to_string(mesh.nodes.cols()) + " nodes");
+    require(field.values.rows() >= 1 && field.values.rows() <= 9,
+            start + " has " + std::to_string(field.values.rows()) + " rows; it must have 1 to 9");
+    require(field.values.allFinite(), start + " has an entry that is not finite");
+  }
+}
+
+void write_cells(Arrays& arrays, const SolidMesh& mesh) {
+  const Eigen::Index count = mesh.elements.cols();
+  Eigen::Matrix<std::int64_t, 1, Eigen::Dynamic> offsets(count);
+  for (Eigen::Index i = 0; i < count; ++i) offsets[i] = (i + 1) * mesh.elements.rows();
+  const int type = mesh.element == SolidElement::hexahedron8 ? linear_hexahedron : quadratic_hexahedron;
+  arrays.write<std::int64_t>("Name=\"connectivity\"", "Int64", mesh.elements);
+  arrays.write<std::int64_t>("Name=\"offsets\"", "Int64", offsets);
+  arrays.write<std::uint8_t>("Name=\"types\"", "UInt8", Eigen::RowVectorXi::Constant(count, type));
+}
+
+std::string file_open_tag(const char* type) {
+  const bool little = std::endian::native == std::endian::little;
+  return std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"") + type +
+         "\" version=\"1.0\" byte_order=\"" + (little ? "LittleEndian" : "BigEndian") +
+         "\" header_type=\"UInt64\">\n";
+}
+
+std::ofstream open(const std::filesystem::path& file) {
+  std::ofstream output(file, std::ios::binary);
+  if (!output) throw std::runtime_error(file.string() + ": the file cannot be opened for writing");
+  return output;
+}
+
+void close(std::ofstream& output, const std::filesystem::path& file) {
+  output.close();
+  if (!output) throw std::runtime_error(file.string() + ": writing failed");
+}
+
+}  // namespace
+
+void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const PointField> fields,
+               VtuFormat format) {
+  validate(mesh, fields);
+  const auto precision = output.precision();
+  Arrays arrays(output, format);
+  output << file_open_tag("UnstructuredGrid") << "<UnstructuredGrid>\n<Piece NumberOfPoints=\""
+         << mesh.nodes.cols() << "\" NumberOfCells=\"" << mesh.elements.cols() << "\">\n<PointData>\n";
+  for (const PointField& field : fields)
+    arrays.write<double>("Name=\"" + escaped(field.name) + "\" NumberOfComponents=\"" +
+                             std::to_string(field.values.rows()) + "\"",
+                         "Float64", field.values, 9);
+  output << "</PointData>\n<Points>\n";
+  arrays.write<double>("Name=\"points\" NumberOfComponents=\"3\"", "Float64", mesh.nodes, 17);
+  output << "</Points>\n<Cells>\n";
+  write_cells(arrays, mesh);
+  output << "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+  arrays.write_appended();
+  output << "</VTKFile>\n";
+  output.precision(precision);
+  if (!output) throw std::runtime_error("write_vtu: writing failed");
+}
+
+void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::span<const PointField> fields,
+               VtuFormat format) {
+  validate(mesh, fields);
+  std::ofstream output = open(file);
+  write_vtu(output, mesh, fields, format);
+  close(output, file);
+}
+
+void write_pvd(std::ostream& output, std::span<const PvdEntry> entries) {
+  std::ostringstream text;
+  text << std::setprecision(17) << file_open_tag("Collection") << "<Collection>\n";
+  for (const PvdEntry& entry : entries) {
+    require(std::isfinite(entry.time), "write_pvd: the time of " + entry.file + " is not finite");
+    text << "<DataSet timestep=\"" << entry.time << "\" part=\"0\" file=\"" << escaped(entry.file)
+         << "\"/>\n";
+  }
+  output << text.str() << "</Collection>\n</VTKFile>\n";
+  if (!output) throw std::runtime_error("write_pvd: writing failed");
+}
+
+void write_vtu_series(const std::filesystem::path& folder, const std::string& stem, const SolidMesh& mesh,
+                      std::span<const double> times, std::span<const Eigen::Matrix3Xd> displacements,
+                      VtuFormat format) {
+  require(times.size() == displacements.size(),
+          "write_vtu_series: there are " + std::to_string(times.size()) + " times and " +
+              std::to_string(displacements.size()) + " displacements; there must be as many");
+  std::vector<PvdEntry> entries;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    std::ostringstream name;
+    name << stem << '_' << std::setfill('0') << std::setw(4) << i << ".vtu";
+    entries.push_back({times[i], name.str()});
+    const PointField field{"displacement", displacements[i]};
+    write_vtu(folder / name.str(), mesh, {&field, 1}, format);
+  }
+  const std::filesystem::path file = folder / (stem + ".pvd");
+  std::ofstream output = open(file);
+  write_pvd(output, entries);
+  close(output, file);
+}
+
+}  // namespace wavebalance::fem

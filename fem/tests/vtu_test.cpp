@@ -1,0 +1,162 @@
+#include "wavebalance/fem/vtu.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace wavebalance::fem {
+namespace {
+
+SolidMesh box(SolidElement element) {
+  return structured_mesh(element, {2, 1, 1}, [](const Eigen::Vector3d& at) { return at; }).mesh;
+}
+
+std::string written(const SolidMesh& mesh, const std::vector<PointField>& fields, VtuFormat format) {
+  std::ostringstream output;
+  write_vtu(output, mesh, fields, format);
+  return output.str();
+}
+
+// Empty if every tag is closed in order and quotes pair, else what is wrong. No comments, no CDATA.
+std::string malformed(const std::string& text) {
+  std::vector<std::string> open;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    const std::size_t end = text.find('>', at);
+    if (end == std::string::npos) return "a tag does not end";
+    const std::string tag = text.substr(at + 1, end - at - 1);
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return "quotes do not pair in " + tag;
+    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
+    if (tag[0] == '?' || tag.back() == '/') continue;
+    if (tag[0] != '/') {
+      open.push_back(name);
+    } else if (open.empty() || "/" + open.back() != tag) {
+      return tag + " closes nothing";
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? "" : open.back() + " is not closed";
+}
+
+std::string array_text(const std::string& file, const std::string& name) {
+  const std::size_t start = file.find('>', file.find("Name=\"" + name + "\"")) + 1;
+  return file.substr(start, file.find('<', start) - start);
+}
+
+std::string decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  for (std::size_t at = 0; at + 4 <= text.size(); at += 4) {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      group = group << 6 | (text[at + i] == '=' ? 0u : static_cast<std::uint32_t>(digits.find(text[at + i])));
+    const std::size_t padding = text[at + 2] == '=' ? 2 : text[at + 3] == '=' ? 1 : 0;
+    for (std::size_t i = 0; i < 3 - padding; ++i) bytes += static_cast<char>(group >> (16 - 8 * i) & 255u);
+  }
+  return bytes;
+}
+
+// The numbers of an appended array: base64 of its length in bytes (64 bit) and its data.
+Eigen::VectorXd appended(const std::string& file, const std::string& name) {
+  const std::size_t attribute = file.find("offset=\"", file.find("Name=\"" + name + "\"")) + 8;
+  const std::size_t offset = std::stoul(file.substr(attribute));
+  const std::size_t data = file.find('_', file.find("<AppendedData")) + 1 + offset;
+  std::uint64_t size = 0;
+  std::memcpy(&size, decoded(file.substr(data, 12)).data(), 8);
+  const std::string bytes = decoded(file.substr(data, (8 + size + 2) / 3 * 4));
+  Eigen::VectorXd values(static_cast<Eigen::Index>(size / 8));
+  std::memcpy(values.data(), bytes.data() + 8, size);
+  return values;
+}
+
+class EveryVtu : public testing::TestWithParam<SolidElement> {};
+INSTANTIATE_TEST_SUITE_P(Vtu, EveryVtu,
+                         testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20),
+                         [](const auto& chosen) {
+                           return chosen.param == SolidElement::hexahedron8 ? "linear" : "quadratic";
+                         });
+
+TEST_P(EveryVtu, IsWellFormedWithTheTypeOfItsCells) {
+  const SolidMesh mesh = box(GetParam());
+  const std::vector<PointField> fields = {{"u <\"&\"> 1", Eigen::MatrixXd::Random(3, mesh.nodes.cols())},
+                                          {"stress", Eigen::MatrixXd::Random(6, mesh.nodes.cols())}};
+  for (auto format : {VtuFormat::ascii, VtuFormat::appended_base64}) {
+    const std::string file = written(mesh, fields, format);
+    EXPECT_EQ(malformed(file), "");
+    EXPECT_NE(file.find("u &lt;&quot;&amp;&quot;&gt; 1"), std::string::npos);
+    EXPECT_NE(file.find("NumberOfPoints=\"" + std::to_string(mesh.nodes.cols()) + "\" NumberOfCells=\"2\""),
+              std::string::npos);
+  }
+  const std::string type = GetParam() == SolidElement::hexahedron8 ? "12" : "25";
+  EXPECT_EQ(array_text(written(mesh, {}, VtuFormat::ascii), "types"), "\n" + type + "\n" + type + "\n");
+}
+
+TEST(Vtu, HoldsPointsAndConnectivityAsText) {
+  const SolidMesh mesh = box(SolidElement::hexahedron20);
+  const std::string file = written(mesh, {}, VtuFormat::ascii);
+  std::istringstream points(array_text(file, "points")), cells(array_text(file, "connectivity"));
+  for (double expected : mesh.nodes.reshaped()) {
+    double found = -1;
+    points >> found;
+    EXPECT_EQ(found, expected);
+  }
+  for (int expected : mesh.elements.reshaped()) {
+    int found = -1;
+    cells >> found;
+    EXPECT_EQ(found, expected);
+  }
+  EXPECT_EQ(array_text(file, "offsets"), "\n20\n40\n");
+}
+
+TEST(Vtu, HoldsAppendedFieldsToTheLastBit) {
+  const SolidMesh mesh = box(SolidElement::hexahedron8);
+  for (int rows : {1, 2, 3, 6}) {  // every remainder of the padding
+    const PointField field{"values", Eigen::MatrixXd::Random(rows, mesh.nodes.cols())};
+    const std::string file = written(mesh, {field}, VtuFormat::appended_base64);
+    EXPECT_EQ(appended(file, "values"), field.values.reshaped());
+    EXPECT_EQ(appended(file, "points"), mesh.nodes.reshaped());
+  }
+}
+
+TEST(Vtu, WritesASeriesWithItsCollection) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "wavebalance_fem_series";
+  std::filesystem::create_directories(folder);
+  const SolidMesh mesh = box(SolidElement::hexahedron8);
+  const std::vector<Eigen::Matrix3Xd> motion(3, Eigen::Matrix3Xd::Ones(3, mesh.nodes.cols()));
+  const std::vector<double> times = {0.0, 0.25, 0.5};
+  write_vtu_series(folder, "mode", mesh, times, motion);
+  std::ostringstream text;
+  text << std::ifstream(folder / "mode.pvd").rdbuf();
+  EXPECT_EQ(malformed(text.str()), "");
+  EXPECT_NE(text.str().find("timestep=\"0.25\" part=\"0\" file=\"mode_0001.vtu\""), std::string::npos);
+  for (const char* name : {"mode_0000.vtu", "mode_0001.vtu", "mode_0002.vtu"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  std::filesystem::remove_all(folder);
+  EXPECT_THROW(write_vtu_series(folder, "mode", mesh, {times.data(), 2}, motion), std::invalid_argument);
+  EXPECT_THROW(write_vtu_series(folder / "none", "mode", mesh, times, motion), std::runtime_error);
+}
+
+TEST(Vtu, RejectsFieldsThatDoNotFit) {
+  const SolidMesh mesh = box(SolidElement::hexahedron8);
+  const Eigen::Index nodes = mesh.nodes.cols();
+  const auto rejects = [&](const PointField& field) {
+    EXPECT_THROW(written(mesh, {field}, VtuFormat::ascii), std::invalid_argument) << field.name;
+  };
+  rejects({"short", Eigen::MatrixXd::Zero(3, nodes - 1)});
+  rejects({"tall", Eigen::MatrixXd::Zero(10, nodes)});
+  rejects({"empty", Eigen::MatrixXd::Zero(0, nodes)});
+  rejects({"", Eigen::MatrixXd::Zero(1, nodes)});
+  rejects({"infinite", Eigen::MatrixXd::Constant(1, nodes, INFINITY)});
+  std::ostringstream output;
+  const PvdEntry entry{std::nan(""), "file.vtu"};
+  EXPECT_THROW(write_pvd(output, {&entry, 1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::fem
