@@ -35,17 +35,6 @@ void add_row(Table& table, const std::string& formulation, double energy, double
 
 }  // namespace
 
-std::vector<LagrangianPoint> published_branch(const reproduce::ModeStudy& study, int harmonics,
-                                              double largest, double step) {
-  LagrangianModeOptions options = options_of(study.scene(), harmonics);
-  options.formulation = solvers::ModeFormulation::published;
-  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
-  const LagrangianMode mode(study.mode().model(), options);
-  std::vector<double> energies;
-  for (int i = 0; 1.0 + i * step <= largest + 1e-9; ++i) energies.push_back(1.0 + i * step);
-  return mode.branch(energies, strategy(mode), mode.linear_start(1.0));
-}
-
 Agreement lagrangian_agreement(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
                                const std::vector<double>& energies) {
   const LagrangianMode mode(study.mode().model(),

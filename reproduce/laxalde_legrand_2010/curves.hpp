@@ -7,11 +7,6 @@
 
 namespace wavebalance::ll10 {
 
-/// LL10's equations as printed (h without n^2, omega^2 = r, Algorithm 2), in energy steps from grazing to
-/// `largest`. Ends at the first point that is not accepted, which is kept.
-std::vector<solvers::LagrangianPoint> published_branch(const reproduce::ModeStudy& study, int harmonics,
-                                                       double largest, double step);
-
 /// Largest relative difference of omega between the condensed solver and the consistent augmented Lagrangian
 /// (Algorithm 1) started from it, over those of `energies` that both reach.
 struct Agreement {

@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
     const reproduce::ModeStudy study(artefact.scene("rod.toml"));
     const auto backbone = study.backbone();
     if (!backbone.converged()) throw report::NotConverged("backbone: " + backbone.status());
-    const auto published = ll10::published_branch(study, published_harmonics, 10.0, 0.25);
+    const auto published = reproduce::ModeStudy(artefact.scene("rod_published.toml")).published_branch(10.0);
     const auto table = ll10::backbones_table(study, backbone, published);
     artefact.data(
         table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",

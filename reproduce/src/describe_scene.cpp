@@ -56,10 +56,12 @@ std::string mode_lines(const Scene& scene) {
                                 : std::to_string(analysis.points) + " points up to energy ratio " +
                                       number_text(analysis.largest_energy) + " or frequency ratio " +
                                       number_text(analysis.last_frequency_ratio);
-  return "mode       " + std::to_string(analysis.mode) + ", " + range + "\ntime       Fourier series, " +
-         std::to_string(analysis.harmonics) + " harmonics" + (analysis.cosine_only ? " (cosines only)" : "") +
-         "\nsize       " + std::to_string(analysis.samples) +
-         " contact forces after condensation on the contact (" +
+  const std::string formulation =
+      analysis.formulation == ModeFormulation::published ? ", equations as published" : "";
+  return "mode       " + std::to_string(analysis.mode) + ", " + range + formulation +
+         "\ntime       Fourier series, " + std::to_string(analysis.harmonics) + " harmonics" +
+         (analysis.cosine_only ? " (cosines only)" : "") + "\nsize       " +
+         std::to_string(analysis.samples) + " contact forces after condensation on the contact (" +
          std::to_string(std::int64_t{scene.structure.elements} * (2 * analysis.harmonics + 1)) +
          " unknowns before)\n";
 }

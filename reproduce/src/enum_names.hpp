@@ -23,6 +23,8 @@ inline constexpr std::array<std::string_view, 3> enum_names<Formulation>{"strong
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<InnerProducts>{"quadrature", "exact"};
 template <>
+inline constexpr std::array<std::string_view, 2> enum_names<ModeFormulation>{"consistent", "published"};
+template <>
 inline constexpr std::array<std::string_view, 4> enum_names<AnalysisType>{
     "forced_response", "frequency_sweep", "time_stepping", "nonlinear_mode"};
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "record_figure.hpp"
 #include "summary_parts.hpp"
@@ -140,13 +141,62 @@ Record motion_record(const ModeStudy& study) {
   return record;
 }
 
+/// The curve of the printed equations, or its last motion.
+Record published_record(const ModeStudy& study) {
+  const Scene& scene = study.scene();
+  const double energy = scene.analysis.energy_ratio;
+  const auto start = std::chrono::steady_clock::now();
+  const auto branch = study.published_branch(energy > 1.0 ? energy : scene.analysis.largest_energy);
+  Response response;
+  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const solvers::LagrangianPoint& last = branch.back();
+  response.samples = study.samples(last, scene.analysis.output_points, false);
+  double gradient = 0.0, equation = 0.0;
+  int iterations = 0;
+  for (const auto& point : branch) {
+    iterations += point.newton_iterations();
+    if (!point.history.empty()) gradient = std::max(gradient, point.history.back().gradient);
+    if (point.accepted()) equation = std::max(equation, point.equation_residual);
+  }
+  Record record;
+  record.converged = response.converged = last.accepted();
+  record.status = last.accepted()
+                      ? "converged"
+                      : to_string(last.status) + " at energy ratio " + cell_text(last.prescribed_ratio);
+  record.summary =
+      opening(record.converged, record.status, gradient, iterations,
+              study.mode().model().modes() * (2 * scene.analysis.harmonics + 1), response.wall_seconds);
+  append_motion(record.summary, response.samples);
+  append_discretisation(record.summary, study);
+  record.summary.emplace_back("formulation", name_of(scene.analysis.formulation));
+  record.summary.emplace_back("points", static_cast<std::int64_t>(branch.size()));
+  record.summary.emplace_back("equation_of_motion_residual", equation);
+  record.summary.emplace_back("energy_ratio", last.accepted() ? last.energy_ratio : missing);
+  record.summary.emplace_back("frequency_ratio",
+                              last.accepted() ? last.omega / study.mode().linear_omega() : missing);
+  if (energy > 0.0 && last.accepted()) {
+    record.response = response_table(response.samples);
+    record.figure =
+        motion_figure(scene, response, std::round(last.omega / (0.02 * std::numbers::pi)) / 100.0);
+  } else if (energy == 0.0) {
+    record.backbone = backbone_table(study, branch);
+    record.figure = backbone_figure(scene, record.backbone);
+    record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + record.status + ")";
+  }
+  return record;
+}
+
 }  // namespace
 
 Record mode_record(const Scene& scene, const ProgressObserver& observer) {
   if (observer) observer({"nonlinear mode", "linear modes", {}});
   const ModeStudy study(scene);
   if (observer) observer({"nonlinear mode", "backbone", {}});
-  return scene.analysis.energy_ratio > 0.0 ? motion_record(study) : curve_record(study);
+  const double energy = scene.analysis.energy_ratio;
+  const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
+  if (scene.analysis.formulation == ModeFormulation::published && with_contact)
+    return published_record(study);
+  return energy > 0.0 ? motion_record(study) : curve_record(study);
 }
 
 }  // namespace wavebalance::reproduce

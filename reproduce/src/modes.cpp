@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "resampling.hpp"
+#include "wavebalance/contact/multipliers.hpp"
 
 namespace wavebalance::reproduce {
 namespace {
@@ -15,7 +16,8 @@ using solvers::ModePoint;
 using solvers::ModeStatus;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr int linear_points = 6;  // of the branch below contact, energies 0, 0.2, ..
+constexpr double first_penalty = 300.0;  // in units omega_1 = gap = 1
+constexpr int linear_points = 6;         // of the branch below contact, energies 0, 0.2, ..
 
 bool is_solution(const ModePoint& point) { return point.accepted() || point.status == ModeStatus::tongue; }
 
@@ -120,21 +122,49 @@ ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const
 
 solvers::PeriodSamples ModeStudy::samples(const ModePoint& point, int points, bool full_history) const {
   if (!is_solution(point) || point.amplitudes.size() == 0) return {};
-  const Eigen::MatrixXcd u = full_history ? physical(modes_, point)
-                                          : Eigen::MatrixXcd(mode_.model().contact_shapes * point.amplitudes);
+  return sampled(point.amplitudes, point.force, point.omega, points, full_history);
+}
+
+solvers::PeriodSamples ModeStudy::samples(const solvers::LagrangianPoint& point, int points,
+                                          bool full_history) const {
+  if (!point.accepted()) return {};
+  return sampled(point.amplitudes, point.force, point.omega, points, full_history);
+}
+
+solvers::PeriodSamples ModeStudy::sampled(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
+                                          double omega, int points, bool full_history) const {
+  const Eigen::MatrixXcd u = full_history ? Eigen::MatrixXcd(modes_.shapes * amplitudes)
+                                          : Eigen::MatrixXcd(mode_.model().contact_shapes * amplitudes);
   Eigen::MatrixXcd v = u;
   for (Eigen::Index n = 0; n < v.cols(); ++n)
-    v.col(n) *= std::complex<double>(0.0, static_cast<double>(n) * point.omega);
+    v.col(n) *= std::complex<double>(0.0, static_cast<double>(n) * omega);
   const Eigen::MatrixXd displacements = synthesis(u, points), velocities = synthesis(v, points);
   const Eigen::Index row = full_history ? structure_.contact_dof : 0;
   solvers::PeriodSamples samples;
   samples.displacement = displacements.row(row);
   samples.velocity = velocities.row(row);
-  samples.contact_force = nearest_samples(point.force.row(0), points);
+  samples.contact_force = nearest_samples(force.row(0), points);
   if (!full_history) return samples;
   samples.displacements = displacements;
   samples.velocities = velocities;
   return samples;
+}
+
+std::vector<solvers::LagrangianPoint> ModeStudy::published_branch(double largest) const {
+  const Analysis& analysis = scene_.analysis;
+  solvers::LagrangianModeOptions options;
+  options.mode = analysis.mode;
+  options.harmonics = analysis.harmonics;
+  options.samples = analysis.samples;
+  options.cosine_only = analysis.cosine_only;
+  options.formulation = solvers::ModeFormulation::published;
+  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
+  const solvers::LagrangianMode mode(mode_.model(), options);
+  const contact::MultiplierUpdate strategy(
+      std::vector<double>(static_cast<std::size_t>(mode.constraints()), first_penalty), {first_penalty});
+  const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(analysis.points, 1.0, largest);
+  return mode.branch(std::span(energies.data(), static_cast<std::size_t>(energies.size())), strategy,
+                     mode.linear_start(1.0));
 }
 
 double ModeStudy::residual(const ModePoint& point) const {
@@ -159,10 +189,33 @@ std::string tongue_name(const solvers::Tongue& tongue) {
   return std::to_string(tongue.harmonic) + ":" + std::to_string(tongue.mode);
 }
 
+namespace {
+
+Table empty_backbone() {
+  return Table({"energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio",
+                "contact_fraction", "status", "residual", "identity_defect", "max_penetration_over_gap",
+                "min_contact_force_N", "tongue", "tongue_share"});
+}
+
+}  // namespace
+
+Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch) {
+  Table table = empty_backbone();
+  const double linear = study.mode().linear_omega();
+  table.append_row(
+      {0.0, study.linear_frequency(), 1.0, 1.0, 0.0, "linear", missing, 0.0, -1.0, 0.0, "none", 0.0});
+  for (const auto& point : branch) {
+    const auto value = [&](double number) { return point.accepted() ? number : missing; };
+    table.append_row({point.prescribed_ratio, value(point.omega / (2.0 * std::numbers::pi)),
+                      value(point.omega / linear), value(std::sqrt(point.rayleigh) / linear), missing,
+                      to_string(point.status), value(point.equation_residual), value(point.identity_defect),
+                      value(point.max_penetration), value(point.min_force), "none", missing});
+  }
+  return table;
+}
+
 Table backbone_table(const ModeStudy& study, const Backbone& curve) {
-  Table table({"energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio",
-               "contact_fraction", "status", "residual", "identity_defect", "max_penetration_over_gap",
-               "min_contact_force_N", "tongue", "tongue_share"});
+  Table table = empty_backbone();
   const double linear = study.mode().linear_omega();
   const auto add = [&](const ModePoint& point, double residual) {
     const bool found = is_solution(point);

@@ -11,6 +11,7 @@ std::string name_of(StructureType value) { return enum_name(value); }
 std::string name_of(ContactLawType value) { return enum_name(value); }
 std::string name_of(Formulation value) { return enum_name(value); }
 std::string name_of(InnerProducts value) { return enum_name(value); }
+std::string name_of(ModeFormulation value) { return enum_name(value); }
 std::string name_of(AnalysisType value) { return enum_name(value); }
 
 int daubechies_coefficients(const std::string& basis) {

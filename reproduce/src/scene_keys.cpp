@@ -240,6 +240,12 @@ void add_mode(std::vector<SceneKey>& keys) {
   const auto add = [&keys](SceneKey key) {
     keys.push_back(belonging(std::move(key), {"analysis.type", {"nonlinear_mode"}}));
   };
+  add(optional(key<s, &Analysis::formulation>(
+      "analysis", "formulation", "",
+      "consistent: the equation of motion holds at every point; published: the equations of Laxalde & "
+      "Legrand "
+      "as printed, by their augmented Lagrangian, with the root of the Rayleigh quotient as frequency (runs "
+      "with few harmonics only)")));
   add(optional(bounded(
       key<s, &Analysis::mode>("analysis", "mode", "", "the linear mode that the nonlinear one continues"),
       {1, 10'000'000})));
@@ -267,7 +273,8 @@ void add_mode(std::vector<SceneKey>& keys) {
                                               "or beyond this ratio of the frequency to the linear one"),
       {1.001, infinity, true})));
   add(optional(bounded(
-      key<s, &Analysis::points>("analysis", "points", "", "of the curve, uniform in frequency up to there"),
+      key<s, &Analysis::points>("analysis", "points", "",
+                                "of the curve, uniform in frequency up to there; in energy when published"),
       {2, 1'000'000})));
 }
 

@@ -4,6 +4,7 @@
 
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/solvers/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/nonlinear_mode.hpp"
 #include "wavebalance/solvers/period_samples.hpp"
 
@@ -54,11 +55,21 @@ class ModeStudy {
   /// known at analysis.samples times only and hold that of the nearest one. O(n N points).
   solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
 
+  /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy
+  /// ratio `largest` > 1 in analysis.points points, uniform. Ends at the first that is not accepted, which is
+  /// kept. O(points (n N)^3).
+  std::vector<solvers::LagrangianPoint> published_branch(double largest) const;
+  /// As above, of an accepted point; empty otherwise.
+  solvers::PeriodSamples samples(const solvers::LagrangianPoint& point, int points, bool full_history) const;
+
   /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the structure's own
   /// coordinates; NaN without motion. O(n N).
   double residual(const solvers::ModePoint& point) const;
 
  private:
+  solvers::PeriodSamples sampled(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
+                                 double omega, int points, bool full_history) const;
+
   Scene scene_;
   solvers::LinearStructure structure_;
   StructureModes modes_;
@@ -72,5 +83,8 @@ std::string tongue_name(const solvers::Tongue& tongue);
 /// identity_defect, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
 /// and the curve. Values of points that are not solutions are missing.
 Table backbone_table(const ModeStudy& study, const Backbone& curve);
+/// The same columns for a published branch, energies those prescribed; contact fractions and tongues are
+/// missing.
+Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch);
 
 }  // namespace wavebalance::reproduce

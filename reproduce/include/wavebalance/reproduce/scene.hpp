@@ -7,6 +7,7 @@ enum class StructureType { bar };
 enum class ContactLawType { none, exponential, linear, rigid };
 enum class Formulation { strong, weak, distributional };
 enum class InnerProducts { quadrature, exact };
+enum class ModeFormulation { consistent, published };
 enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
 
 /// The vibrating structure: an axial bar, clamped at x = 0, whose tip x = length may touch an obstacle [JL14,
@@ -72,6 +73,7 @@ struct Analysis {
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
 
+  ModeFormulation formulation = ModeFormulation::consistent;  ///< nonlinear_mode
   int mode = 1;                       ///< nonlinear_mode: the linear mode that is continued, from 1
   int harmonics = 10;                 ///< nonlinear_mode: N of the Fourier series
   int samples = 0;                    ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
@@ -79,7 +81,8 @@ struct Analysis {
   double energy_ratio = 0.0;          ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
   double largest_energy = 10.0;       ///< nonlinear_mode: energy ratio at which the curve ends
   double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
-  int points = 200;                   ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio
+  int points =
+      200;  ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio; published: in energy
 
   bool operator==(const Analysis&) const = default;
 };
@@ -101,6 +104,7 @@ std::string name_of(StructureType value);
 std::string name_of(ContactLawType value);
 std::string name_of(Formulation value);
 std::string name_of(InnerProducts value);
+std::string name_of(ModeFormulation value);
 std::string name_of(AnalysisType value);
 
 /// Number of coefficients of the Daubechies basis called `basis` ("daubechies6" gives 6), 0 for any other
