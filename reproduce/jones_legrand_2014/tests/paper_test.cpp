@@ -186,5 +186,24 @@ TEST_F(Jl14Paper, EverySceneReadsBackAsWritten) {
   EXPECT_GE(scenes, 7);
 }
 
+TEST_F(Jl14Paper, RigidObstacleFlattensThePlateauForAllPairs) {
+  ASSERT_EQ(run("rigid_plateau"), 0);
+  EXPECT_TRUE(has("rigid_plateau.svg") && has("rigid_plateau.png"));
+  const Table table = read("rigid_plateau.csv");
+  for (const char* number : {"1", "2"}) {
+    const Table rows = table.where("case", number), rigid = rows.where("contact", "rigid");
+    ASSERT_EQ(rigid.rows(), 6u);
+    const double penalty = rows.where("contact", "exponential").numbers("largest_penetration_over_gap").at(0);
+    // Mean force over amplitude, found independently: 0.0502 to 0.0515 and 0.355; 64 functions are near.
+    const double mean = number[0] == '1' ? 0.051 : 0.355;
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_EQ(rigid.numbers("converged")[i], 1.0);
+      EXPECT_LT(rigid.numbers("penetration_at_quadrature_points_over_gap")[i], 1e-6);
+      EXPECT_LT(rigid.numbers("largest_penetration_over_gap")[i], 0.5 * penalty);
+      EXPECT_NEAR(rigid.numbers("mean_force_over_amplitude")[i], mean, 0.05 * mean);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wavebalance::jl14
