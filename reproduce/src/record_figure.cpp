@@ -29,8 +29,9 @@ std::string basis_title(const std::string& basis) {
 
 std::string method_title(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
-    return "Mode " + std::to_string(scene.analysis.mode) + ", " + std::to_string(scene.analysis.harmonics) +
-           " harmonics, " + std::to_string(scene.analysis.samples) + " samples, " +
+    return "Mode " + std::to_string(scene.analysis.mode) +
+           ", N = " + std::to_string(scene.analysis.harmonics) +
+           ", m = " + std::to_string(scene.analysis.samples) + ", " +
            std::to_string(scene.structure.elements) + " elements";
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
@@ -105,11 +106,10 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
   panel.x.upper = scene.analysis.largest_energy;
   panel.y.label = "Frequency over the linear one";
   panel.legend = Legend::bottom_right;
-  panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false)});
-  Series quotient("√r, Rayleigh quotient", column("energy_ratio", false),
-                  column("rayleigh_frequency_ratio", false));
-  quotient.dash = Dash::dashed;
-  panel.add(std::move(quotient));
+  // Points: neighbours may lie either side of an internal resonance.
+  panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false), SeriesStyle::points});
+  panel.add({"√r, Rayleigh quotient", column("energy_ratio", false),
+             column("rayleigh_frequency_ratio", false), SeriesStyle::points});
   Series tongues("on an internal resonance", column("energy_ratio", true), column("frequency_ratio", true),
                  SeriesStyle::points);
   tongues.colour = Colour::grey;
