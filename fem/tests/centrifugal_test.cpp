@@ -69,6 +69,22 @@ TEST_P(EveryRotor, HasASymmetricGeometricStiffnessThatIsTheSameInAllDirections) 
   EXPECT_EQ(block(0, 1).norm(), 0.0);
 }
 
+// Turned with its axis, so that every component of stress takes part: the same matrix, node by node.
+TEST_P(EveryRotor, HasAGeometricStiffnessThatIsIndifferentToTheFrame) {
+  const SolidModel model = clamped(GetParam());
+  SolidModel turned = model;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Eigen::Vector3d shift(3, -2, 1), direction(0.2, 1, 0.1), point(0.3, 0, -0.5);
+  turned.mesh.nodes = (turn * model.mesh.nodes).colwise() + shift;
+  const Eigen::MatrixXd expected(
+      centrifugal_stiffness(model, solid_matrices(model).stiffness, {direction, point}).geometric);
+  const Eigen::MatrixXd found(centrifugal_stiffness(turned, solid_matrices(turned).stiffness,
+                                                    {turn * direction, turn * point + shift})
+                                  .geometric);
+  EXPECT_LE((found - expected).norm(), 1e-10 * expected.norm());
+}
+
 TEST(RotatingBlade, HasHigherFrequenciesTheFasterItTurns) {
   const Blade still = blade();
   const Matrices matrices = solid_matrices(still.model);
