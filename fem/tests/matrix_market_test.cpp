@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "wavebalance/fem/bar.hpp"
+#include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {
 namespace {
@@ -121,6 +122,17 @@ TEST(StructureCheck, AcceptsABarWithOrWithoutDamping) {
   EXPECT_NO_THROW(check_structure(matrices));
   matrices.damping.resize(0, 0);
   EXPECT_NO_THROW(check_structure(matrices));
+}
+
+TEST(StructureCheck, TellsAFreeSolidFromAClampedOne) {
+  const Blade clamped = blade();
+  EXPECT_NO_THROW(check_structure(solid_matrices(clamped.model)));
+  BladeOptions options;
+  options.chord_elements = 4;
+  options.span_elements = 5;
+  const Matrices free = solid_matrices(hold_nodes(blade(options).model.mesh, options.material, {}));
+  expect_error([&] { check_structure(free); }, "stiffness is not positive definite");
+  EXPECT_NO_THROW(check_structure(free, {.allow_free = true}));
 }
 
 TEST(StructureCheck, NamesTheMatrixThatIsWrong) {
