@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "wavebalance/solvers/nonlinear_mode.hpp"
 
@@ -12,25 +12,7 @@ struct UnitRod {
   Eigen::MatrixXd shapes;  // mass-normalised, columns
   ModalModel model;
 
-  explicit UnitRod(int elements, double lumped_fraction = 0.0) {
-    stiffness = mass = Eigen::MatrixXd::Zero(elements, elements);
-    const double length = 1.0 / elements;
-    const double diagonal = length * ((1.0 - lumped_fraction) / 3.0 + lumped_fraction / 2.0);
-    const double off = length * (1.0 - lumped_fraction) / 6.0;
-    for (int right = 0; right < elements; ++right) {
-      for (const int node : {right - 1, right})
-        if (node >= 0) {
-          stiffness(node, node) += 1.0 / length;
-          mass(node, node) += diagonal;
-        }
-      if (right == 0) continue;
-      stiffness(right, right - 1) = stiffness(right - 1, right) = -1.0 / length;
-      mass(right, right - 1) = mass(right - 1, right) = off;
-    }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness, mass);
-    shapes = modes.eigenvectors();
-    model = {modes.eigenvalues(), shapes.row(elements - 1), Eigen::VectorXd::Ones(1)};
-  }
+  explicit UnitRod(int elements, double lumped_fraction = 0.0);
 };
 
 }  // namespace wavebalance::solvers::testing
