@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "symmetric_factor.hpp"
@@ -13,6 +15,12 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 [[noreturn]] void reject(const std::string& message) {
   throw std::invalid_argument("check_structure: " + message);
+}
+
+std::string text(double number) {
+  std::ostringstream digits;
+  digits << number;
+  return digits.str();
 }
 
 void require_size(const Sparse& matrix, const char* name, Eigen::Index size) {
@@ -36,8 +44,8 @@ void require_symmetric(const Sparse& matrix, const char* name, double tolerance)
     for (Sparse::InnerIterator entry(difference, column); entry; ++entry)
       if (std::abs(entry.value()) > tolerance * scale)
         reject(std::string(name) + " is not symmetric: row " + std::to_string(entry.row()) + ", column " +
-               std::to_string(column) + " differs from its mirror by " + std::to_string(entry.value()) +
-               ", its largest entry is " + std::to_string(scale) + "; store both triangles");
+               std::to_string(column) + " differs from its mirror by " + text(entry.value()) +
+               ", its largest entry is " + text(scale) + "; store both triangles");
 }
 
 // The diagonal scaled to ones, so that units of the unknowns (metres, radians) do not matter to the pivots.
@@ -46,7 +54,7 @@ Sparse scaled(const Sparse& matrix, const char* name) {
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal[i] > 0.0))
       reject(std::string(name) + " is not positive definite: its diagonal entry " + std::to_string(i) +
-             " is " + std::to_string(diagonal[i]));
+             " is " + text(diagonal[i]));
   const Eigen::VectorXd root = diagonal.cwiseSqrt().cwiseInverse();
   return root.asDiagonal() * matrix * root.asDiagonal();
 }
@@ -55,9 +63,8 @@ void require_positive_definite(const Sparse& matrix, const char* name, const cha
   const detail::SymmetricFactor factor(scaled(matrix, name));
   if (!factor.complete() || !(factor.pivots().minCoeff() > 1e-13))
     reject(std::string(name) + " is not positive definite" +
-           (factor.complete()
-                ? ": a pivot is " + std::to_string(factor.pivots().minCoeff()) + " of its diagonal entry"
-                : std::string(": a pivot is zero")) +
+           (factor.complete() ? ": a pivot is " + text(factor.pivots().minCoeff()) + " of its diagonal entry"
+                              : std::string(": a pivot is zero")) +
            advice);
 }
 
@@ -65,8 +72,7 @@ void require_positive_definite(const Sparse& matrix, const char* name, const cha
 
 void check_structure(const Matrices& matrices, const StructureChecks& checks) {
   if (!(checks.symmetry_tolerance >= 0.0))
-    reject("symmetry_tolerance is " + std::to_string(checks.symmetry_tolerance) +
-           "; it must not be negative");
+    reject("symmetry_tolerance is " + text(checks.symmetry_tolerance) + "; it must not be negative");
   const Eigen::Index size = matrices.stiffness.rows();
   require_size(matrices.stiffness, "stiffness", size);
   require_size(matrices.mass, "mass", size);

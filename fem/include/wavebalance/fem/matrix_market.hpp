@@ -50,8 +50,9 @@ struct StructureChecks {
 
 /// Throws std::invalid_argument naming the matrix if one is empty, not square or of another size than the
 /// stiffness (damping may be 0 x 0), has an entry that is not finite, is not symmetric, or if the mass is not
-/// positive definite; unless allow_free, also if the stiffness is singular (smallest pivot below 1e-13 of the
-/// largest) or indefinite. Says which unknown a pivot belongs to. One or two sparse factorisations.
+/// positive definite; unless allow_free, also if the stiffness is singular or indefinite. Definite means that
+/// every pivot of the matrix with its diagonal scaled to ones exceeds 1e-13. One or two sparse
+/// factorisations.
 void check_structure(const Matrices& matrices, const StructureChecks& checks = {});
 
 /// Throws std::invalid_argument naming the list if an entry is not in 0..unknowns-1 or occurs twice.
