@@ -18,7 +18,8 @@ function(wavebalance_set_test_options target)
   wavebalance_set_warnings(${target})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   # At -O1 gcc 12 sees bounds and initialisation less well than it warns about them.
-  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-maybe-uninitialized>")
+  target_compile_options(${target} PRIVATE
+    "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-maybe-uninitialized>")
 endfunction()
 
 # wavebalance_add_test(name SOURCES <files> LINK <targets> LABELS <labels>)
