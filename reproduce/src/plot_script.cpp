@@ -3,48 +3,14 @@
 #include <cmath>
 
 #include "number_text.hpp"
+#include "plot_surface.hpp"
+#include "plot_text.hpp"
 #include "wavebalance/reproduce/plot.hpp"
 
 namespace wavebalance::reproduce {
 namespace {
 
 constexpr const char* text_colour = "#222222";
-
-/// A gnuplot string. In single quotes gnuplot runs no commands and knows no escapes but the doubled quote,
-/// which it misreads at the start: an apostrophe takes its typographic form instead.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'')
-      result += "\u2019";
-    else
-      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "'";
-}
-
-std::string colour_code(Colour colour) {
-  switch (colour) {
-    case Colour::orange:
-      return "#E69F00";
-    case Colour::sky_blue:
-      return "#56B4E9";
-    case Colour::green:
-      return "#009E73";
-    case Colour::blue:
-      return "#0072B2";
-    case Colour::vermillion:
-      return "#D55E00";
-    case Colour::purple:
-      return "#CC79A7";
-    case Colour::grey:
-      return "#777777";
-    case Colour::black:
-    case Colour::automatic:
-      break;
-  }
-  return "#000000";
-}
 
 Colour automatic_colour(std::size_t index) {
   constexpr std::array<Colour, 7> order{Colour::blue,   Colour::vermillion, Colour::green, Colour::purple,
@@ -71,10 +37,8 @@ std::string stroke(Colour colour, Dash dash, double width) {
 }
 
 std::string symbol(const Series& series, std::size_t index) {
-  constexpr std::array<int, 8> order{7,  5, 9, 13,
-                                     11, 6, 4, 8};  // gnuplot's filled shapes, then the open ones
   const std::size_t number = series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index;
-  std::string text = " pt " + std::to_string(order[number % order.size()]) + " ps 0.7";
+  std::string text = symbol_text(number);
   if (series.marker_every) text += " pi " + std::to_string(*series.marker_every);
   return text;
 }
@@ -111,8 +75,6 @@ bool has_points(const Series& series, const Panel& panel) {
 std::string block_name(std::size_t panel, std::size_t series) {
   return "$panel" + std::to_string(panel) + "_series" + std::to_string(series);
 }
-
-std::string coordinate(double value) { return std::isfinite(value) ? number_text(value) : "NaN"; }
 
 std::string data_block(const Series& series, const std::string& name) {
   std::string text = name + " << END\n";
@@ -159,8 +121,10 @@ std::string axis_text(const std::string& name, const Axis& axis, bool empty) {
 }
 
 std::string legend_text(const Panel& panel) {
-  const bool named =
+  bool named =
       std::any_of(panel.series.begin(), panel.series.end(), [](const Series& s) { return !s.label.empty(); });
+  if (panel.surface)
+    for (const Surface& surface : panel.surface->surfaces) named = named || !surface.marks.empty();
   if (!named || panel.legend == Legend::none) return "unset key\n";
   const std::string style = " samplen 2.2 spacing 1.15 noautotitle\n";
   switch (panel.legend) {
@@ -224,11 +188,14 @@ std::string heading_text(const std::string& letter, const std::string& title, bo
   return "set tmargin 2.2\nset label " + quoted(text) + " at graph 0,graph 1 left offset 0,0.9\n";
 }
 
-std::string plot_command(const Panel& panel, std::size_t panel_index) {
+std::string plot_command(const Panel& panel, std::size_t panel_index, const SurfaceScript& surface) {
   const std::string command = panel.z ? "splot " : "plot ";
   std::string text;
+  for (const std::string& item : surface.items) text += (text.empty() ? command : ", ") + item;
   // Pixels are drawn one by one: the same in every terminal, and sharp.
-  if (panel.heat_map) text = command + map_name(panel_index) + " using 1:2:3 with image pixels notitle";
+  if (panel.heat_map)
+    text +=
+        (text.empty() ? command : ", ") + map_name(panel_index) + " using 1:2:3 with image pixels notitle";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
     // A curve with nothing to show keeps its place in the legend.
@@ -243,22 +210,26 @@ std::string plot_command(const Panel& panel, std::size_t panel_index) {
 
 std::string panel_text(const Panel& panel, std::size_t index, const std::string& letter,
                        const std::string& title, bool aligned) {
+  const bool framed = panel.frame && !panel.surface;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
   std::string text =
-      "unset title\nunset label\nunset arrow\nunset object\n" + frame_text(panel.frame, aligned);
+      "unset title\nunset label\nunset arrow\nunset object\nset size noratio\n" + frame_text(framed, aligned);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +
             "set view 60,325,1,1.2\nset xyplane relative 0\nset border 4095\nset zlabel rotate\n"
             "set lmargin 2\nset rmargin 2\nset xlabel offset 0,-0.6\nset ylabel offset 0,-0.6\n";
   if (panel.heat_map) text += map_text(*panel.heat_map) + "unset grid\n";
-  if (!panel.frame) text += "unset xtics\nunset ytics\n";
+  if (!framed) text += "unset xtics\nunset ytics\n";
   text += legend_text(panel) + heading_text(letter, title, panel.z.has_value());
   for (const auto& rectangle : panel.rectangles) text += rectangle_text(rectangle);
   for (const auto& segment : panel.segments) text += segment_text(segment);
   for (const auto& mark : panel.texts) text += mark_text(mark);
-  return text + plot_command(panel, index);
+  SurfaceScript surface;
+  if (panel.surface)
+    surface = surface_script(*panel.surface, panel.x, panel.y, "$panel" + std::to_string(index));
+  return surface.data + text + surface.setup + plot_command(panel, index, surface);
 }
 
 void check(const Axis& axis, const char* name) {
@@ -283,6 +254,8 @@ void check(const Figure& figure) {
   if (figure.columns < 1) throw std::invalid_argument("Figure: columns is not positive");
   for (const Panel& panel : figure.panels) {
     if (panel.heat_map) check(*panel.heat_map);
+    if (panel.surface) check(*panel.surface);
+    if (panel.surface && panel.z) throw std::invalid_argument("Figure: a panel with a surface has a z axis");
     check(panel.x, "x");
     check(panel.y, "y");
     for (const Series& series : panel.series)

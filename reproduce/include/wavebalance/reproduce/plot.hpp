@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/reproduce/surface.hpp"
 #include "wavebalance/reproduce/table.hpp"
 
 namespace wavebalance::reproduce {
@@ -24,9 +25,6 @@ enum class SeriesStyle {
   steps,     ///< each value holds until the next abscissa
   impulses,  ///< vertical lines from zero
 };
-
-/// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` takes the next one of the panel.
-enum class Colour { automatic, black, orange, sky_blue, green, blue, vermillion, purple, grey };
 
 enum class Dash { solid, dashed, dotted, dash_dotted };
 
@@ -115,6 +113,9 @@ struct Panel {
   Axis y;
   std::optional<Axis> z;            ///< set: three dimensions in perspective; each series needs its z
   std::optional<HeatMap> heat_map;  ///< below the series
+  /// Without axes; x and y limits then bound the projection, which it fills otherwise. Series and texts have
+  /// the coordinates of projected().
+  std::optional<SurfaceView> surface;
   std::vector<Series> series;
   Legend legend = Legend::top_right;
   bool frame = true;  ///< false leaves axes, ticks and grid out, for sketches
@@ -146,8 +147,8 @@ struct Figure {
 enum class PictureFormat { svg, png };
 
 /// The picture as the bytes of a file. One figure gives the same bytes every time. Throws PlotError, and
-/// std::invalid_argument if a figure has no panel, the coordinates of a series or a heat map differ in length
-/// or a logarithmic axis has a limit that is not positive.
+/// std::invalid_argument if a figure has no panel, the coordinates of a series or a heat map differ in
+/// length, a logarithmic axis has a limit that is not positive or a surface is not valid.
 std::string render(const Figure& figure, PictureFormat format);
 
 /// Writes stem.svg and stem.png, each complete or not at all; a folder that is missing is made.

@@ -1,0 +1,89 @@
+#include "wavebalance/fem/boundary_faces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <stdexcept>
+
+#include "wavebalance/fem/blade.hpp"
+
+namespace wavebalance::fem {
+namespace {
+
+StructuredMesh skewed_box(SolidElement element) {
+  return structured_mesh(element, {3, 2, 4}, [](const Eigen::Vector3d& at) {
+    return Eigen::Vector3d(2 * at[0] + 0.3 * at[2], at[1] - 0.2 * at[0], 3 * at[2]);
+  });
+}
+
+class Faces : public testing::TestWithParam<SolidElement> {};
+INSTANTIATE_TEST_SUITE_P(Boundary, Faces,
+                         testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20),
+                         [](const auto& chosen) {
+                           return chosen.param == SolidElement::hexahedron8 ? "hexahedron8" : "hexahedron20";
+                         });
+
+TEST_P(Faces, OfABlockAreThoseOfItsSixSides) {
+  const StructuredMesh block = skewed_box(GetParam());
+  const Connectivity faces = boundary_faces(block.mesh);
+  ASSERT_EQ(faces.cols(), 2 * (3 * 2 + 3 * 4 + 2 * 4));
+  ASSERT_EQ(faces.rows(), GetParam() == SolidElement::hexahedron8 ? 4 : 8);
+  for (Eigen::Index face = 0; face < faces.cols(); ++face) {
+    const Eigen::Matrix3Xd at = block.parameters(Eigen::all, faces.col(face));
+    bool on_a_side = false;
+    for (int axis = 0; axis < 3; ++axis)
+      on_a_side = on_a_side || (at.row(axis).array() == 0.0).all() || (at.row(axis).array() == 1.0).all();
+    EXPECT_TRUE(on_a_side) << face;
+  }
+}
+
+TEST_P(Faces, EncloseTheVolumeWithTheirOutsideOutwards) {
+  const SolidMesh mesh = skewed_box(GetParam()).mesh;
+  const Connectivity faces = boundary_faces(mesh);
+  double volume = 0.0;  // a third of the flux of the position
+  for (int face = 0; face < faces.cols(); ++face) {
+    const Eigen::Matrix<double, 3, 4> corner = mesh.nodes(Eigen::all, faces.col(face).head(4));
+    const Eigen::Vector3d area =
+        0.5 * Eigen::Vector3d(corner.col(2) - corner.col(0)).cross(corner.col(3) - corner.col(1));
+    volume += area.dot(corner.rowwise().mean()) / 3.0;
+  }
+  // The mapping of the unit cube has the determinant 2 * 1 * 3: its shears do not change it.
+  EXPECT_NEAR(volume, 6.0, 1e-13 * 6.0);
+}
+
+TEST_P(Faces, MidpointsLieBetweenTheirCorners) {
+  const SolidMesh mesh = skewed_box(GetParam()).mesh;
+  const Connectivity faces = boundary_faces(mesh);
+  for (int face = 0; face < faces.cols(); ++face) {
+    const std::vector<int> ring = around(faces, face);
+    ASSERT_EQ(static_cast<Eigen::Index>(ring.size()), faces.rows());
+    if (ring.size() == 4) continue;
+    for (std::size_t i = 1; i < 8; i += 2) {
+      const Eigen::Vector3d middle = 0.5 * (mesh.nodes.col(ring[i - 1]) + mesh.nodes.col(ring[(i + 1) % 8]));
+      EXPECT_LT((mesh.nodes.col(ring[i]) - middle).norm(), 1e-14);
+    }
+  }
+}
+
+TEST(BladeFaces, FormAClosedSurface) {
+  const Blade blade = fem::blade();
+  const Connectivity faces = boundary_faces(blade.model.mesh);
+  EXPECT_EQ(faces.cols(), 2 * (11 * 1 + 11 * 16 + 1 * 16));
+  std::map<std::pair<int, int>, int> edges;
+  for (int face = 0; face < faces.cols(); ++face)
+    for (int i = 0; i < 4; ++i) ++edges[{faces(i, face), faces((i + 1) % 4, face)}];
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);  // each direction of an edge belongs to one face, the opposite one to its neighbour
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
+  }
+}
+
+TEST(BoundaryFaces, OfAMeshThatIsNotValidAreRefused) {
+  SolidMesh mesh = skewed_box(SolidElement::hexahedron8).mesh;
+  mesh.elements(0, 0) = 1000000;
+  EXPECT_THROW(boundary_faces(mesh), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::fem
