@@ -30,37 +30,39 @@ void require_size(const Sparse& matrix, const char* name, Eigen::Index size) {
            "; it must be square, not empty and of the size of the stiffness, " + std::to_string(size));
 }
 
-void require_symmetric(const Sparse& matrix, const char* name, double tolerance) {
+void require_symmetric(const Sparse& matrix, const char* name, const StructureChecks& checks) {
+  const auto place = [&](const Sparse::InnerIterator& entry) {
+    return "row " + std::to_string(entry.row() + checks.first_index) + ", column " +
+           std::to_string(entry.col() + checks.first_index);
+  };
   double scale = 0.0;
   for (int column = 0; column < matrix.outerSize(); ++column)
     for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
       if (!std::isfinite(entry.value()))
-        reject(std::string(name) + " has an entry that is not finite at row " + std::to_string(entry.row()) +
-               ", column " + std::to_string(column));
+        reject(std::string(name) + " has an entry that is not finite at " + place(entry));
       scale = std::max(scale, std::abs(entry.value()));
     }
   const Sparse difference = matrix - Sparse(matrix.transpose());
   for (int column = 0; column < difference.outerSize(); ++column)
     for (Sparse::InnerIterator entry(difference, column); entry; ++entry)
-      if (std::abs(entry.value()) > tolerance * scale)
-        reject(std::string(name) + " is not symmetric: row " + std::to_string(entry.row()) + ", column " +
-               std::to_string(column) + " differs from its mirror by " + text(entry.value()) +
-               ", its largest entry is " + text(scale) + "; store both triangles");
+      if (std::abs(entry.value()) > checks.symmetry_tolerance * scale)
+        reject(std::string(name) + " is not symmetric: " + place(entry) + " differs from its mirror by " +
+               text(entry.value()) + ", its largest entry is " + text(scale) + "; store both triangles");
 }
 
 // The diagonal scaled to ones, so that units of the unknowns (metres, radians) do not matter to the pivots.
-Sparse scaled(const Sparse& matrix, const char* name) {
+Sparse scaled(const Sparse& matrix, const char* name, int first_index) {
   const Eigen::VectorXd diagonal = matrix.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal[i] > 0.0))
-      reject(std::string(name) + " is not positive definite: its diagonal entry " + std::to_string(i) +
-             " is " + text(diagonal[i]));
+      reject(std::string(name) + " is not positive definite: its diagonal entry " +
+             std::to_string(i + first_index) + " is " + text(diagonal[i]));
   const Eigen::VectorXd root = diagonal.cwiseSqrt().cwiseInverse();
   return root.asDiagonal() * matrix * root.asDiagonal();
 }
 
-void require_positive_definite(const Sparse& matrix, const char* name, const char* advice) {
-  const detail::SymmetricFactor factor(scaled(matrix, name));
+void require_positive_definite(const Sparse& matrix, const char* name, int first_index, const char* advice) {
+  const detail::SymmetricFactor factor(scaled(matrix, name, first_index));
   if (!factor.complete() || !(factor.pivots().minCoeff() > 1e-13))
     reject(std::string(name) + " is not positive definite" +
            (factor.complete() ? ": a pivot is " + text(factor.pivots().minCoeff()) + " of its diagonal entry"
@@ -77,12 +79,12 @@ void check_structure(const Matrices& matrices, const StructureChecks& checks) {
   require_size(matrices.stiffness, "stiffness", size);
   require_size(matrices.mass, "mass", size);
   if (matrices.damping.size() > 0) require_size(matrices.damping, "damping", size);
-  require_symmetric(matrices.stiffness, "stiffness", checks.symmetry_tolerance);
-  require_symmetric(matrices.mass, "mass", checks.symmetry_tolerance);
-  if (matrices.damping.size() > 0) require_symmetric(matrices.damping, "damping", checks.symmetry_tolerance);
-  require_positive_definite(matrices.mass, "mass", "");
+  require_symmetric(matrices.stiffness, "stiffness", checks);
+  require_symmetric(matrices.mass, "mass", checks);
+  if (matrices.damping.size() > 0) require_symmetric(matrices.damping, "damping", checks);
+  require_positive_definite(matrices.mass, "mass", checks.first_index, "");
   if (!checks.allow_free)
-    require_positive_definite(matrices.stiffness, "stiffness",
+    require_positive_definite(matrices.stiffness, "stiffness", checks.first_index,
                               "; is the structure free to move without being strained?");
 }
 

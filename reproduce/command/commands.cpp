@@ -48,6 +48,11 @@ std::vector<std::string> stage(OutputFiles& files, const Scene& scene, const Rec
     add("response.csv",
         csv_text(record.response,
                  heading("Motion of the contact degree of freedom over one period", arguments, record)));
+  if (!record.contacts.empty())
+    add("contacts.csv", csv_text(record.contacts, heading("Every contact degree of freedom over one period; "
+                                                          "displacements towards the obstacles",
+                                                          arguments, record)));
+  for (const RecordFile& file : record.files) add(file.name, file.contents);
   if (!record.sweep.empty())
     add("sweep.csv", csv_text(record.sweep, heading("Periodic responses along the frequency response curve",
                                                     arguments, record)));
@@ -85,7 +90,8 @@ void report(const RunArguments& arguments, const Record& record, const std::vect
   if (!arguments.quiet) {
     std::fputs(summary_text(record.summary).c_str(), stdout);
     std::string list;
-    for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+    for (const auto& name : names)
+      if (!name.ends_with(".vtu")) list += (list.empty() ? "" : ", ") + name;
     std::printf("written to %s: %s\n", arguments.output.c_str(), list.c_str());
   }
   if (!record.converged)
@@ -127,8 +133,8 @@ Scene example_scene() {
   scene.structure.length = 1.0;
   scene.structure.elements = 25;
   scene.structure.stiffness_damping = 1e-4;
-  scene.contact = {ContactLawType::exponential, 1e8, 50.0, 0.0, 1e-3};
-  scene.forcing = {250e3, 150.0};
+  scene.contact = {.law = ContactLawType::exponential, .constant = 1e8, .exponent = 50.0, .gap = 1e-3};
+  scene.forcing = {.amplitude = 250e3, .frequency = 150.0};
   scene.time = {"fourier", "fourier", 64, Formulation::distributional, 256, InnerProducts::quadrature};
   return scene;
 }

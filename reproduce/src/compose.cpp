@@ -8,7 +8,6 @@
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/no_contact.hpp"
-#include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 #include "wavebalance/wavelets/connection.hpp"
@@ -44,16 +43,6 @@ solvers::InnerProducts solver_value(InnerProducts products) {
                                           : solvers::InnerProducts::quadrature;
 }
 
-/// The tip's row of the consistent or lumped mass goes to its neighbour, where it acts as one rigid piece.
-void move_tip_mass(Eigen::SparseMatrix<double>& mass) {
-  const Eigen::Index tip = mass.rows() - 1;
-  const double moved = mass.coeff(tip, tip) + 2.0 * mass.coeff(tip, tip - 1);
-  mass.coeffRef(tip - 1, tip - 1) += moved;
-  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
-    mass.coeffRef(row, column) = 0.0;
-  mass.prune(0.0);
-}
-
 bool is_haar(const std::string& basis) { return basis == "haar" || basis == "daubechies2"; }
 
 /// Opposite a Haar function, whose Fourier coefficient at the Nyquist harmonic is imaginary, only the sine
@@ -66,38 +55,28 @@ solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string&
 
 }  // namespace
 
-solvers::LinearStructure make_structure(const Scene& scene) {
-  const Structure& bar = scene.structure;
-  fem::Matrices matrices = fem::bar({.youngs_modulus = bar.youngs_modulus,
-                                     .density = bar.density,
-                                     .area = bar.area,
-                                     .length = bar.length,
-                                     .elements = bar.elements,
-                                     .stiffness_damping = bar.stiffness_damping,
-                                     .lumped_fraction = bar.lumped_mass_fraction});
-  if (bar.massless_tip) move_tip_mass(matrices.mass);
-  solvers::LinearStructure structure;
-  structure.mass = std::move(matrices.mass);
-  structure.damping = std::move(matrices.damping);
-  structure.stiffness = std::move(matrices.stiffness);
-  structure.contact_dof = bar.elements - 1;
-  structure.load = Eigen::VectorXd::Zero(bar.elements);
-  structure.load[structure.contact_dof] = scene.forcing.amplitude;
-  return structure;
-}
+solvers::LinearStructure make_structure(const Scene& scene) { return make_model(scene).structure; }
 
-solvers::AnyContactLaw make_law(const Contact& contact) {
+solvers::AnyContactLaw make_law(const Contact& contact, int index) {
+  const double gap = contact.gap_of(index);
   switch (contact.law) {
     case ContactLawType::exponential:
-      return contact::ExponentialLaw(contact.constant, contact.exponent, contact.gap);
+      return contact::ExponentialLaw(contact.constant, contact.exponent, gap);
     case ContactLawType::linear:
-      return contact::LinearLaw(contact.stiffness, contact.gap);
+      return contact::LinearLaw(contact.stiffness, gap);
     case ContactLawType::rigid:
       throw std::invalid_argument("make_law: rigid contact has no force as a function of the displacement");
     case ContactLawType::none:
       break;
   }
   return contact::NoContact();
+}
+
+std::vector<solvers::AnyContactLaw> make_laws(const Scene& scene) {
+  std::vector<solvers::AnyContactLaw> laws;
+  for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
+    laws.push_back(make_law(scene.contact, contact));
+  return laws;
 }
 
 solvers::AnyTimeBasis make_basis(const std::string& name, int functions) {
@@ -130,14 +109,15 @@ solvers::TimePair make_pair(const Time& time) {
           std::move(options)};
 }
 
-StructureModes make_modes(const Scene& scene) {
-  const solvers::LinearStructure structure = make_structure(scene);
+StructureModes make_modes(const StructureModel& model) {
+  const solvers::LinearStructure& structure = model.structure;
   auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
   if (modes.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("make_modes: the eigenvalue solver did not find all linear modes");
-  return {{modes.omega.cwiseAbs2(), modes.shapes.row(structure.contact_dof),
-           Eigen::VectorXd::Constant(1, scene.contact.gap)},
-          modes.shapes};
+  Eigen::MatrixXd contact_shapes(model.contacts(), modes.shapes.cols());
+  for (int contact = 0; contact < model.contacts(); ++contact)
+    contact_shapes.row(contact) = modes.shapes.row(model.contact_dofs[static_cast<std::size_t>(contact)]);
+  return {{modes.omega.cwiseAbs2(), std::move(contact_shapes), model.gaps}, std::move(modes.shapes)};
 }
 
 solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model) {
@@ -149,10 +129,12 @@ solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::Mo
   return {model, options};
 }
 
-solvers::CondensedProblem make_problem(const Scene& scene) {
+solvers::CondensedProblem make_problem(const Scene& scene) { return make_problem(scene, make_model(scene)); }
+
+solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model) {
   Eigen::VectorXcd cosine(2);
   cosine << 0.0, 1.0;
-  solvers::CondensedProblem problem(make_pair(scene.time), make_structure(scene), std::move(cosine));
+  solvers::CondensedProblem problem(make_pair(scene.time), model.structure, std::move(cosine));
   if (scene.forcing.frequency > 0.0) problem.set_frequency(scene.forcing.frequency);
   return problem;
 }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "number_text.hpp"
 #include "wavebalance/reproduce/analysis.hpp"
@@ -7,7 +9,11 @@
 namespace wavebalance::reproduce {
 namespace {
 
-std::string structure_line(const Structure& bar) {
+std::string count_text(std::int64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string bar_line(const Structure& bar) {
   // First natural frequency of the clamped bar before it is cut into elements.
   const double first = std::sqrt(bar.youngs_modulus / bar.density) / (4.0 * bar.length);
   return "structure  bar, " + std::to_string(bar.elements) +
@@ -15,15 +21,76 @@ std::string structure_line(const Structure& bar) {
          " Hz" + (bar.massless_tip ? ", its tip without mass" : "") + "\n";
 }
 
-std::string contact_line(const Contact& contact) {
+std::string blade_line(const Scene& scene) {
+  const BladeStructure& blade = scene.structure.blade;
+  std::string text = "structure  blade, " + std::to_string(blade.chord_elements) + " x " +
+                     std::to_string(blade.thickness_elements) + " x " + std::to_string(blade.span_elements) +
+                     " elements " + name_of(blade.element) + ", " + std::to_string(unknowns_of(scene)) +
+                     " degrees of freedom, reduced to " + std::to_string(size_of(scene)) + " (" +
+                     count_text(scene.structure.kept_modes, "mode") + ")";
+  if (blade.rotation_speed > 0.0) text += ", turning at " + number_text(blade.rotation_speed) + " rad/s";
+  return text + "\n";
+}
+
+std::string matrices_line(const Scene& scene) {
+  std::string text = "structure  matrices, " + count_text(unknowns_of(scene), "degree") + " of freedom";
+  if (scene.structure.kept_modes >= 0)
+    text += ", reduced to " + std::to_string(size_of(scene)) + " (" +
+            count_text(scene.structure.kept_modes, "mode") + ")";
+  return text + "\n";
+}
+
+std::string structure_line(const Scene& scene) {
+  switch (scene.structure.type) {
+    case StructureType::blade:
+      return blade_line(scene);
+    case StructureType::matrices:
+      return matrices_line(scene);
+    case StructureType::bar:
+      break;
+  }
+  return bar_line(scene.structure);
+}
+
+std::string contact_place(const Structure& structure) {
+  if (structure.type == StructureType::bar) return "at the tip";
+  const std::string count = count_text(contacts_of(structure), "degree") + " of freedom";
+  return "at " + count + (structure.type == StructureType::blade ? " along the tip, radially" : "");
+}
+
+std::string gap_text(const Contact& contact) {
+  if (contact.gaps.empty()) return "gap " + number_text(contact.gap) + " m";
+  const auto [least, most] = std::minmax_element(contact.gaps.begin(), contact.gaps.end());
+  if (*least == *most) return "gap " + number_text(*least) + " m";
+  return "gaps " + number_text(*least) + " to " + number_text(*most) + " m";
+}
+
+std::string contact_line(const Scene& scene) {
+  const Contact& contact = scene.contact;
   if (contact.law == ContactLawType::none) return "contact    none: the problem is linear\n";
-  if (contact.law == ContactLawType::rigid)
-    return "contact    rigid obstacle at the tip, gap " + number_text(contact.gap) + " m\n";
-  return "contact    " + name_of(contact.law) + " law at the tip, gap " + number_text(contact.gap) + " m\n";
+  const std::string what =
+      contact.law == ContactLawType::rigid ? "rigid obstacle" : name_of(contact.law) + " law";
+  return "contact    " + what + " " + contact_place(scene.structure) + ", " + gap_text(contact) + "\n";
+}
+
+std::string force_place(const Scene& scene) {
+  const Forcing& forcing = scene.forcing;
+  switch (scene.structure.type) {
+    case StructureType::blade:
+      return "at the tip's " + name_of(forcing.place) + " along " + name_of(forcing.direction);
+    case StructureType::matrices:
+      return forcing.load.empty()
+                 ? "on " + count_text(std::ssize(forcing.load_dofs), "degree") + " of freedom"
+                 : "along the load vector";
+    case StructureType::bar:
+      break;
+  }
+  return "at the tip";
 }
 
 std::string forcing_line(const Scene& scene) {
-  const std::string amplitude = "forcing    " + number_text(scene.forcing.amplitude) + " N at the tip, ";
+  const std::string amplitude =
+      "forcing    " + number_text(scene.forcing.amplitude) + " N " + force_place(scene) + ", ";
   if (scene.analysis.type != AnalysisType::frequency_sweep)
     return amplitude + number_text(scene.forcing.frequency) + " Hz\n";
   return amplitude + number_text(scene.analysis.frequency_from) + " to " +
@@ -44,9 +111,10 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return "size       " + std::to_string(2 * scene.structure.elements) +
            " states, periods until they differ by " + number_text(scene.analysis.tolerance) + "\n";
-  return "size       " + std::to_string(scene.time.functions) +
-         " unknowns after condensation on the contact (" +
-         std::to_string(std::int64_t{scene.structure.elements} * scene.time.functions) + " before)\n";
+  const std::int64_t functions = scene.time.functions;
+  return "size       " + std::to_string(contacts_of(scene.structure) * functions) +
+         " unknowns after condensation on the contact (" + std::to_string(size_of(scene) * functions) +
+         " before)\n";
 }
 
 std::string mode_lines(const Scene& scene) {
@@ -61,17 +129,17 @@ std::string mode_lines(const Scene& scene) {
   return "mode       " + std::to_string(analysis.mode) + ", " + range + formulation +
          "\ntime       Fourier series, " + std::to_string(analysis.harmonics) + " harmonics" +
          (analysis.cosine_only ? " (cosines only)" : "") + "\nsize       " +
-         std::to_string(analysis.samples) + " contact forces after condensation on the contact (" +
-         std::to_string(std::int64_t{scene.structure.elements} * (2 * analysis.harmonics + 1)) +
-         " unknowns before)\n";
+         std::to_string(std::int64_t{contacts_of(scene.structure)} * analysis.samples) +
+         " contact forces after condensation on the contact (" +
+         std::to_string(std::int64_t{size_of(scene)} * (2 * analysis.harmonics + 1)) + " unknowns before)\n";
 }
 
 }  // namespace
 
 std::string describe_scene(const Scene& scene) {
   const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
-  const std::string opening = "analysis   " + name_of(scene.analysis.type) + "\n" +
-                              structure_line(scene.structure) + contact_line(scene.contact);
+  const std::string opening =
+      "analysis   " + name_of(scene.analysis.type) + "\n" + structure_line(scene) + contact_line(scene);
   if (scene.analysis.type == AnalysisType::nonlinear_mode) return opening + mode_lines(scene);
   return opening + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene);
 }

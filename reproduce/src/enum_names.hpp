@@ -14,7 +14,15 @@ namespace wavebalance::reproduce {
 template <class Enum>
 inline constexpr std::array<std::string_view, 0> enum_names{};
 template <>
-inline constexpr std::array<std::string_view, 1> enum_names<StructureType>{"bar"};
+inline constexpr std::array<std::string_view, 3> enum_names<StructureType>{"bar", "blade", "matrices"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<BladeElement>{
+    "hexahedron20", "hexahedron20_reduced", "hexahedron8"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<Direction>{"x", "y", "z"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<TipPlace>{"leading_edge", "mid_chord",
+                                                                      "trailing_edge"};
 template <>
 inline constexpr std::array<std::string_view, 4> enum_names<ContactLawType>{"none", "exponential", "linear",
                                                                             "rigid"};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion_files.hpp"
 #include "record_figure.hpp"
 #include "summary_parts.hpp"
 #include "wavebalance/reproduce/modes.hpp"
@@ -58,6 +59,13 @@ void append_discretisation(Summary& summary, const ModeStudy& study) {
   summary.emplace_back("harmonics", std::int64_t{analysis.harmonics});
   summary.emplace_back("samples", std::int64_t{analysis.samples});
   summary.emplace_back("linear_frequency_Hz", study.linear_frequency());
+  append_structure(summary, study.model());
+}
+
+/// The gap of all contacts; missing if they differ.
+double common_gap(const ModeStudy& study) {
+  const Eigen::VectorXd& gaps = study.model().gaps;
+  return (gaps.array() == gaps[0]).all() ? gaps[0] : missing;
 }
 
 void append_curve(Summary& summary, const Backbone& curve, double gap) {
@@ -91,9 +99,10 @@ Record curve_record(const ModeStudy& study) {
   Record record;
   record.converged = curve.converged();
   record.status = curve.status();
-  record.summary = opening(record.converged, record.status, worst_residual(curve), iterations_of(curve),
-                           study.scene().analysis.samples, curve.wall_seconds);
-  append_curve(record.summary, curve, study.scene().contact.gap);
+  record.summary =
+      opening(record.converged, record.status, worst_residual(curve), iterations_of(curve),
+              study.mode().model().contacts() * study.scene().analysis.samples, curve.wall_seconds);
+  append_curve(record.summary, curve, common_gap(study));
   append_discretisation(record.summary, study);
   append_statuses(record.summary, curve);
   append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
@@ -115,15 +124,18 @@ Record motion_record(const ModeStudy& study) {
   const auto start = std::chrono::steady_clock::now();
   const ModePoint point = study.at_energy(scene.analysis.energy_ratio);
   Response response;
-  response.samples = study.samples(point, scene.analysis.output_points, false);
+  const ContactMotion contacts = study.contact_motion(point, scene.analysis.output_points);
+  response.contact = contacts.leading(study.model().gaps);
+  response.samples = contacts.samples(response.contact);
   response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const bool moves = response.samples.points() > 0;
   Record record;
   record.converged = response.converged = point.accepted();
   record.status = to_string(point.status);
   if (point.status == ModeStatus::tongue) record.status += " " + tongue_name(point.tongue);
-  record.summary = opening(record.converged, record.status, moves ? study.residual(point) : missing,
-                           point.iterations, scene.analysis.samples, response.wall_seconds);
+  record.summary =
+      opening(record.converged, record.status, moves ? study.residual(point) : missing, point.iterations,
+              study.model().contacts() * scene.analysis.samples, response.wall_seconds);
   append_motion(record.summary, response.samples);
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
@@ -136,6 +148,13 @@ Record motion_record(const ModeStudy& study) {
                  moves ? point.identity_defect : missing);
   if (!moves) return record;
   record.response = response_table(response.samples);
+  if (contacts.contacts() > 1) {
+    record.summary.emplace_back("leading_contact", std::int64_t{response.contact + 1});
+    record.contacts = contacts_table(contacts);
+  }
+  if (scene.analysis.motion_points > 0)
+    record.files =
+        motion_files(study.model(), study.samples(point, scene.analysis.motion_points, true).displacements);
   record.figure =
       motion_figure(scene, response, std::round(100.0 * ratio * study.linear_frequency()) / 100.0);
   return record;

@@ -62,6 +62,13 @@ Eigen::MatrixXcd physical(const StructureModes& modes, const ModePoint& point) {
   return modes.shapes * point.amplitudes;
 }
 
+/// Amplitudes of the velocity.
+Eigen::MatrixXcd rate(Eigen::MatrixXcd columns, double omega) {
+  for (Eigen::Index n = 0; n < columns.cols(); ++n)
+    columns.col(n) *= std::complex<double>(0.0, static_cast<double>(n) * omega);
+  return columns;
+}
+
 /// Re sum_n factor_n column_n exp(2 pi i n l / points), with both signs of n > 0.
 Eigen::MatrixXd synthesis(const Eigen::MatrixXcd& columns, int points) {
   Eigen::MatrixXcd waves(columns.cols(), points);
@@ -90,10 +97,12 @@ std::string Backbone::status() const {
   return "converged";
 }
 
-ModeStudy::ModeStudy(const Scene& scene)
+ModeStudy::ModeStudy(const Scene& scene) : ModeStudy(scene, make_model(scene)) {}
+
+ModeStudy::ModeStudy(const Scene& scene, StructureModel model)
     : scene_(scene),
-      structure_(make_structure(scene)),
-      modes_(make_modes(scene)),
+      model_(std::move(model)),
+      modes_(make_modes(model_)),
       mode_(make_nonlinear_mode(scene, modes_.model)) {}
 
 double ModeStudy::linear_frequency() const { return mode_.linear_omega() / (2.0 * std::numbers::pi); }
@@ -120,33 +129,42 @@ ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const
   return solvers::at_energy(mode_, curve.points, energy_ratio);
 }
 
-solvers::PeriodSamples ModeStudy::samples(const ModePoint& point, int points, bool full_history) const {
+ContactMotion ModeStudy::contact_motion(const ModePoint& point, int points) const {
   if (!is_solution(point) || point.amplitudes.size() == 0) return {};
-  return sampled(point.amplitudes, point.force, point.omega, points, full_history);
+  return touching(point.amplitudes, point.force, point.omega, points);
+}
+
+ContactMotion ModeStudy::contact_motion(const solvers::LagrangianPoint& point, int points) const {
+  if (!point.accepted()) return {};
+  return touching(point.amplitudes, point.force, point.omega, points);
+}
+
+solvers::PeriodSamples ModeStudy::samples(const ModePoint& point, int points, bool full_history) const {
+  return sampled(contact_motion(point, points), point.amplitudes, point.omega, full_history);
 }
 
 solvers::PeriodSamples ModeStudy::samples(const solvers::LagrangianPoint& point, int points,
                                           bool full_history) const {
-  if (!point.accepted()) return {};
-  return sampled(point.amplitudes, point.force, point.omega, points, full_history);
+  return sampled(contact_motion(point, points), point.amplitudes, point.omega, full_history);
 }
 
-solvers::PeriodSamples ModeStudy::sampled(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
-                                          double omega, int points, bool full_history) const {
-  const Eigen::MatrixXcd u = full_history ? Eigen::MatrixXcd(modes_.shapes * amplitudes)
-                                          : Eigen::MatrixXcd(mode_.model().contact_shapes * amplitudes);
-  Eigen::MatrixXcd v = u;
-  for (Eigen::Index n = 0; n < v.cols(); ++n)
-    v.col(n) *= std::complex<double>(0.0, static_cast<double>(n) * omega);
-  const Eigen::MatrixXd displacements = synthesis(u, points), velocities = synthesis(v, points);
-  const Eigen::Index row = full_history ? structure_.contact_dof : 0;
-  solvers::PeriodSamples samples;
-  samples.displacement = displacements.row(row);
-  samples.velocity = velocities.row(row);
-  samples.contact_force = nearest_samples(force.row(0), points);
-  if (!full_history) return samples;
-  samples.displacements = displacements;
-  samples.velocities = velocities;
+ContactMotion ModeStudy::touching(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
+                                  double omega, int points) const {
+  const Eigen::MatrixXcd u = mode_.model().contact_shapes * amplitudes;
+  ContactMotion motion{synthesis(u, points), synthesis(rate(u, omega), points), {}};
+  motion.force.resize(motion.contacts(), points);
+  for (Eigen::Index contact = 0; contact < motion.force.rows(); ++contact)
+    motion.force.row(contact) = nearest_samples(force.row(contact), points);
+  return motion;
+}
+
+solvers::PeriodSamples ModeStudy::sampled(const ContactMotion& motion, const Eigen::MatrixXcd& amplitudes,
+                                          double omega, bool full_history) const {
+  solvers::PeriodSamples samples = motion.samples(motion.leading(model_.gaps));
+  if (!full_history || motion.points() == 0) return samples;
+  const Eigen::MatrixXcd u = modes_.shapes * amplitudes;
+  samples.displacements = synthesis(u, motion.points());
+  samples.velocities = synthesis(rate(u, omega), motion.points());
   return samples;
 }
 
@@ -169,16 +187,20 @@ std::vector<solvers::LagrangianPoint> ModeStudy::published_branch(double largest
 
 double ModeStudy::residual(const ModePoint& point) const {
   const Eigen::MatrixXcd u = physical(modes_, point);
+  const solvers::LinearStructure& structure = model_.structure;
+  const auto count = point.force.cols();
   double largest = 0.0, scale = 0.0;
   for (Eigen::Index n = 0; n < u.cols(); ++n) {
     const auto order = static_cast<double>(n) * point.omega;
-    const Eigen::VectorXcd elastic = structure_.stiffness * u.col(n);
-    Eigen::VectorXcd rest = elastic - order * order * (structure_.mass * u.col(n));
-    const auto count = point.force.cols();
+    const Eigen::VectorXcd elastic = structure.stiffness * u.col(n);
+    Eigen::VectorXcd rest = elastic - order * order * (structure.mass * u.col(n));
+    Eigen::VectorXcd wave(count);
     for (Eigen::Index k = 0; k < count; ++k)
-      rest[structure_.contact_dof] +=
-          point.force(0, k) / static_cast<double>(count) *
-          std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(n * k) / static_cast<double>(count));
+      wave[k] = std::polar(1.0 / static_cast<double>(count),
+                           -2.0 * std::numbers::pi * static_cast<double>(n * k) / static_cast<double>(count));
+    const Eigen::VectorXcd force = point.force * wave;
+    for (int contact = 0; contact < model_.contacts(); ++contact)
+      rest[model_.contact_dofs[static_cast<std::size_t>(contact)]] += force[contact];
     largest = std::max(largest, rest.norm());
     scale = std::max(scale, elastic.norm());
   }

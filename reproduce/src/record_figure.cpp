@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wavebalance/reproduce/structure_model.hpp"
+
 namespace wavebalance::reproduce {
 namespace {
 
@@ -27,12 +29,18 @@ std::string basis_title(const std::string& basis) {
   return basis == "fourier" ? "Fourier" : basis == "haar" ? "Haar" : "B-spline";
 }
 
+std::string structure_title(const Structure& structure) {
+  if (structure.type == StructureType::bar) return std::to_string(structure.elements) + " elements";
+  const std::string kind = structure.type == StructureType::blade ? "blade" : "matrices";
+  const int contacts = contacts_of(structure);
+  return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
+}
+
 std::string method_title(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return "Mode " + std::to_string(scene.analysis.mode) +
            ", N = " + std::to_string(scene.analysis.harmonics) +
-           ", m = " + std::to_string(scene.analysis.samples) + ", " +
-           std::to_string(scene.structure.elements) + " elements";
+           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene.structure);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
@@ -81,7 +89,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Contact force", "N", response.samples.contact_force, response.converged);
   if (scene.contact.law != ContactLawType::none) {
     const double factor = scale_of(response.samples.displacement.cwiseAbs().maxCoeff()).factor;
-    figure.panels.front().mark_y(factor * scene.contact.gap);
+    figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact));
   }
   return figure;
 }
@@ -138,7 +146,8 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const auto style = scene.contact.law == ContactLawType::rigid ? SeriesStyle::points : SeriesStyle::line;
   panel.add({"largest", scaled("frequency_Hz", 1.0), scaled("max_displacement_m", scale.factor), style});
   panel.add({"rms", scaled("frequency_Hz", 1.0), scaled("rms_displacement_m", scale.factor), style});
-  if (scene.contact.law != ContactLawType::none) panel.mark_y(scale.factor * scene.contact.gap);
+  if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
+    panel.mark_y(scale.factor * scene.contact.gap);
   return figure;
 }
 

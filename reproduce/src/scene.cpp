@@ -8,11 +8,18 @@
 namespace wavebalance::reproduce {
 
 std::string name_of(StructureType value) { return enum_name(value); }
+std::string name_of(BladeElement value) { return enum_name(value); }
+std::string name_of(Direction value) { return enum_name(value); }
+std::string name_of(TipPlace value) { return enum_name(value); }
 std::string name_of(ContactLawType value) { return enum_name(value); }
 std::string name_of(Formulation value) { return enum_name(value); }
 std::string name_of(InnerProducts value) { return enum_name(value); }
 std::string name_of(ModeFormulation value) { return enum_name(value); }
 std::string name_of(AnalysisType value) { return enum_name(value); }
+
+double Contact::gap_of(int contact) const {
+  return gaps.empty() ? gap : gaps.at(static_cast<std::size_t>(contact));
+}
 
 int daubechies_coefficients(const std::string& basis) {
   if (basis == "fourier" || basis == "haar" || basis == "bspline") return 0;

@@ -20,7 +20,22 @@ std::string shortened(std::string text) {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
+/// Integers as such if there is nothing else; monostate unless all are numbers.
+DocumentValue list_of(const toml::array& array) {
+  std::vector<std::int64_t> integers;
+  std::vector<double> numbers;
+  for (const auto& node : array) {
+    const bool integer = node.is_integer();
+    if (!integer && !node.is_floating_point()) return std::monostate{};
+    if (integer) integers.push_back(node.as_integer()->get());
+    numbers.push_back(integer ? static_cast<double>(integers.back()) : node.as_floating_point()->get());
+  }
+  if (integers.size() == numbers.size()) return integers;
+  return numbers;
+}
+
 DocumentValue value_of(const toml::node& node) {
+  if (const auto* array = node.as_array()) return list_of(*array);
   if (node.is_boolean()) return node.as_boolean()->get();
   if (node.is_integer()) return node.as_integer()->get();
   if (node.is_floating_point()) return node.as_floating_point()->get();

@@ -8,8 +8,10 @@
 
 namespace wavebalance::reproduce {
 
-/// A TOML value as far as scenes know it; monostate is anything else (array, table, date).
-using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
+/// A TOML value as far as scenes know it, lists of integers or of numbers among them; monostate is anything
+/// else (another array, table, date).
+using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                                   std::vector<std::int64_t>, std::vector<double>>;
 
 /// One `key = value` of a scene file or of an override.
 struct DocumentEntry {

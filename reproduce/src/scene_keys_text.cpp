@@ -72,9 +72,27 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+template <class Number>
+std::string list_text(const std::vector<Number>& list) {
+  std::string text;
+  for (const Number one : list) text += (text.empty() ? "" : ", ") + toml_text(one);
+  return "[" + text + "]";
+}
+
+std::string number_words(const SceneKey& key) {
+  std::string text = key.type == SceneKey::Type::integer ? "an integer" : "a number";
+  if (key.form == SceneKey::Form::list) {
+    const std::string many = key.type == SceneKey::Type::integer ? "integers" : "numbers";
+    text = key.length > 0 ? "a list of " + std::to_string(key.length) + " " + many : "a list of " + many;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string toml_text(const SceneValue& value) {
+  if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value)) return list_text(*integers);
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return list_text(*numbers);
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
   if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value)) return "\"" + escaped(*text) + "\"";
@@ -91,13 +109,17 @@ std::string Bounds::text() const {
 }
 
 std::string Condition::text() const {
-  return key.empty() ? "" : std::string(key) + " = " + alternatives(values);
+  std::string text;
+  for (const Clause& clause : clauses_)
+    text += (text.empty() ? "" : " and ") + std::string(clause.key) + " = " + alternatives(clause.values);
+  return text;
 }
 
 std::string SceneKey::expected() const {
   if (type == Type::text) return alternatives(choices);
   if (type == Type::boolean) return "true or false";
-  std::string text = type == Type::integer ? "an integer" : "a number";
+  if (type == Type::path) return "the name of a Matrix Market file, relative to the scene's folder";
+  std::string text = number_words(*this);
   if (!unit.empty()) text += " in " + std::string(unit);
   const std::string range = bounds.text();
   return range.empty() ? text : text + ", " + range;
@@ -105,14 +127,18 @@ std::string SceneKey::expected() const {
 
 std::string SceneKey::default_text() const {
   switch (fallback) {
-    case Default::value:
-      return toml_text(get(Scene{}));
+    case Default::value: {
+      const SceneValue value = get(Scene{});
+      const bool unset =
+          value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
+      return unset ? "none" : toml_text(value);
+    }
     case Default::derived:
       return std::string(derived_text);
     case Default::required:
       break;
   }
-  return needed.key.empty() ? "required" : "required with " + needed.text();
+  return needed.empty() ? "required" : "required with " + needed.text();
 }
 
 std::string describe_scene_keys(int width) {
@@ -121,13 +147,15 @@ std::string describe_scene_keys(int width) {
   for (const SceneKey& key : scene_keys()) {
     if (key.section != section) text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
     section = key.section;
-    const std::string status =
+    std::string status =
         key.fallback == SceneKey::Default::required ? key.default_text() : "default " + key.default_text();
+    if (key.fallback == SceneKey::Default::derived && !key.needed.empty())
+      status += ", required with " + key.needed.text();
     text += "  " + std::string(key.name) + "\n";
     text += wrapped(std::string(key.help) + ".", 6, width);
     text += wrapped(
-        key.expected() + "; " + status + (key.belongs.key.empty() ? "" : "; only with " + key.belongs.text()),
-        6, width);
+        key.expected() + "; " + status + (key.belongs.empty() ? "" : "; only with " + key.belongs.text()), 6,
+        width);
   }
   return text;
 }

@@ -90,16 +90,48 @@ SceneValue checked_text(const Document& document, const DocumentEntry& entry, co
   fail_at(document, entry, allowed);
 }
 
+void check_number(const Document& document, const DocumentEntry& entry, const SceneKey& key, double value) {
+  if (!std::isfinite(value)) fail_at(document, entry, "expected " + key.expected() + "; it must be finite");
+  if (!key.bounds.contain(value)) fail_at(document, entry, "out of range; expected " + key.expected());
+}
+
 SceneValue checked_number(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
   const auto* integer = std::get_if<std::int64_t>(&entry.value);
   const auto* number = std::get_if<double>(&entry.value);
   const bool right_type = integer != nullptr || (number != nullptr && key.type == SceneKey::Type::number);
   if (!right_type) fail_at(document, entry, "expected " + key.expected());
   const double value = integer != nullptr ? static_cast<double>(*integer) : *number;
-  if (!std::isfinite(value)) fail_at(document, entry, "expected " + key.expected() + "; it must be finite");
-  if (!key.bounds.contain(value)) fail_at(document, entry, "out of range; expected " + key.expected());
+  check_number(document, entry, key, value);
   if (key.type == SceneKey::Type::integer) return *integer;
   return value;
+}
+
+SceneValue checked_list(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* integers = std::get_if<std::vector<std::int64_t>>(&entry.value);
+  const auto* given = std::get_if<std::vector<double>>(&entry.value);
+  if (integers == nullptr && (given == nullptr || key.type == SceneKey::Type::integer))
+    fail_at(document, entry, "expected " + key.expected());
+  const std::vector<double> numbers =
+      integers == nullptr ? *given : std::vector<double>(integers->begin(), integers->end());
+  const bool right_length =
+      key.length == 0 ? !numbers.empty() : static_cast<int>(numbers.size()) == key.length;
+  if (!right_length)
+    fail_at(document, entry, "there are " + std::to_string(numbers.size()) + "; expected " + key.expected());
+  for (const double value : numbers) check_number(document, entry, key, value);
+  if (key.type == SceneKey::Type::integer) return *integers;
+  return numbers;
+}
+
+SceneValue checked_path(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* text = std::get_if<std::string>(&entry.value);
+  if (text == nullptr || text->empty()) fail_at(document, entry, "expected " + key.expected());
+  const auto folder = std::filesystem::absolute(document.name).parent_path();
+  return (folder / *text).lexically_normal().string();
+}
+
+bool is_list(const DocumentValue& value) {
+  return std::holds_alternative<std::vector<std::int64_t>>(value) ||
+         std::holds_alternative<std::vector<double>>(value);
 }
 
 SceneValue checked_truth(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
@@ -108,9 +140,23 @@ SceneValue checked_truth(const Document& document, const DocumentEntry& entry, c
 }
 
 SceneValue checked(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
-  if (key.type == SceneKey::Type::boolean) return checked_truth(document, entry, key);
-  return key.type == SceneKey::Type::text ? checked_text(document, entry, key)
-                                          : checked_number(document, entry, key);
+  using Form = SceneKey::Form;
+  if (key.form == Form::list || (key.form == Form::single_or_list && is_list(entry.value)))
+    return checked_list(document, entry, key);
+  if (key.form == Form::single_or_list && std::holds_alternative<std::monostate>(entry.value))
+    fail_at(document, entry, "expected " + key.expected() + ", or a list of them");
+  switch (key.type) {
+    case SceneKey::Type::boolean:
+      return checked_truth(document, entry, key);
+    case SceneKey::Type::text:
+      return checked_text(document, entry, key);
+    case SceneKey::Type::path:
+      return checked_path(document, entry, key);
+    case SceneKey::Type::integer:
+    case SceneKey::Type::number:
+      break;
+  }
+  return checked_number(document, entry, key);
 }
 
 /// Whether other keys belong or are needed depends on this one, which must therefore be read before them.
@@ -118,23 +164,25 @@ bool governs(const SceneKey& key) {
   const auto keys = scene_keys();
   const std::string name = key.full_name();
   return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& other) {
-    return other.belongs.key == name || other.needed.key == name;
+    return other.belongs.concerns(name) || other.needed.concerns(name);
   });
 }
 
 void read_key(const Document& document, const SceneKey& key, Scene& scene) {
   const DocumentEntry* entry = document.find(key.section, key.name);
-  const bool belongs = key.belongs.holds(scene);
-  if (entry != nullptr && !belongs)
-    fail_at(document, *entry,
-            "does not belong to a scene with " + std::string(key.belongs.key) + " = " +
-                toml_text(find_scene_key(key.belongs.key)->get(scene)) + "; only with " + key.belongs.text());
+  if (const std::string_view broken = key.belongs.broken_by(scene); !broken.empty()) {
+    if (entry != nullptr)
+      fail_at(document, *entry,
+              "does not belong to a scene with " + std::string(broken) + " = " +
+                  toml_text(find_scene_key(broken)->get(scene)) + "; only with " + key.belongs.text());
+    return;
+  }
   if (entry != nullptr)
     key.set(scene, checked(document, *entry, key));
-  else if (belongs && key.fallback == SceneKey::Default::derived)
-    key.set(scene, key.derived(scene));
-  else if (belongs && key.fallback == SceneKey::Default::required && key.needed.holds(scene))
+  else if (key.required_in(scene))
     fail_missing(document, key);
+  else if (key.fallback == SceneKey::Default::derived)
+    key.set(scene, key.derived(scene));
 }
 
 std::string read_text(const std::filesystem::path& file) {

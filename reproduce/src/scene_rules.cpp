@@ -1,7 +1,6 @@
 #include "scene_rules.hpp"
 
 #include <bit>
-#include <initializer_list>
 
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/scene_keys.hpp"
@@ -10,19 +9,9 @@
 namespace wavebalance::reproduce {
 namespace {
 
-constexpr int most_dense_elements = 2000;  // time stepping: dense matrices of twice that size; modes: of that
+constexpr int most_dense_unknowns = 2000;  // time stepping: dense matrices of twice that size; modes: of that
 
 bool is_power_of_two(int value) { return value > 0 && std::has_single_bit(static_cast<unsigned>(value)); }
-
-/// Blames the first of `names` that the scene holds.
-[[noreturn]] void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
-                            const std::string& rule) {
-  for (const auto name : names) {
-    const SceneKey& key = *find_scene_key(name);
-    if (const auto* entry = document.find(key.section, key.name)) fail_at(document, *entry, rule);
-  }
-  throw SceneError({document.name, 0, "", std::string(*names.begin()), "", rule});
-}
 
 void check_wavelet_sizes(const Document& document, const Scene& scene) {
   const Time& time = scene.time;
@@ -59,21 +48,48 @@ void check_sweep(const Document& document, const Analysis& analysis) {
               "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
 }
 
+/// What limits the number of linear modes.
+std::string size_text(const Scene& scene) {
+  const int size = size_of(scene);
+  if (scene.structure.type == StructureType::bar) return "structure.elements = " + std::to_string(size);
+  return "the structure's degrees of freedom" +
+         std::string(scene.structure.kept_modes < 0 ? "" : " once reduced");
+}
+
+void check_dense_size(const Document& document, const Scene& scene) {
+  const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
+  const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  const bool damped = scene.structure.modal_damping > 0.0;
+  if ((!stepping && !mode && !damped) || size_of(scene) <= most_dense_unknowns) return;
+  const std::string most = "expected at most " + std::to_string(most_dense_unknowns) + " ";
+  const std::string why = mode       ? "for a nonlinear mode, which takes all linear modes"
+                          : stepping ? "for time stepping, whose matrices are dense"
+                                     : "for modal damping, which takes all linear modes";
+  if (scene.structure.type == StructureType::bar) fail_rule(document, {"structure.elements"}, most + why);
+  const std::string advice = "; structure.kept_modes reduces them";
+  const std::string count = std::to_string(size_of(scene)) + " degrees of freedom; ";
+  fail_rule(document, {"structure.kept_modes", "structure.stiffness"}, count + most + why + advice);
+}
+
 void check_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   if (scene.contact.law != ContactLawType::rigid)
     fail_rule(document, {"contact.law"}, "expected \"rigid\" for a nonlinear mode");
-  if (!(scene.contact.gap > 0.0))
-    fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
-  if (scene.structure.stiffness_damping != 0.0)
-    fail_rule(document, {"structure.stiffness_damping"},
-              "expected 0 for a nonlinear mode, which is a motion without damping");
-  if (analysis.mode > scene.structure.elements)
+  for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
+    if (!(scene.contact.gap_of(contact) > 0.0))
+      fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
+  if (analysis.mode > size_of(scene))
     fail_rule(document, {"analysis.mode"},
-              "expected at most structure.elements = " + std::to_string(scene.structure.elements));
+              "expected at most " + std::to_string(size_of(scene)) + ", " + size_text(scene));
   if (analysis.samples < 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+}
+
+void check_stepping(const Document& document, const Scene& scene) {
+  if (scene.analysis.type == AnalysisType::time_stepping && scene.structure.type != StructureType::bar)
+    fail_rule(document, {"analysis.type", "structure.type"},
+              "time stepping is there for structure.type = \"bar\" only; expected another analysis");
 }
 
 void check_rigid(const Document& document, const Scene& scene) {
@@ -93,21 +109,16 @@ void fail_at(const Document& document, const DocumentEntry& entry, std::string a
       {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
 }
 
-void check_scene_rules(const Document& document, const Scene& scene) {
+void check_scene_rules(const Document& document, Scene& scene) {
+  check_structure_rules(document, scene);
   const AnalysisType type = scene.analysis.type;
   const bool stepping = type == AnalysisType::time_stepping, mode = type == AnalysisType::nonlinear_mode;
   if (!stepping && !mode) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
-  if (scene.structure.massless_tip && scene.structure.elements < 2)
-    fail_rule(document, {"structure.elements"},
-              "expected 2 or more with massless_tip, whose mass goes to a neighbour");
+  check_stepping(document, scene);
   if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
-  if ((stepping || mode) && scene.structure.elements > most_dense_elements)
-    fail_rule(document, {"structure.elements"},
-              "expected at most " + std::to_string(most_dense_elements) + " for " +
-                  (mode ? "a nonlinear mode, which takes all linear modes"
-                        : "time stepping, whose matrices are dense"));
+  check_dense_size(document, scene);
 }
 
 }  // namespace wavebalance::reproduce

@@ -1,5 +1,7 @@
 #pragma once
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "scene_document.hpp"
 #include "wavebalance/reproduce/scene.hpp"
@@ -9,8 +11,17 @@ namespace wavebalance::reproduce {
 /// Throws SceneError at the place of `entry`.
 [[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed);
 
+/// Blames the first of `names` that the scene holds; if there is none, the first one's section.
+[[noreturn]] void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
+                            const std::string& rule);
+
+/// Holds a scene's structure to the rules between its keys, and to its files, which are then read and kept in
+/// the scene. Throws SceneError.
+void check_structure_rules(const Document& document, Scene& scene);
+
 /// Holds a scene, whose keys are right one by one, to the rules between them: sizes of wavelet bases,
-/// quadrature, admissible pairs, sweeps, sizes of time stepping. Throws SceneError at the key to blame.
-void check_scene_rules(const Document& document, const Scene& scene);
+/// quadrature, admissible pairs, sweeps, sizes of time stepping, the structure's. Throws SceneError at the
+/// key to blame.
+void check_scene_rules(const Document& document, Scene& scene);
 
 }  // namespace wavebalance::reproduce

@@ -4,9 +4,16 @@
 namespace wavebalance::reproduce {
 namespace {
 
-/// A key that was never given and has no default stays out: time stepping needs no bases.
+bool is_empty(const SceneValue& value) {
+  return value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
+}
+
+/// A key that was never given and has no default, or one with nothing to derive from, stays out: time
+/// stepping needs no bases.
 bool is_unset(const SceneKey& key, const Scene& scene) {
-  return !key.needed.holds(scene) && key.get(scene) == key.get(Scene{});
+  const SceneValue value = key.get(scene);
+  if (key.required_in(scene) || value != key.get(Scene{})) return false;
+  return key.fallback != SceneKey::Default::value || is_empty(value);
 }
 
 std::string line_of(const SceneKey& key, const Scene& scene) {
@@ -22,8 +29,6 @@ std::string write_scene(const Scene& scene) {
   std::string_view section;
   for (const SceneKey& key : scene_keys()) {
     if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
-    // The derived number of quadrature points has nothing to derive from when no functions are given.
-    if (key.fallback == SceneKey::Default::derived && key.get(scene) == key.get(Scene{})) continue;
     if (key.section != section) text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
     section = key.section;
     text += line_of(key, scene);

@@ -14,6 +14,13 @@ Summary opening(bool converged, const std::string& status, double residual, int 
           {"wall_seconds", wall_seconds}};
 }
 
+void append_structure(Summary& summary, const StructureModel& model) {
+  summary.emplace_back("contacts", std::int64_t{model.contacts()});
+  summary.emplace_back("degrees_of_freedom", std::int64_t{model.unknowns});
+  summary.emplace_back("reduced_degrees_of_freedom", std::int64_t{model.size()});
+  summary.emplace_back("reduction_seconds", model.reduction_seconds);
+}
+
 void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
   const bool empty = samples.points() == 0;
   const auto& u = samples.displacement;

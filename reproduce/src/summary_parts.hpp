@@ -3,6 +3,7 @@
 #include <string>
 
 #include "wavebalance/reproduce/analysis.hpp"
+#include "wavebalance/reproduce/structure_model.hpp"
 
 namespace wavebalance::reproduce {
 
@@ -12,7 +13,10 @@ inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
                 double wall_seconds);
 
-/// The fields of one motion of the tip; missing values when `samples` are empty.
+/// How large the structure is, before and after its reduction.
+void append_structure(Summary& summary, const StructureModel& model);
+
+/// The fields of one motion of the leading contact; missing values when `samples` are empty.
 void append_motion(Summary& summary, const solvers::PeriodSamples& samples);
 
 }  // namespace wavebalance::reproduce

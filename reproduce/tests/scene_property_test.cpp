@@ -143,8 +143,7 @@ RC_GTEST_PROP(SceneLoader, EveryMissingRequiredKeyIsNamed, ()) {
   const Scene scene = any_scene();
   std::vector<const SceneKey*> required;
   for (const SceneKey& key : scene_keys())
-    if (key.fallback == SceneKey::Default::required && key.belongs.holds(scene) && key.needed.holds(scene))
-      required.push_back(&key);
+    if (key.required_in(scene)) required.push_back(&key);
   const SceneKey& victim = **rc::gen::elementOf(required);
   const std::string text = write_scene(scene);
   const auto section = text.find("[" + std::string(victim.section) + "]");

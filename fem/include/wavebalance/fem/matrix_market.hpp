@@ -46,6 +46,7 @@ void write_matrix_market(std::ostream& output, const Eigen::SparseMatrix<double>
 struct StructureChecks {
   bool allow_free = false;            ///< accept a singular stiffness: a structure that can move freely
   double symmetry_tolerance = 1e-10;  ///< of the largest entry, >= 0
+  int first_index = 0;  ///< what errors call the first row: 1 for a reader of Matrix Market files
 };
 
 /// Throws std::invalid_argument naming the matrix if one is empty, not square or of another size than the

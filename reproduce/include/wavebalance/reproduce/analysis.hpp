@@ -37,6 +37,12 @@ Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {})
 using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
 using Summary = std::vector<std::pair<std::string, SummaryValue>>;
 
+/// A further file of a record, ready to be written.
+struct RecordFile {
+  std::string name;
+  std::string contents;
+};
+
 /// What an analysis leaves behind: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
 struct Record {
   bool converged = false;
@@ -45,7 +51,10 @@ struct Record {
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< frequency_Hz, max_displacement_m, rms_displacement_m; empty otherwise
   Table backbone;   ///< of a nonlinear mode, see backbone_table(); empty otherwise
-  Figure figure;    ///< without panels when there is nothing to draw
+  Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
+  /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx.
+  std::vector<RecordFile> files;
+  Figure figure;  ///< without panels when there is nothing to draw
 };
 
 /// Solves `scene`. A failure to converge is told by the record. Throws std::invalid_argument or

@@ -1,5 +1,6 @@
 #pragma once
 #include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/reproduce/structure_model.hpp"
 #include "wavebalance/solvers/condensed_problem.hpp"
 #include "wavebalance/solvers/contact_law.hpp"
 #include "wavebalance/solvers/linear_structure.hpp"
@@ -8,12 +9,14 @@
 
 namespace wavebalance::reproduce {
 
-/// The bar with the force's amplitude as load on its tip, which is also the contact degree of freedom.
-/// O(elements).
+/// make_model(scene).structure: a bar is loaded and touches at its tip.
 solvers::LinearStructure make_structure(const Scene& scene);
 
-/// Throws std::invalid_argument for rigid contact, which is no law but a complementarity.
-solvers::AnyContactLaw make_law(const Contact& contact);
+/// The law of one contact, which has its own gap. Throws std::invalid_argument for rigid contact, which is no
+/// law but a complementarity.
+solvers::AnyContactLaw make_law(const Contact& contact, int index = 0);
+/// One law a contact of the scene's structure.
+std::vector<solvers::AnyContactLaw> make_laws(const Scene& scene);
 
 /// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a
 /// wavelet basis whose number of functions is not a power of two.
@@ -38,13 +41,15 @@ struct StructureModes {
   Eigen::MatrixXd shapes;  ///< n x r, mass-normalised
 };
 
-/// Throws std::runtime_error if the eigenvalue solver does not converge. O(n^3).
-StructureModes make_modes(const Scene& scene);
+/// Throws std::runtime_error if the eigenvalue solver does not converge. O(n^3), n of the reduced structure.
+StructureModes make_modes(const StructureModel& model);
 
 /// The scene's nonlinear mode on these modes.
 solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model);
 
-/// Bar, law's place and pair condensed on the tip; at forcing.frequency if that is set.
+/// Structure, law's place and pair condensed on the contacts; at forcing.frequency if that is set.
 solvers::CondensedProblem make_problem(const Scene& scene);
+/// The same for the scene's structure composed before.
+solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model);
 
 }  // namespace wavebalance::reproduce

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/contact_motion.hpp"
 #include "wavebalance/reproduce/table.hpp"
 #include "wavebalance/solvers/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/nonlinear_mode.hpp"
@@ -39,8 +40,11 @@ class ModeStudy {
   /// O(n^3). Throws std::invalid_argument for scenes that load_scene() would not have let pass, and
   /// std::runtime_error if the linear modes are not found.
   explicit ModeStudy(const Scene& scene);
+  /// The same for the scene's structure composed before.
+  ModeStudy(const Scene& scene, StructureModel model);
 
   const Scene& scene() const { return scene_; }
+  const StructureModel& model() const { return model_; }
   const solvers::NonlinearMode& mode() const { return mode_; }
   double linear_frequency() const;  ///< Hz
 
@@ -52,7 +56,11 @@ class ModeStudy {
   solvers::ModePoint at_energy(const Backbone& curve, double energy_ratio) const;
 
   /// One period at `points` uniform times from the middle of the motion's symmetry on; contact forces are
-  /// known at analysis.samples times only and hold that of the nearest one. O(n N points).
+  /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
+  /// solution. O(c N points).
+  ContactMotion contact_motion(const solvers::ModePoint& point, int points) const;
+  /// Of the leading contact; with full_history also the motion of the structure as the solvers see it, which
+  /// model().recover() takes to the whole. O(n N points).
   solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
 
   /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy
@@ -60,18 +68,21 @@ class ModeStudy {
   /// kept. O(points (n N)^3).
   std::vector<solvers::LagrangianPoint> published_branch(double largest) const;
   /// As above, of an accepted point; empty otherwise.
+  ContactMotion contact_motion(const solvers::LagrangianPoint& point, int points) const;
   solvers::PeriodSamples samples(const solvers::LagrangianPoint& point, int points, bool full_history) const;
 
-  /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the structure's own
-  /// coordinates; NaN without motion. O(n N).
+  /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
+  /// structure's own coordinates; NaN without motion. O(n N).
   double residual(const solvers::ModePoint& point) const;
 
  private:
-  solvers::PeriodSamples sampled(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
-                                 double omega, int points, bool full_history) const;
+  ContactMotion touching(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force, double omega,
+                         int points) const;
+  solvers::PeriodSamples sampled(const ContactMotion& motion, const Eigen::MatrixXcd& amplitudes,
+                                 double omega, bool full_history) const;
 
   Scene scene_;
-  solvers::LinearStructure structure_;
+  StructureModel model_;
   StructureModes modes_;
   solvers::NonlinearMode mode_;
 };

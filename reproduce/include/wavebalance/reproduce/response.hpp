@@ -42,7 +42,8 @@ struct Response {
   double wall_seconds = 0.0;          ///< composition, solution and samples
   std::optional<RigidContact> rigid;  ///< of scenes with rigid contact
   solvers::PeriodSamples
-      samples;  ///< analysis.output_points samples: SI units; empty if there is nothing at all
+      samples;      ///< analysis.output_points samples: SI units; empty if there is nothing at all
+  int contact = 0;  ///< the leading one, whose samples these are
 };
 
 struct ResponseOptions {

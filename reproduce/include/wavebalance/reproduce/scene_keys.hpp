@@ -12,7 +12,8 @@
 namespace wavebalance::reproduce {
 
 /// The value of a scene's key.
-using SceneValue = std::variant<std::int64_t, double, std::string, bool>;
+using SceneValue =
+    std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>, std::vector<double>>;
 
 /// The numbers that a key admits.
 struct Bounds {
@@ -25,26 +26,49 @@ struct Bounds {
   std::string text() const;
 };
 
-/// Scenes in which the key `key` ("section.name") has one of `values`; every scene when `key` is empty.
-struct Condition {
-  std::string_view key;
-  std::vector<std::string_view> values;
+/// Scenes in which each of several keys has one of its values; every scene when there is no such clause.
+class Condition {
+ public:
+  Condition() = default;
+  /// The key called `key` ("section.name") has one of `values`.
+  Condition(std::string_view key, std::vector<std::string_view> values)
+      : clauses_{{key, std::move(values)}} {}
 
+  bool empty() const { return clauses_.empty(); }
   bool holds(const Scene& scene) const;
+  /// Whether it depends on the key of this name.
+  bool concerns(std::string_view key) const;
   /// `contact.law = "exponential" or "linear"`; empty for every scene.
   std::string text() const;
+  /// The key of the first clause that does not hold in `scene`; empty if all do.
+  std::string_view broken_by(const Scene& scene) const;
+
+  friend Condition operator&&(Condition left, const Condition& right);
+
+ private:
+  struct Clause {
+    std::string_view key;
+    std::vector<std::string_view> values;
+    bool holds(const Scene& scene) const;
+  };
+  std::vector<Clause> clauses_;
 };
 
 /// One key of a scene file: all that the loader, the writer and the help know about it.
 struct SceneKey {
-  enum class Type { integer, number, text, boolean };
+  enum class Type { integer, number, text, boolean, path };
+  enum class Form { single, list, single_or_list };  ///< lists are of integers or numbers
+  /// Where the key is missing: an error, the value that its member is initialised with, or one derived from
+  /// other keys. A derived default does not excuse from `needed`, when that is not empty.
   enum class Default { required, value, derived };
 
   std::string_view section;
   std::string_view name;
   Type type = Type::number;
+  Form form = Form::single;
+  int length = 0;                         ///< of a list; 0: any from 1 on
   std::string_view unit;                  ///< empty for text and for pure numbers
-  Bounds bounds;                          ///< of integers and numbers
+  Bounds bounds;                          ///< of integers and numbers, those of a list one by one
   std::vector<std::string_view> choices;  ///< of text
   Condition belongs;                      ///< elsewhere the key is an error
   Condition needed;                       ///< where the key is required if it has no default
@@ -60,6 +84,8 @@ struct SceneKey {
   std::string expected() const;
   /// "1024", "4 x functions", "required"; for the help.
   std::string default_text() const;
+  /// Whether `scene` has to hold the key.
+  bool required_in(const Scene& scene) const;
 };
 
 /// Every key, in the order in which a scene is written. Keys that decide whether others belong are those with

@@ -1,0 +1,205 @@
+#include "wavebalance/reproduce/structure_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "chain_files.hpp"
+#include "scene_texts.hpp"
+#include "strip.hpp"
+#include "wavebalance/fem/centrifugal.hpp"
+#include "wavebalance/fem/eigenmodes.hpp"
+#include "wavebalance/fem/matrix_market.hpp"
+#include "wavebalance/reproduce/analysis.hpp"
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/modes.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance::reproduce;
+namespace fem = wavebalance::fem;
+
+/// The bar of a scene as Matrix Market files and the scene of them: the same sections but [structure].
+Scene as_matrices(const TemporaryFolder& folder, const Scene& bar, const std::string& structure = "") {
+  const auto matrices = make_structure(bar);
+  fem::write_matrix_market(folder / "m.mtx", matrices.mass, fem::MatrixMarketSymmetry::symmetric);
+  fem::write_matrix_market(folder / "k.mtx", matrices.stiffness, fem::MatrixMarketSymmetry::symmetric);
+  fem::write_matrix_market(folder / "c.mtx", matrices.damping, fem::MatrixMarketSymmetry::symmetric);
+  const std::string tip = std::to_string(bar.structure.elements);
+  const std::string text = write_scene(bar);
+  std::string result =
+      "[structure]\ntype = \"matrices\"\nmass = \"m.mtx\"\nstiffness = \"k.mtx\"\ncontact_dofs = [" + tip +
+      "]\n" + structure + "\n" + text.substr(text.find("\n[contact]"));
+  if (bar.analysis.type != AnalysisType::nonlinear_mode)
+    result = with(result, "[forcing]\n", "[forcing]\nload_dofs = [" + tip + "]\n");
+  return load_scene(folder.write("matrices.toml", result));
+}
+
+double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+TEST(MatricesModel, BarGivenAsMatricesHasTheSameNonlinearMode) {
+  const TemporaryFolder folder;
+  const Scene bar = parse_scene(rod_scene, "rod.toml");
+  const Record expected = analyse(bar), found = analyse(as_matrices(folder, bar));
+  ASSERT_EQ(found.backbone.rows(), expected.backbone.rows());
+  EXPECT_EQ(found.backbone.texts("status"), expected.backbone.texts("status"));
+  const auto a = found.backbone.numbers("energy_ratio"), b = expected.backbone.numbers("energy_ratio");
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::isfinite(b[i])) {
+      EXPECT_NEAR(a[i], b[i], 1e-10 * b[i]);
+    }
+}
+
+TEST(MatricesModel, BarGivenAsMatricesRespondsAlike) {
+  const TemporaryFolder folder;
+  const Scene bar = parse_scene(bar_scene, "bar.toml");
+  const Response expected = weighted_residual_response(bar);
+  const Response found = weighted_residual_response(as_matrices(folder, bar, "damping = \"c.mtx\""));
+  ASSERT_TRUE(found.converged);
+  EXPECT_LT(distance(found.samples.displacement, expected.samples.displacement), 1e-10);
+  EXPECT_LT(distance(found.samples.contact_force, expected.samples.contact_force), 1e-10);
+}
+
+TEST(MatricesModel, BarGivenAsMatricesHasTheSameSweep) {
+  const TemporaryFolder folder;
+  const std::string text = with(bar_scene, "\"forced_response\"        # 23",
+                                "\"frequency_sweep\"\nfrequency_from = 1250\nfrequency_to = 1260");
+  const Scene bar = parse_scene(text, "bar.toml");
+  const Sweep expected = frequency_sweep(bar);
+  const Sweep found = frequency_sweep(as_matrices(folder, bar, "stiffness_damping = 1e-4"));
+  ASSERT_TRUE(found.converged());
+  ASSERT_EQ(found.curve.points.size(), expected.curve.points.size());
+  for (std::size_t i = 0; i < found.curve.points.size(); ++i) {
+    const auto &a = found.curve.points[i], &b = expected.curve.points[i];
+    EXPECT_NEAR(a.frequency, b.frequency, 1e-10 * b.frequency);
+    EXPECT_NEAR(a.max_displacement, b.max_displacement, 1e-10 * b.max_displacement);
+  }
+}
+
+TEST(MatricesModel, AllModesKeptChangeNothing) {
+  const TemporaryFolder folder;
+  const Scene bar = parse_scene(rod_scene, "rod.toml");
+  const ModeStudy whole(bar), reduced(as_matrices(folder, bar, "kept_modes = 19"));
+  EXPECT_TRUE(reduced.model().reduced());
+  const auto a = reduced.at_energy(3.0), b = whole.at_energy(3.0);
+  EXPECT_NEAR(a.omega, b.omega, 1e-8 * b.omega);
+  const auto u = reduced.model().recover(reduced.samples(a, 64, true).displacements);
+  const auto v = whole.samples(b, 64, true).displacements;
+  EXPECT_LT((u - v).cwiseAbs().maxCoeff(), 1e-6 * v.cwiseAbs().maxCoeff());
+}
+
+TEST(MatricesModel, NegativeContactDofsLookTheOtherWay) {
+  const TemporaryFolder folder;
+  write_chain(folder);
+  const auto model_of = [&](const std::string& dofs) {
+    return make_model(load_scene(folder.write("case.toml", with(chain_scene, "[2, 3]", dofs))));
+  };
+  const StructureModel up = model_of("[2, 3]"), down = model_of("[-2, 3]");
+  EXPECT_EQ(down.structure.stiffness.coeff(1, 1), up.structure.stiffness.coeff(1, 1));
+  EXPECT_EQ(down.structure.stiffness.coeff(1, 0), -up.structure.stiffness.coeff(1, 0));
+  Eigen::MatrixXd motion(3, 1);
+  motion << 1.0, 2.0, 3.0;
+  EXPECT_EQ(down.recover(motion), Eigen::Vector3d(1.0, -2.0, 3.0));
+  EXPECT_EQ(up.recover(motion), motion);
+  EXPECT_THROW(up.recover(Eigen::MatrixXd(2, 1)), std::invalid_argument);
+}
+
+TEST(MatricesModel, ModalDampingIsTheRatioOfEveryMode) {
+  const TemporaryFolder folder;
+  write_chain(folder);
+  const auto structure = make_model(load_scene(folder.write("case.toml", chain_scene))).structure;
+  const auto modes = fem::eigenmodes(structure.stiffness, structure.mass, 3);
+  const Eigen::MatrixXd modal = modes.shapes.transpose() * (structure.damping * modes.shapes);
+  const Eigen::MatrixXd expected = (2.0 * 0.01 * modes.omega).asDiagonal();
+  EXPECT_LT((modal - expected).norm(), 1e-12 * expected.norm());
+}
+
+const std::string small_blade = R"([structure]
+type = "blade"
+chord_elements = 3
+span_elements = 4
+kept_modes = 20
+[contact]
+law = "rigid"
+gap = 1e-3
+[analysis]
+type = "nonlinear_mode"
+)";
+
+double first_omega(const StructureModel& model) {
+  return fem::eigenmodes(model.structure.stiffness, model.structure.mass, 1).omega[0];
+}
+
+TEST(BladeModel, TurnsAboutAnAxisBelowItsRoot) {
+  const auto model_of = [](const std::vector<std::string>& overrides) {
+    return make_model(parse_scene(small_blade, "blade.toml", overrides));
+  };
+  const StructureModel model = model_of({"structure.rotation_speed=1000", "structure.hub_radius=0.3"});
+  const auto& solid = model.blade->model;
+  const auto matrices = fem::solid_matrices(solid);
+  const auto turning = fem::centrifugal_stiffness(
+      solid, matrices.stiffness, {.direction = Eigen::Vector3d::UnitX(), .point = {0.0, 0.0, -0.3}});
+  const double whole =
+      fem::eigenmodes(turning.stiffness(matrices.stiffness, 1000.0), matrices.mass, 1).omega[0];
+  EXPECT_NEAR(first_omega(model), whole, 5e-4 * whole);
+  EXPECT_GT(first_omega(model), 1.01 * first_omega(model_of({})));
+}
+
+TEST(BladeModel, ForceActsAtTheNamedPlaceOfTheTip) {
+  const std::string forced = with(small_blade, "nonlinear_mode", "forced_response") +
+                             "[forcing]\namplitude = 6\nfrequency = 100\n"
+                             "[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 8\n";
+  const auto load_of = [&](const std::string& place, const std::string& direction) {
+    return make_model(parse_scene(forced, "blade.toml",
+                                  std::vector<std::string>{"forcing.place=" + place,
+                                                           "forcing.direction=" + direction}))
+        .structure.load;
+  };
+  // Eight corner nodes in pairs from the leading edge, x y z of each, then the kept modes.
+  const auto leading = load_of("leading_edge", "y"), middle = load_of("mid_chord", "z"),
+             trailing = load_of("trailing_edge", "x");
+  for (const auto& [load, entries] : std::vector<std::pair<Eigen::VectorXd, std::vector<int>>>{
+           {leading, {1, 4}}, {middle, {8, 11, 14, 17}}, {trailing, {18, 21}}}) {
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(44);
+    for (const int entry : entries) expected[entry] = 6.0 / static_cast<double>(entries.size());
+    EXPECT_LT((load - expected).norm(), 1e-12);
+  }
+}
+
+TEST(BladeModel, RecoveryIsThatOfTheReduction) {
+  const StructureModel model = make_model(parse_scene(small_blade, "blade.toml"));
+  const auto matrices = fem::solid_matrices(model.blade->model);
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(model.size(), -1.0, 1.0);
+  const Eigen::VectorXd u = model.recover(q);
+  const double energy = u.dot(matrices.stiffness * u);
+  EXPECT_NEAR(q.dot(model.structure.stiffness * q), energy, 1e-9 * energy);
+  for (int contact = 0; contact < model.contacts(); ++contact)
+    EXPECT_DOUBLE_EQ(u[model.blade->contact_unknowns[static_cast<std::size_t>(contact)]],
+                     q[model.contact_dofs[static_cast<std::size_t>(contact)]]);
+}
+
+TEST(MatricesModel, FilesOfTheStripAreWhatFemMakes) {
+  const auto folder = std::filesystem::path(WAVEBALANCE_SCENES) / "matrices";
+  const auto matrices = strip_matrices();
+  const Eigen::SparseMatrix<double> mass = fem::read_matrix_market(folder / "strip_mass.mtx") - matrices.mass;
+  const Eigen::SparseMatrix<double> stiffness =
+      fem::read_matrix_market(folder / "strip_stiffness.mtx") - matrices.stiffness;
+  EXPECT_LT(mass.norm(), 1e-12 * matrices.mass.norm());
+  EXPECT_LT(stiffness.norm(), 1e-12 * matrices.stiffness.norm());
+  for (const char* scene : {"strip_mode.toml", "strip_forced.toml"})
+    EXPECT_EQ(unknowns_of(load_scene(folder / scene)), 72) << scene;
+}
+
+TEST(MatricesModel, FilesAreReadOnce) {
+  const TemporaryFolder folder;
+  write_chain(folder);
+  const Scene scene = load_scene(folder.write("case.toml", chain_scene));
+  std::filesystem::remove(folder / "k.mtx");
+  EXPECT_EQ(make_model(scene).size(), 3);
+  Scene other = scene;
+  other.structure.matrices.stiffness = folder / "other.mtx";
+  EXPECT_THROW(make_model(other), std::runtime_error);
+}
+
+}  // namespace
