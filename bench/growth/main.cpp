@@ -1,0 +1,226 @@
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "memory.hpp"
+#include "program.hpp"
+#include "stopwatch.hpp"
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/curve_measures.hpp"
+#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/solvers/forced_response.hpp"
+
+// Time and memory of one solve over the number of functions and of elements: growth.csv and its picture.
+namespace wavebalance::bench {
+namespace {
+
+constexpr double patience = 5.0;  // s; beyond it a ladder is not climbed
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// One ladder: a scene over functions or elements.
+struct Ladder {
+  std::string name, label;
+  std::string variable;  ///< "functions" or "elements"
+  std::vector<int> sizes;
+  reproduce::Scene scene;
+  reproduce::Colour colour;
+  int marker;
+};
+
+struct Measured {
+  double construction_seconds = unknown, condensation_seconds = unknown, seconds = unknown, bytes = unknown;
+  int active_samples = 0, iterations = 0;
+  bool converged = false, run = false;
+};
+
+solvers::CondensedProblem condensed_problem(const reproduce::Scene& scene) {
+  return {reproduce::make_pair(scene.time), reproduce::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
+}
+
+// A homotopy would hide what Newton takes.
+solvers::ForcedResponseOptions newton_only() {
+  solvers::ForcedResponseOptions options;
+  options.homotopy = false;
+  return options;
+}
+
+Measured measure(const reproduce::Scene& scene) {
+  Measured measured;
+  measured.run = true;
+  const solvers::AnyContactLaw law = reproduce::make_law(scene.contact);
+  measured.construction_seconds = least_seconds([&] { condensed_problem(scene); });
+  solvers::CondensedProblem problem = condensed_problem(scene);
+  measured.condensation_seconds = least_seconds([&] { problem.set_frequency(scene.forcing.frequency); });
+  solvers::PeriodicResponse response;
+  measured.seconds = least_seconds(
+      [&] {
+        problem.set_frequency(scene.forcing.frequency);
+        response = solvers::forced_response(problem, law, newton_only());
+      },
+      {.least = 3});
+  measured.converged = response.converged();
+  measured.iterations = response.iterations;
+  measured.active_samples = static_cast<int>((response.contact_force.array() != 0.0).count());
+  measured.bytes = peak_bytes([&] {
+    solvers::CondensedProblem own = condensed_problem(scene);
+    own.set_frequency(scene.forcing.frequency);
+    solvers::forced_response(own, law, newton_only());
+  });
+  return measured;
+}
+
+reproduce::Scene sized(const Ladder& ladder, int size) {
+  reproduce::Scene scene = ladder.scene;
+  if (ladder.variable == "elements") {
+    scene.structure.elements = size;
+    scene.time.functions = 63;
+    return scene;
+  }
+  scene.time.functions = scene.time.trial == "fourier" ? size - 1 : size;
+  scene.time.quadrature_points = 4 * size;
+  return scene;
+}
+
+Ladder ladder(const std::string& name, const std::string& label, const std::string& variable,
+              std::vector<int> sizes, int case_number, const std::string& basis, reproduce::Colour colour,
+              int marker) {
+  const std::vector<std::string> overrides{"time.trial=" + basis, "time.weight=" + basis,
+                                           "time.inner_products=exact", "time.functions=64"};
+  return {
+      name,
+      label,
+      variable,
+      std::move(sizes),
+      reproduce::load_scene(
+          WAVEBALANCE_SCENES "/jones_legrand_2014/case" + std::to_string(case_number) + ".toml", overrides),
+      colour,
+      marker};
+}
+
+std::vector<Ladder> ladders(bool quick) {
+  using reproduce::Colour;
+  std::vector<int> functions, elements{25, 100};
+  for (int size = 64; size <= (quick ? 128 : 16384); size *= 2) functions.push_back(size);
+  if (!quick) elements = {25, 50, 100, 250, 500, 1000, 2500, 5000, 10000, 25000, 50000, 100000};
+  return {
+      ladder("fourier_case1", "Fourier, case 1", "functions", functions, 1, "fourier", Colour::blue, 1),
+      ladder("fourier_case2", "Fourier, case 2", "functions", functions, 2, "fourier", Colour::vermillion, 2),
+      ladder("bspline_case2", "B-spline, case 2", "functions", functions, 2, "bspline", Colour::green, 3),
+      ladder("daubechies6_case2", "DB6, case 2", "functions", functions, 2, "daubechies6", Colour::orange, 4),
+      ladder("elements_case1", "case 1", "elements", elements, 1, "fourier", Colour::blue, 1),
+      ladder("elements_case2", "case 2", "elements", elements, 2, "fourier", Colour::vermillion, 2),
+  };
+}
+
+// Slope of ln(quantity) over ln(size) from the upper half of the ladder; for functions M also over M log M.
+double slope(const std::vector<double>& sizes, const std::vector<double>& values) {
+  std::vector<double> x, y;
+  for (std::size_t i = sizes.size() / 2; i < sizes.size(); ++i)
+    if (values[i] > 0.0) {
+      x.push_back(sizes[i]);
+      y.push_back(values[i]);
+    }
+  return x.size() < 2 ? unknown : -reproduce::observed_order(x, y);
+}
+
+struct Results {
+  reproduce::Table points{std::vector<std::string>{
+      "ladder", "variable", "trial", "functions", "points", "elements", "construction_seconds",
+      "condensation_seconds", "seconds", "peak_bytes", "iterations", "active_samples", "converged", "run"}};
+  reproduce::Table slopes{std::vector<std::string>{"ladder", "variable", "quantity", "from", "to", "slope",
+                                                   "slope_over_expected"}};
+};
+
+void append(Results& results, const Ladder& one, const reproduce::Scene& scene, const Measured& m) {
+  results.points.append_row({one.name, one.variable, scene.time.trial, std::int64_t{scene.time.functions},
+                             std::int64_t{scene.time.quadrature_points},
+                             std::int64_t{scene.structure.elements}, m.construction_seconds,
+                             m.condensation_seconds, m.seconds, m.bytes, std::int64_t{m.iterations},
+                             std::int64_t{m.active_samples}, m.converged, m.run});
+}
+
+// Expected: M log M for the time over functions, else proportional to the size.
+void fit(Results& results, const Ladder& one) {
+  const reproduce::Table rows = results.points.where("ladder", one.name).where("converged", "true");
+  if (rows.rows() < 3) return;
+  const std::vector<double> sizes = rows.numbers(one.variable);
+  for (const char* quantity : {"construction_seconds", "condensation_seconds", "seconds", "peak_bytes"}) {
+    std::vector<double> values = rows.numbers(quantity);
+    const double plain = slope(sizes, values);
+    const bool logarithm = one.variable == "functions" && std::string(quantity) != "peak_bytes";
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] /= logarithm ? std::log(sizes[i]) : 1.0;
+    results.slopes.append_row({one.name, one.variable, std::string(quantity), sizes[sizes.size() / 2],
+                               sizes.back(), plain, slope(sizes, values) - 1.0});
+  }
+}
+
+void climb(Results& results, const Ladder& one) {
+  Measured last;
+  for (const int size : one.sizes) {
+    const reproduce::Scene scene = sized(one, size);
+    if (!(last.seconds > patience)) {
+      last = measure(scene);
+      append(results, one, scene, last);
+    } else {
+      append(results, one, scene, {});
+    }
+  }
+  fit(results, one);
+  std::printf("%-20s up to %6d %s: %.3g s, %.3g MB\n", one.name.c_str(), one.sizes.back(),
+              one.variable.c_str(), last.seconds, 1e-6 * last.bytes);
+  std::fflush(stdout);
+}
+
+void draw(reproduce::Panel& panel, const std::vector<Ladder>& all, const Results& results,
+          const std::string& variable, const std::string& quantity, const std::string& label) {
+  panel.x.label = variable == "functions" ? "Functions M, 4M points" : "Elements, 63 functions, 256 points";
+  panel.y.label = label;
+  panel.x.logarithmic = panel.y.logarithmic = true;
+  panel.legend = reproduce::Legend::top_left;
+  for (const Ladder& one : all) {
+    if (one.variable != variable) continue;
+    const auto rows = results.points.where("ladder", one.name).where("converged", "true");
+    const auto fitted = results.slopes.where("ladder", one.name).where("quantity", quantity);
+    char text[32] = "";
+    if (!fitted.empty()) std::snprintf(text, sizeof text, ", slope %.2f", fitted.numbers("slope")[0]);
+    reproduce::Series series(one.label + text, rows, variable, quantity, reproduce::SeriesStyle::line_points);
+    series.colour = one.colour;
+    series.marker = one.marker;
+    panel.add(std::move(series));
+  }
+}
+
+void run(const Program& program) {
+  Results results;
+  const std::vector<Ladder> all = ladders(program.quick);
+  for (const Ladder& one : all) climb(results, one);
+  reproduce::Figure figure;
+  figure.title = "Growth of one solve";
+  figure.columns = 2;
+  for (const char* variable : {"functions", "elements"}) {
+    draw(figure.add_panel("Time"), all, results, variable, "seconds", "Solve time (processor seconds)");
+    draw(figure.add_panel("Memory"), all, results, variable, "peak_bytes", "Peak memory (bytes)");
+  }
+  write_csv(program.output / "growth.csv", results.points,
+            {"Time and memory of one solve over functions and elements",
+             "SI; a column's name ends in its unit",
+             "reproduce/scenes/jones_legrand_2014",
+             {"seconds: from the contact-free response, condensation included, plans made before",
+              "peak_bytes: resident memory that construction and solve add"}});
+  write_csv(
+      program.output / "growth_slopes.csv", results.slopes,
+      {"Slopes of growth.csv on logarithmic axes, upper half of each ladder",
+       {},
+       {},
+       {"slope_over_expected: beyond M log M for times over functions, beyond proportional elsewhere"}});
+  write_pictures(program.output / "growth", figure);
+}
+
+}  // namespace
+}  // namespace wavebalance::bench
+
+int main(int argc, char** argv) {
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+}

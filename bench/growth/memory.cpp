@@ -1,0 +1,50 @@
+#include "memory.hpp"
+
+#include <malloc.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <limits>
+
+namespace wavebalance::bench {
+namespace {
+
+double largest_resident_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
+}
+
+// What earlier work left in the heap of the parent would hide what the child takes from it.
+[[noreturn]] void report(const std::function<void()>& work, int pipe_end) {
+  malloc_trim(0);
+  double bytes = std::numeric_limits<double>::quiet_NaN();
+  const double before = largest_resident_bytes();
+  try {
+    work();
+    bytes = largest_resident_bytes() - before;
+  } catch (...) {
+  }
+  const bool written = write(pipe_end, &bytes, sizeof bytes) == sizeof bytes;
+  _exit(written ? 0 : 1);
+}
+
+}  // namespace
+
+double peak_bytes(const std::function<void()>& work) {
+  double bytes = std::numeric_limits<double>::quiet_NaN();
+  int ends[2];
+  if (pipe(ends) != 0) return bytes;
+  const pid_t child = fork();
+  if (child == 0) report(work, ends[1]);
+  close(ends[1]);
+  if (child > 0) {
+    if (read(ends[0], &bytes, sizeof bytes) != sizeof bytes) bytes = std::numeric_limits<double>::quiet_NaN();
+    waitpid(child, nullptr, 0);
+  }
+  close(ends[0]);
+  return bytes;
+}
+
+}  // namespace wavebalance::bench

@@ -1,0 +1,29 @@
+#include "stopwatch.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace wavebalance::bench {
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+double least_seconds(const std::function<void()>& work, const Repetition& repetition) {
+  double least = std::numeric_limits<double>::infinity(), total = 0.0;
+  for (int calls = 0; total < repetition.budget || calls < repetition.least; ++calls) {
+    if (calls > 0 && total > repetition.patience) break;
+    const double start = processor_seconds();
+    work();
+    const double seconds = processor_seconds() - start;
+    least = std::min(least, seconds);
+    total += seconds;
+  }
+  return least;
+}
+
+}  // namespace wavebalance::bench

@@ -1,0 +1,19 @@
+#pragma once
+#include <functional>
+
+namespace wavebalance::bench {
+
+/// Processor seconds that this thread has used. Everything measured here runs in one thread, and other
+/// programs' load then hardly shows.
+double processor_seconds();
+
+struct Repetition {
+  double budget = 0.02;   ///< s, no further call is started after it
+  int least = 2;          ///< calls at least, unless the first alone takes more than `patience`
+  double patience = 0.5;  ///< s
+};
+
+/// The least processor seconds of one call of `work` among those that fit into the budget.
+double least_seconds(const std::function<void()>& work, const Repetition& repetition = {});
+
+}  // namespace wavebalance::bench

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <limits>
+
+#include "dense_system.hpp"
+#include "ladder.hpp"
+#include "stopwatch.hpp"
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/solvers/shooting.hpp"
+#include "wavebalance/solvers/time_stepping.hpp"
+#include "wavebalance/spectral/fourier_basis.hpp"
+
+// What the condensed solver is measured against: the assembled system, time stepping and shooting.
+namespace wavebalance::bench {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+Point named(const std::string& method, double tolerance) {
+  Point point;
+  point.method = method;
+  point.tolerance = tolerance;
+  point.construction_seconds = point.seconds = point.error = unknown;
+  return point;
+}
+
+double error_of(const Study& study, const Eigen::VectorXd& displacement) {
+  return displacement.size() == study.reference.size()
+             ? reproduce::relative_rms_error(displacement, study.reference)
+             : unknown;
+}
+
+Point dense_point(const Study& study, int functions, double patience) {
+  Point point = named("dense", unknown);
+  point.trial = point.weight = "fourier";
+  point.inner_products = "quadrature";
+  point.functions = functions;
+  point.points = 4 * (functions + 1);
+  const spectral::FourierBasis basis(functions);
+  const Eigen::Vector2cd cosine(0.0, 1.0);
+  const double start = processor_seconds();
+  dense::DenseSystem system(reproduce::make_structure(study.scene), reproduce::make_law(study.scene.contact),
+                            dense::discretise(basis, basis, {.quadrature_points = point.points}, cosine));
+  point.construction_seconds = processor_seconds() - start;
+  dense::Solution solution;
+  point.seconds = least_seconds(
+      [&] {
+        system.set_frequency(study.scene.forcing.frequency);
+        solution = system.newton(system.linear_response(), {.tolerance = 1e-11});
+      },
+      {.patience = patience / 10.0});
+  point.converged = solution.converged;
+  point.status = solution.converged ? "converged" : "not_converged";
+  const int contact = study.scene.structure.elements - 1;
+  const Eigen::VectorXd coefficients = solution.coefficients.segment(contact * functions, functions);
+  const auto samples = static_cast<int>(study.reference.size());
+  point.error = error_of(study, dense::translate_samples(basis, samples, 0) * coefficients);
+  return point;
+}
+
+}  // namespace
+
+std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double patience) {
+  std::vector<Point> points;
+  for (const int number : functions) {
+    points.push_back(dense_point(study, number, patience));
+    if (points.back().seconds > patience) break;
+  }
+  return points;
+}
+
+std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances) {
+  const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
+  const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
+  std::vector<Point> points;
+  for (const double tolerance : tolerances) {
+    Point point = named("time_stepping", tolerance);
+    solvers::TimeSteppingOptions options;
+    options.period_tolerance = tolerance;
+    options.step_tolerance = 1e-3 * tolerance;
+    solvers::TimeSteppingResult result;
+    const auto run = [&] {
+      result = solvers::integrate_to_periodic(structure, law, study.scene.forcing.frequency, options);
+    };
+    point.seconds = least_seconds(run, {.patience = 0.2});
+    point.converged = result.status == solvers::TimeSteppingStatus::converged;
+    point.status = to_string(result.status);
+    point.error = error_of(study, result.samples.displacement);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances) {
+  const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
+  const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
+  std::vector<Point> points;
+  for (const double tolerance : tolerances) {
+    Point point = named("shooting", tolerance);
+    solvers::ShootingOptions options;
+    options.step_tolerance = tolerance;
+    options.tolerance = std::max(1e-11, 1e-2 * tolerance);
+    solvers::ShootingResult result;
+    const auto run = [&] { result = solvers::shoot(structure, law, study.scene.forcing.frequency, options); };
+    point.seconds = least_seconds(run, {.patience = 0.2});
+    point.converged = result.status == solvers::ShootingStatus::converged;
+    point.status = to_string(result.status);
+    point.error = error_of(study, result.samples.displacement);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace wavebalance::bench

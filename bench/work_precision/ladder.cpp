@@ -1,0 +1,140 @@
+#include "ladder.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "stopwatch.hpp"
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/periodic_field.hpp"
+#include "wavebalance/solvers/rigid_response.hpp"
+
+namespace wavebalance::bench {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+solvers::CondensedProblem condensed_problem(const reproduce::Scene& scene) {
+  return {reproduce::make_pair(scene.time), reproduce::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
+}
+
+// Ends a solve that takes too long; it has not converged then.
+solvers::SolveObserver deadline(double patience) {
+  return [patience, start = processor_seconds()](const std::string&, int, double) {
+    return processor_seconds() - start < patience;
+  };
+}
+
+solvers::PeriodicResponse solve(const reproduce::Scene& scene, solvers::CondensedProblem& problem,
+                                double patience) {
+  problem.set_frequency(scene.forcing.frequency);
+  if (scene.contact.law == reproduce::ContactLawType::rigid) {
+    solvers::RigidResponseOptions options;
+    options.observer = deadline(patience);
+    return solvers::rigid_response(problem, scene.contact.gap, options).response;
+  }
+  solvers::ForcedResponseOptions options;
+  options.observer = deadline(patience);
+  return solvers::forced_response(problem, reproduce::make_law(scene.contact), options);
+}
+
+reproduce::Scene discretised(const Study& study, const Pair& pair, int functions, int points) {
+  reproduce::Scene scene = study.scene;
+  scene.time.trial = pair.trial;
+  scene.time.weight = pair.weight;
+  scene.time.functions = functions;
+  scene.time.quadrature_points = points;
+  return scene;
+}
+
+Point blank(const Pair& pair, const reproduce::Time& time) {
+  Point point;
+  point.method = "weighted_residual";
+  point.trial = pair.trial;
+  point.weight = pair.weight;
+  point.inner_products = name_of(reproduce::effective_inner_products(time));
+  point.functions = time.functions;
+  point.points = time.quadrature_points;
+  point.construction_seconds = point.seconds = point.error = point.tolerance = unknown;
+  return point;
+}
+
+Point measure(const Study& study, const Pair& pair, const reproduce::Scene& scene, double patience) {
+  Point point = blank(pair, scene.time);
+  point.construction_seconds = least_seconds([&] { condensed_problem(scene); }, {0.0, 2, 0.1});
+  solvers::CondensedProblem problem = condensed_problem(scene);
+  solvers::PeriodicResponse response;
+  try {
+    point.seconds = least_seconds([&] { response = solve(scene, problem, patience); });
+  } catch (const solvers::SingularSystem&) {
+    point.status = "singular";
+    return point;
+  }
+  point.converged = response.converged();
+  point.status = to_string(response.status);
+  solvers::MotionEvaluator motion(problem.pair().trial(), static_cast<int>(study.reference.size()));
+  point.error = reproduce::relative_rms_error(motion.displacement(response.coefficients), study.reference);
+  return point;
+}
+
+// What twice the functions will take, from the last two points: no less than twice, no more than eight times
+// as long.
+double expected_seconds(const std::vector<double>& seconds) {
+  if (seconds.empty()) return 0.0;
+  const double last = seconds.back();
+  const double growth = seconds.size() < 2 ? 2.0 : last / seconds[seconds.size() - 2];
+  return last * std::clamp(growth, 2.0, 8.0);
+}
+
+void climb(const Study& study, const Pair& pair, const LadderOptions& options, int points_per_function,
+           int change, std::vector<Point>& points) {
+  std::vector<double> seconds;
+  for (const int functions : options.functions) {
+    const int number = functions + change;
+    const reproduce::Scene scene =
+        discretised(study, pair, number, std::max(number, functions) * points_per_function);
+    const bool run = (seconds.empty() || seconds.back() <= options.patience) &&
+                     expected_seconds(seconds) <= options.patience;
+    if (run) {
+      points.push_back(measure(study, pair, scene, options.patience));
+      seconds.push_back(points.back().seconds);
+    } else {
+      points.push_back(blank(pair, scene.time));
+      points.back().status = "not_run";
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Point> weighted_residual_points(const Study& study, const LadderOptions& options) {
+  std::vector<Point> points;
+  for (const Pair& pair : pairs())
+    for (const int points_per_function : options.points_per_function) {
+      climb(study, pair, options, points_per_function, 0, points);
+      // An odd number of Fourier functions has no Nyquist coefficient.
+      if (pair.trial == "fourier") climb(study, pair, options, points_per_function, -1, points);
+    }
+  return points;
+}
+
+void mark_front(std::vector<Point>& points) {
+  for (Point& point : points) {
+    const auto beats = [&point](const Point& other) {
+      return other.converged && other.seconds <= point.seconds && other.error <= point.error &&
+             (other.seconds < point.seconds || other.error < point.error);
+    };
+    point.on_front = point.converged && std::none_of(points.begin(), points.end(), beats);
+  }
+}
+
+std::vector<Point> envelope(std::vector<Point> points) {
+  mark_front(points);
+  std::erase_if(points, [](const Point& point) { return !point.on_front; });
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.seconds < b.seconds; });
+  return points;
+}
+
+}  // namespace wavebalance::bench

@@ -1,0 +1,112 @@
+#include <cstdio>
+
+#include "ladder.hpp"
+#include "picture.hpp"
+#include "program.hpp"
+#include "stopwatch.hpp"
+#include "wavebalance/reproduce/table.hpp"
+
+// Error over solve time for every pair of bases: work_precision.csv and its pictures.
+namespace wavebalance::bench {
+namespace {
+
+reproduce::Table empty_table() {
+  return reproduce::Table({"case", "method", "trial", "weight", "inner_products", "functions", "points",
+                           "tolerance", "construction_seconds", "seconds", "error", "converged", "status",
+                           "on_front"});
+}
+
+void append(reproduce::Table& table, const Study& study, const std::vector<Point>& points) {
+  for (const Point& p : points)
+    table.append_row({study.name, p.method, p.trial, p.weight, p.inner_products, std::int64_t{p.functions},
+                      std::int64_t{p.points}, p.tolerance, p.construction_seconds, p.seconds, p.error,
+                      p.converged, p.status, p.on_front});
+}
+
+void append(std::vector<Point>& points, std::vector<Point> more) {
+  points.insert(points.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+LadderOptions penalty_ladder(bool quick) {
+  if (quick) return {{4, 16}, {2}, 0.2};
+  return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 2.0};
+}
+
+LadderOptions rigid_ladder(bool quick) {
+  if (quick) return {{4, 16}, {1}, 0.2};
+  return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 0.5};
+}
+
+std::vector<Point> penalty_points(const Study& study, bool quick) {
+  std::vector<Point> points = weighted_residual_points(study, penalty_ladder(quick));
+  append(points, dense_points(study, quick ? std::vector{3, 7} : std::vector{3, 7, 15, 31, 63}, 2.0));
+  append(points, time_stepping_points(study, quick ? std::vector{1e-2}
+                                                   : std::vector{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}));
+  append(points, shooting_points(study, quick ? std::vector{1e-3} : std::vector{1e-3, 1e-5, 1e-7, 1e-9}));
+  mark_front(points);
+  return points;
+}
+
+std::vector<Point> rigid_points(const Study& study, bool quick) {
+  std::vector<Point> points = weighted_residual_points(study, rigid_ladder(quick));
+  mark_front(points);
+  return points;
+}
+
+void report(const Study& study, const std::vector<Point>& points, double seconds) {
+  std::size_t converged = 0, run = 0;
+  for (const Point& point : points) {
+    converged += point.converged ? 1U : 0U;
+    run += point.status != "not_run" ? 1U : 0U;
+  }
+  std::printf("%-20s %4zu points, %4zu run, %4zu converged, reference to %.1e, %.1f s\n", study.name.c_str(),
+              points.size(), run, converged, study.reference_error, seconds);
+  std::fflush(stdout);
+}
+
+using Method = std::function<std::vector<Point>(const Study&)>;
+
+/// Rows and notes of all studies so far. Written after each, as the whole takes minutes.
+class Results {
+ public:
+  explicit Results(const Program& program) : program_(program) {}
+
+  void add(const std::vector<Study>& studies, const std::string& title, const std::string& picture_name,
+           const Method& method) {
+    WorkPrecisionPicture picture(title);
+    for (const Study& study : studies) {
+      const double start = processor_seconds();
+      const std::vector<Point> points = method(study);
+      append(table_, study, points);
+      picture.add(study, points);
+      notes_.push_back("reference of " + study.name + ": " + study.reference_text);
+      report(study, points, processor_seconds() - start);
+      write_csv(program_.output / "work_precision.csv", table_,
+                {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
+                 "reproduce/scenes", notes_});
+    }
+    write_pictures(program_.output / picture_name, picture.figure());
+  }
+
+ private:
+  Program program_;
+  reproduce::Table table_ = empty_table();
+  std::vector<std::string> notes_{
+      "error: relative rms over 1024 points of the period; seconds: least of repeated solves, plans made",
+      "status not_run: the ladder below took too long; on_front: no converged point beats it in both"};
+};
+
+void run(const Program& program) {
+  Results results(program);
+  results.add(penalty_studies(), "Error over solve time, one solve from the contact-free response",
+              "work_precision", [&](const Study& study) { return penalty_points(study, program.quick); });
+  results.add(rigid_studies(program.quick ? 32 : 256), "Error over solve time, rigid contact",
+              "work_precision_rigid", [&](const Study& study) { return rigid_points(study, program.quick); });
+}
+
+}  // namespace
+}  // namespace wavebalance::bench
+
+int main(int argc, char** argv) {
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+}

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ladder.hpp"
+#include "wavebalance/reproduce/plot.hpp"
+
+namespace wavebalance::bench {
+
+/// Error over solve time, a panel a study: what each pair reaches at best, the front over everything, and the
+/// baselines. Points that have not converged are not drawn.
+class WorkPrecisionPicture {
+ public:
+  explicit WorkPrecisionPicture(const std::string& title);
+  void add(const Study& study, const std::vector<Point>& points);
+  const reproduce::Figure& figure() const { return figure_; }
+
+ private:
+  reproduce::Figure figure_;
+};
+
+}  // namespace wavebalance::bench

@@ -1,0 +1,85 @@
+#include "study.hpp"
+
+#include <stdexcept>
+
+#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/reproduce/response.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace wavebalance::bench {
+namespace {
+
+using reproduce::Colour;
+using reproduce::Dash;
+
+reproduce::Scene scene(const std::string& file) {
+  const std::vector<std::string> overrides{"time.inner_products=exact", "analysis.output_points=1024"};
+  return reproduce::load_scene(WAVEBALANCE_SCENES "/" + file, overrides);
+}
+
+reproduce::Response require_converged(reproduce::Response response, const std::string& what) {
+  if (!response.converged)
+    throw std::runtime_error("the reference of " + what + " did not converge: " + response.status);
+  return response;
+}
+
+Study penalty_study(const std::string& name, const std::string& title, const std::string& file) {
+  Study study{name, title, scene(file), {}, 1e-11, "shooting"};
+  study.reference = require_converged(reproduce::shooting_response(study.scene), name).samples.displacement;
+  return study;
+}
+
+Eigen::VectorXd fine_response(reproduce::Scene scene, const std::string& basis, int functions,
+                              const std::string& what) {
+  scene.time.trial = scene.time.weight = basis;
+  scene.time.functions = functions;
+  scene.time.quadrature_points = functions;
+  return require_converged(reproduce::weighted_residual_response(scene), what).samples.displacement;
+}
+
+// Neither shooting nor time stepping passes a rigid impact of a structure in elements: two bases that share
+// nothing but the structure stand for each other.
+Study rigid_study(const std::string& name, const std::string& title, const std::string& file, int functions) {
+  Study study{name, title, scene(file), {}, 0.0, {}};
+  const std::string number = std::to_string(functions);
+  study.reference = fine_response(study.scene, "fourier", functions, name);
+  const Eigen::VectorXd other = fine_response(study.scene, "bspline", functions, name);
+  study.reference_error = reproduce::relative_rms_error(other, study.reference);
+  study.reference_text = "Fourier:Fourier with " + number + " functions and points; B-spline:B-spline with " +
+                         number + " differs by the estimate of its error";
+  return study;
+}
+
+}  // namespace
+
+const std::vector<Pair>& pairs() {
+  static const std::vector<Pair> all{
+      {"fourier", "fourier", "Fourier:Fourier", Colour::blue, Dash::solid, 1},
+      {"bspline", "bspline", "B-spline:B-spline", Colour::vermillion, Dash::solid, 2},
+      {"daubechies6", "daubechies6", "DB6:DB6", Colour::green, Dash::solid, 3},
+      {"haar", "fourier", "Haar:Fourier", Colour::purple, Dash::dashed, 4},
+      {"daubechies6", "fourier", "DB6:Fourier", Colour::green, Dash::dashed, 3},
+      {"haar", "bspline", "Haar:B-spline", Colour::purple, Dash::dotted, 4},
+      {"bspline", "fourier", "B-spline:Fourier", Colour::vermillion, Dash::dashed, 2},
+      {"daubechies8", "daubechies8", "DB8:DB8", Colour::sky_blue, Dash::solid, 5},
+      {"daubechies8", "fourier", "DB8:Fourier", Colour::sky_blue, Dash::dashed, 5},
+      {"daubechies10", "daubechies10", "DB10:DB10", Colour::orange, Dash::solid, 6},
+      {"daubechies10", "fourier", "DB10:Fourier", Colour::orange, Dash::dashed, 6},
+      {"daubechies20", "daubechies20", "DB20:DB20", Colour::black, Dash::solid, 7},
+      {"daubechies20", "fourier", "DB20:Fourier", Colour::black, Dash::dashed, 7},
+  };
+  return all;
+}
+
+std::vector<Study> penalty_studies() {
+  return {penalty_study("case1", "Case 1, 150 Hz", "jones_legrand_2014/case1.toml"),
+          penalty_study("case2", "Case 2, 1275 Hz", "jones_legrand_2014/case2.toml"),
+          penalty_study("always_in_contact", "Always in contact", "work_precision/always_in_contact.toml")};
+}
+
+std::vector<Study> rigid_studies(int functions) {
+  return {rigid_study("case1_rigid", "Case 1, rigid", "jones_legrand_2014/case1_rigid.toml", functions),
+          rigid_study("case2_rigid", "Case 2, rigid", "jones_legrand_2014/case2_rigid.toml", functions)};
+}
+
+}  // namespace wavebalance::bench

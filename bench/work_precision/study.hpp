@@ -1,0 +1,41 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/reproduce/scene.hpp"
+
+namespace wavebalance::bench {
+
+/// A combination of trial and weighting functions and how it is drawn: a colour for the trial functions, a
+/// dash for the weights.
+struct Pair {
+  std::string trial, weight, label;
+  reproduce::Colour colour;
+  reproduce::Dash dash;
+  int marker;
+};
+
+/// The six pairs of [JL14, Table 2] first.
+const std::vector<Pair>& pairs();
+
+/// A scene whose periodic response is known at 1024 uniform points.
+struct Study {
+  std::string name;   ///< of the column "case"
+  std::string title;  ///< of the panel
+  reproduce::Scene scene;
+  Eigen::VectorXd reference;     ///< tip displacement, m
+  double reference_error = 0.0;  ///< estimated, relative: errors below it say nothing
+  std::string reference_text;    ///< where it comes from
+
+  bool rigid() const { return scene.contact.law == reproduce::ContactLawType::rigid; }
+};
+
+/// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle: law by law against shooting.
+std::vector<Study> penalty_studies();
+/// Both cases against a rigid obstacle with the tip's mass at its neighbour. `functions` is the size of the
+/// reference, a power of two.
+std::vector<Study> rigid_studies(int functions);
+
+}  // namespace wavebalance::bench
