@@ -51,8 +51,9 @@ solvers::PeriodSamples sample_motion(solvers::CondensedProblem& problem,
                                      bool full_history) {
   solvers::MotionEvaluator motion(problem.pair().trial(), points);
   solvers::PeriodSamples samples;
-  samples.displacement = motion.displacement(response.coefficients);
-  samples.velocity = motion.velocity(response.coefficients, response.frequency);
+  samples.contacts = problem.contacts();
+  samples.displacement = motion.displacement(response.coefficients).reshaped();
+  samples.velocity = motion.velocity(response.coefficients, response.frequency).reshaped();
   if (!full_history) return samples;
   auto field = solvers::periodic_field(problem, response.contact_force, points);
   samples.displacements = std::move(field.displacement);

@@ -196,7 +196,7 @@ StructureModel make_model(const Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   StructureModel model = model_of_type(scene);
   add_modal_damping(model.structure, scene.structure.modal_damping);
-  model.structure.contact_dof = model.contact_dofs.front();
+  model.structure.contact_dofs = {model.contact_dofs.front()};
   const int contacts = model.contacts();
   if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
     throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +

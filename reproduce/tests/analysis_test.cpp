@@ -28,7 +28,7 @@ Type value_of(const Summary& summary, const std::string& name) {
 TEST(MakeStructure, LoadAndContactAreAtTheTip) {
   const auto structure = make_structure(scene_of());
   EXPECT_EQ(structure.size(), 25);
-  EXPECT_EQ(structure.contact_dof, 24);
+  EXPECT_EQ(structure.contact_dofs, std::vector<int>{24});
   EXPECT_EQ(structure.load[24], 250e3);
   EXPECT_EQ(structure.load.head(24).norm(), 0.0);
   const double eps = std::numeric_limits<double>::epsilon();

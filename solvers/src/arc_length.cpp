@@ -137,12 +137,11 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, Cu
 
 // The sample that the tangent takes through the gap first; -1 when none within the largest step.
 int ArcLength::crossing_ahead(double& distance) const {
-  const double gap = system_.law().gap();
   int sample = -1;
   distance = options_.largest_step;
   for (int l = 0; l < point_.displacement.size(); ++l) {
     const double rate = point_.displacement_tangent[l];
-    const double ahead = (gap - point_.displacement[l]) / rate;
+    const double ahead = (system_.gap_at(l) - point_.displacement[l]) / rate;
     // A sample that has just been turned at a corner lies at the gap up to rounding.
     const double rounding = 1e-9 * options_.displacement_scale / std::abs(rate);
     if (!(ahead > rounding) || ahead >= distance) continue;
@@ -158,7 +157,7 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
   corner.corner = true;
   corner.displacement = point_.displacement + distance * point_.displacement_tangent;
   corner.parameter = point_.parameter + distance * point_.parameter_tangent;
-  const double gap = system_.law().gap();
+  const double gap = system_.gap_at(sample);
   const bool arrives_free = point_.displacement_tangent[sample] > 0.0;
   Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());
   row[sample] = 1.0;
@@ -170,7 +169,7 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
     const double miss = corner.displacement[sample] - gap;
     if (corner.residual <= options_.tolerance && std::abs(miss) <= 1e-9 * options_.displacement_scale)
       return true;
-    system_.set_tangent(sample, arrives_free ? 0.0 : system_.law().tangent(gap));
+    system_.set_tangent(sample, arrives_free ? 0.0 : system_.law_at(sample).tangent(gap));
     parameter_.slope(system_, slope_);
     if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
     system_.solve_bordered(system_.residual(), miss, change_, parameter_change);
@@ -182,11 +181,11 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
 
 // The tangent with every sample that reaches the gap together taken on the far side.
 bool ArcLength::leave_corner(int sample, CurvePoint& corner) {
-  const double gap = system_.law().gap();
   const double direction = point_.displacement_tangent[sample] > 0.0 ? 1.0 : -1.0;
   for (int l = 0; l < corner.displacement.size(); ++l) {
+    const double gap = system_.gap_at(l);
     const bool together = std::abs(corner.displacement[l] - gap) <= 1e-8 * options_.displacement_scale;
-    if (together) system_.set_tangent(l, direction > 0.0 ? system_.law().tangent(gap) : 0.0);
+    if (together) system_.set_tangent(l, direction > 0.0 ? system_.law_at(l).tangent(gap) : 0.0);
   }
   parameter_.slope(system_, slope_);
   Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());

@@ -34,14 +34,56 @@ double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
   return largest;
 }
 
-std::unique_ptr<Condensation::Method> choose_method(const LinearStructure& structure) {
+bool is_tridiagonal(const LinearStructure& structure) {
+  return is_tridiagonal(structure.mass) && is_tridiagonal(structure.damping) &&
+         is_tridiagonal(structure.stiffness);
+}
+
+// A dense elimination beats a sparse one until few entries are left to it.
+bool is_dense(const LinearStructure& structure) {
+  const double entries = double(structure.stiffness.nonZeros() + structure.mass.nonZeros());
+  const double size = structure.size();
+  return size <= 2000.0 && entries > 0.1 * size * size;
+}
+
+using MethodPointer = std::unique_ptr<Condensation::Method>;
+
+// `chosen` becomes the method taken.
+MethodPointer choose_method(const LinearStructure& structure, CondensationMethod& chosen) {
+  constexpr int modal_limit = 1000;  // where the modes begin to cost more than a sweep by elimination
+  if (is_tridiagonal(structure)) {
+    chosen = CondensationMethod::tridiagonal;
+    return make_tridiagonal_method(structure);
+  }
+  chosen = CondensationMethod::modal;
+  if (structure.size() <= modal_limit)
+    if (MethodPointer method = make_modal_method(structure)) return method;
+  chosen = is_dense(structure) ? CondensationMethod::dense : CondensationMethod::sparse;
+  return chosen == CondensationMethod::dense ? make_dense_method(structure) : make_sparse_method(structure);
+}
+
+MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method) {
   structure.validate();
   require_symmetric(structure.mass, "mass");
   require_symmetric(structure.damping, "damping");
   require_symmetric(structure.stiffness, "stiffness");
-  const bool banded = is_tridiagonal(structure.mass) && is_tridiagonal(structure.damping) &&
-                      is_tridiagonal(structure.stiffness);
-  return banded ? make_tridiagonal_method(structure) : make_sparse_method(structure);
+  switch (method) {
+    case CondensationMethod::automatic:
+      return choose_method(structure, method);
+    case CondensationMethod::tridiagonal:
+      if (is_tridiagonal(structure)) return make_tridiagonal_method(structure);
+      throw std::invalid_argument("Condensation: the matrices are not tridiagonal");
+    case CondensationMethod::modal:
+      if (MethodPointer modal = make_modal_method(structure)) return modal;
+      throw std::invalid_argument(
+          "Condensation: the modal method needs a positive definite stiffness or mass and a damping that is "
+          "diagonal in the undamped modes");
+    case CondensationMethod::dense:
+      return make_dense_method(structure);
+    case CondensationMethod::sparse:
+      return make_sparse_method(structure);
+  }
+  throw std::invalid_argument("Condensation: unknown method");
 }
 
 }  // namespace
@@ -50,7 +92,8 @@ StiffnessScale::StiffnessScale(const LinearStructure& structure)
     : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
                largest_entry(structure.stiffness)} {}
 
-void StiffnessScale::require_regular(const StiffnessFactors& factors, const Eigen::VectorXcd& solution,
+void StiffnessScale::require_regular(const StiffnessFactors& factors,
+                                     const Eigen::Ref<const Eigen::VectorXcd>& solution,
                                      double right_norm) const {
   const double scale = std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
                        std::abs(factors[2]) * largest_[2];
@@ -61,12 +104,14 @@ void StiffnessScale::require_regular(const StiffnessFactors& factors, const Eige
       "whose symbol vanishes");
 }
 
-Condensation::Condensation(const LinearStructure& structure) : method_(choose_method(structure)) {}
+Condensation::Condensation(const LinearStructure& structure, CondensationMethod method)
+    : chosen_(method), method_(make_method(structure, chosen_)) {}
 Condensation::Condensation(Condensation&&) noexcept = default;
 Condensation& Condensation::operator=(Condensation&&) noexcept = default;
 Condensation::~Condensation() = default;
 
 int Condensation::size() const { return method_->size(); }
+int Condensation::contacts() const { return method_->contacts(); }
 
 CondensedPoint Condensation::at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
   return method_->at(factors, rates);
@@ -74,10 +119,9 @@ CondensedPoint Condensation::at(const StiffnessFactors& factors, const Stiffness
 
 void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                             CondensedSpectrum& result) {
-  const Eigen::Index size = factors[0].size();
-  for (auto* vector :
-       {&result.compliance, &result.load_response, &result.compliance_slope, &result.load_response_slope})
-    vector->resize(size);
+  const Eigen::Index size = factors[0].size(), count = contacts();
+  for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
+  for (auto* matrix : {&result.load_response, &result.load_response_slope}) matrix->resize(size, count);
   method_->condense(factors, rates, result);
 }
 
@@ -86,16 +130,16 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
   for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
     const CondensedPoint point =
         at({factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
-    result.compliance[k] = point.compliance;
-    result.load_response[k] = point.load_response;
-    result.compliance_slope[k] = point.compliance_slope;
-    result.load_response_slope[k] = point.load_response_slope;
+    result.compliance.row(k) = point.compliance.reshaped().transpose();
+    result.load_response.row(k) = point.load_response.transpose();
+    result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
+    result.load_response_slope.row(k) = point.load_response_slope.transpose();
   }
 }
 
 Eigen::VectorXcd Condensation::recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
-                                       std::complex<double> contact_force) {
-  return method_->recover(factors, load_amplitude, contact_force);
+                                       const Eigen::VectorXcd& contact_forces) {
+  return method_->recover(factors, load_amplitude, contact_forces);
 }
 
 }  // namespace wavebalance::solvers

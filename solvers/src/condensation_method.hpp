@@ -11,12 +11,13 @@ class Condensation::Method {
  public:
   virtual ~Method() = default;
   virtual int size() const = 0;
+  virtual int contacts() const = 0;
   virtual CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) = 0;
-  /// Point by point unless a method knows better.
+  /// Point by point unless a method knows better; the results have their size.
   virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                         CondensedSpectrum& result);
   virtual Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
-                                   std::complex<double> contact_force) = 0;
+                                   const Eigen::VectorXcd& contact_forces) = 0;
 };
 
 /// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure
@@ -26,7 +27,7 @@ class StiffnessScale {
   explicit StiffnessScale(const LinearStructure& structure);
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
   /// working precision makes it, or not finite. O(n).
-  void require_regular(const StiffnessFactors& factors, const Eigen::VectorXcd& solution,
+  void require_regular(const StiffnessFactors& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
                        double right_norm) const;
 
  private:
@@ -35,7 +36,12 @@ class StiffnessScale {
 
 /// For symmetric tridiagonal M, C, K.
 std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStructure& structure);
-/// For any symmetric sparse M, C, K.
+/// For symmetric M, C, K whose undamped modes decouple them, K or M positive definite; null for any other.
+/// O(n^3).
+std::unique_ptr<Condensation::Method> make_modal_method(const LinearStructure& structure);
+/// For any symmetric M, C, K, by dense LU.
+std::unique_ptr<Condensation::Method> make_dense_method(const LinearStructure& structure);
+/// For any symmetric M, C, K, by sparse LU.
 std::unique_ptr<Condensation::Method> make_sparse_method(const LinearStructure& structure);
 
 }  // namespace wavebalance::solvers

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <vector>
 
 #include "condensation_method.hpp"
 #include "pivot_recursion.hpp"
@@ -37,53 +38,52 @@ class TridiagonalMethod final : public Condensation::Method {
         damping_(structure.damping),
         stiffness_(structure.stiffness),
         load_(structure.load),
-        contact_(structure.contact_dof),
-        load_at_contact_(load_.cwiseAbs().sum() == std::abs(load_[contact_])),
+        contacts_(structure.contact_dofs),
+        single_(contacts_.size() == 1 ? contacts_.front() : -1),
+        load_at_contact_(single_ >= 0 && load_.cwiseAbs().sum() == std::abs(load_[single_])),
         diagonal_(load_.size()),
         off_(load_.size()),
         inverse_pivot_(load_.size()),
-        unit_(load_.size()),
+        units_(contacts_.size(), Eigen::VectorXcd(load_.size())),
         loaded_(load_.size()) {}
 
   int size() const override { return static_cast<int>(load_.size()); }
+  int contacts() const override { return static_cast<int>(contacts_.size()); }
 
   CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
     if (!factorize(factors)) return pivoting().at(factors, rates);
-    unit_.setZero();
-    unit_[contact_] = 1.0;
-    solve(unit_);
-    scale_.require_regular(factors, unit_, 1.0);
     CondensedPoint point;
-    point.compliance = unit_[contact_];
-    point.compliance_slope = -product(unit_, rates, unit_);
+    set_compliance(factors, rates, point);
     if (load_at_contact_) {
-      point.load_response = load_[contact_] * point.compliance;
-      point.load_response_slope = load_[contact_] * point.compliance_slope;
+      point.load_response = load_[single_] * point.compliance;
+      point.load_response_slope = load_[single_] * point.compliance_slope;
       return point;
     }
     loaded_ = load_.cast<Complex>();
     solve(loaded_);
-    point.load_response = loaded_[contact_];
-    point.load_response_slope = -product(unit_, rates, loaded_);
+    point.load_response = loaded_(contacts_);
+    point.load_response_slope.resize(contacts());
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      point.load_response_slope[Eigen::Index(c)] = -product(units_[c], rates, loaded_);
     return point;
   }
 
   void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                 CondensedSpectrum& result) override {
-    if (contact_ != size() - 1 || !load_at_contact_) return Method::condense(factors, rates, result);
+    if (single_ != size() - 1 || !load_at_contact_) return Method::condense(factors, rates, result);
     PivotRecursion recursion(factors, rates);
     for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
     if (recursion.weak()) return Method::condense(factors, rates, result);
-    recursion.last(result.compliance, result.compliance_slope);
-    result.load_response = load_[contact_] * result.compliance;
-    result.load_response_slope = load_[contact_] * result.compliance_slope;
+    recursion.last(result.compliance.col(0), result.compliance_slope.col(0));
+    result.load_response = load_[single_] * result.compliance;
+    result.load_response_slope = load_[single_] * result.compliance_slope;
   }
 
   Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
-                           Complex contact_force) override {
-    if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_force);
+                           const Eigen::VectorXcd& contact_forces) override {
+    if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_forces);
     Eigen::VectorXcd response = load_ * load_amplitude;
-    response[contact_] -= contact_force;
+    response(contacts_) -= contact_forces;
     const double force = response.norm();
     solve(response);
     scale_.require_regular(factors, response, force);
@@ -115,6 +115,25 @@ class TridiagonalMethod final : public Condensation::Method {
       inverse_pivot_[i] = reciprocal(pivot);
     }
     return true;
+  }
+
+  // By columns of Z^-1 at the contacts, left in units_.
+  void set_compliance(const StiffnessFactors& factors, const StiffnessFactors& rates, CondensedPoint& point) {
+    point.compliance.resize(contacts(), contacts());
+    point.compliance_slope.resize(contacts(), contacts());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      units_[c].setZero();
+      units_[c][contacts_[c]] = 1.0;
+      solve(units_[c]);
+      scale_.require_regular(factors, units_[c], 1.0);
+      const auto column = Eigen::Index(c);
+      for (std::size_t d = 0; d <= c; ++d) {
+        const auto row = Eigen::Index(d);
+        point.compliance(row, column) = point.compliance(column, row) = units_[c][contacts_[d]];
+        point.compliance_slope(row, column) = point.compliance_slope(column, row) =
+            -product(units_[d], rates, units_[c]);
+      }
+    }
   }
 
   // Elimination with row exchanges, made when it is first needed.
@@ -149,9 +168,12 @@ class TridiagonalMethod final : public Condensation::Method {
   std::unique_ptr<Condensation::Method> pivoting_;
   Bands mass_, damping_, stiffness_;
   Eigen::VectorXd load_;
-  int contact_;
+  std::vector<int> contacts_;
+  int single_;  // the contact when there is one, or else -1
   bool load_at_contact_;
-  Eigen::VectorXcd diagonal_, off_, inverse_pivot_, unit_, loaded_;
+  Eigen::VectorXcd diagonal_, off_, inverse_pivot_;
+  std::vector<Eigen::VectorXcd> units_;  // one a contact
+  Eigen::VectorXcd loaded_;
 };
 
 }  // namespace

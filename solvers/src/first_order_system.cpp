@@ -26,15 +26,21 @@ Eigen::LLT<Eigen::MatrixXd> factor_mass(const LinearStructure& structure) {
 
 }  // namespace
 
-FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, AnyContactLaw law, double frequency_hz)
-    : law_(std::move(law)), contact_dof_(structure.contact_dof), angular_frequency_(two_pi * frequency_hz) {
+FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws laws, double frequency_hz)
+    : laws_(std::move(laws)),
+      contact_dofs_(structure.contact_dofs),
+      angular_frequency_(two_pi * frequency_hz) {
   structure.validate();
+  laws_.require(structure.contacts());
   detail::require_positive("FirstOrderSystem", "frequency_hz", frequency_hz);
   const double period = 1.0 / frequency_hz;
   const int n = structure.size();
   const Eigen::LLT<Eigen::MatrixXd> mass = factor_mass(structure);
   load_ = period * mass.solve(structure.load);
-  contact_inertia_ = period * mass.solve(Eigen::VectorXd::Unit(n, contact_dof_));
+  Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(n, structure.contacts());
+  for (int c = 0; c < structure.contacts(); ++c)
+    contacts(contact_dofs_[static_cast<std::size_t>(c)], c) = 1.0;
+  contact_inertia_ = period * mass.solve(contacts);
   linear_ = RowMajorMatrix::Zero(2 * n, 2 * n);
   linear_.topRightCorner(n, n).diagonal().setConstant(two_pi);
   linear_.bottomLeftCorner(n, n) =
@@ -47,10 +53,14 @@ void FirstOrderSystem::derivative(double periods, std::span<const double> state,
   const int n = dofs();
   const Eigen::Map<const Eigen::VectorXd> y(state.data(), 2 * n);
   Eigen::Map<Eigen::VectorXd> rate(derivative.data(), 2 * n);
-  const double force = law_.force(y[contact_dof_] / angular_frequency_);
   rate.head(n) = two_pi * y.tail(n);
   rate.tail(n).noalias() = linear_.bottomRows(n) * y;
-  rate.tail(n) += std::cos(two_pi * periods) * load_ - force * contact_inertia_;
+  rate.tail(n) += std::cos(two_pi * periods) * load_;
+  for (std::size_t c = 0; c < contact_dofs_.size(); ++c) {
+    const auto contact = static_cast<int>(c);
+    rate.tail(n) -=
+        laws_[contact].force(y[contact_dofs_[c]] / angular_frequency_) * contact_inertia_.col(contact);
+  }
 }
 
 void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
@@ -58,9 +68,13 @@ void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
   const int n = dofs();
   Eigen::Map<RowMajorMatrix> by_state(state_derivative.data(), 2 * n, 2 * n);
   Eigen::Map<Eigen::VectorXd> by_time(time_derivative.data(), 2 * n);
-  const double tangent = law_.tangent(state[contact_dof_] / angular_frequency_);
   by_state = linear_;
-  by_state.col(contact_dof_).tail(n) -= tangent / angular_frequency_ * contact_inertia_;
+  for (std::size_t c = 0; c < contact_dofs_.size(); ++c) {
+    const auto contact = static_cast<int>(c);
+    const double u = state[static_cast<std::size_t>(contact_dofs_[c])] / angular_frequency_;
+    by_state.col(contact_dofs_[c]).tail(n) -=
+        laws_[contact].tangent(u) / angular_frequency_ * contact_inertia_.col(contact);
+  }
   by_time.head(n).setZero();
   by_time.tail(n) = -two_pi * std::sin(two_pi * periods) * load_;
 }

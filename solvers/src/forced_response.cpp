@@ -13,9 +13,7 @@ double rms(const Eigen::VectorXd& values) { return values.norm() / std::sqrt(dou
 
 ArcLengthOptions homotopy_options(ContactSystem& system) {
   ArcLengthOptions options;
-  const double gap = system.law().gap();
-  const double free = rms(system.problem().free_response());
-  options.displacement_scale = std::isfinite(gap) ? std::max(free, std::abs(gap)) : free;
+  options.displacement_scale = std::max(rms(system.problem().free_response()), system.laws().largest_gap());
   options.parameter_scale = 4.0;
   options.largest_step = 0.25;
   options.smallest_step = 1e-5;
@@ -54,18 +52,18 @@ void require_start(const CondensedProblem& problem, const Eigen::VectorXd& guess
   if (problem.frequency() == 0.0)
     throw std::invalid_argument(
         "forced_response: the problem has no frequency yet; call set_frequency first");
-  if (guess.size() != 0 && guess.size() != problem.points())
+  if (guess.size() != 0 && guess.size() != problem.samples())
     throw std::invalid_argument("forced_response: guess has " + std::to_string(guess.size()) +
                                 " samples; it must be empty or have the problem's " +
-                                std::to_string(problem.points()));
+                                std::to_string(problem.samples()));
 }
 
 }  // namespace
 
-PeriodicResponse forced_response(CondensedProblem& problem, const AnyContactLaw& law,
+PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess) {
   require_start(problem, guess);
-  ContactSystem system(problem, law);
+  ContactSystem system(problem, laws);
   PeriodicResponse response;
   response.frequency = problem.frequency();
   Eigen::VectorXd u = guess.size() != 0 ? guess : problem.free_response();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "wavebalance/solvers/translate_spectrum.hpp"
 
@@ -27,17 +28,19 @@ std::string to_string(SweepStatus status) {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 class Sweep {
  public:
-  Sweep(CondensedProblem& problem, const AnyContactLaw& law, const FrequencySweepOptions& options)
+  Sweep(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweepOptions& options)
       : problem_(problem),
-        system_(problem, law),
+        system_(problem, laws),
         options_(options),
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   FrequencySweep run() {
     problem_.set_frequency(options_.from);
-    const PeriodicResponse first = forced_response(problem_, system_.law(), options_.start);
+    const PeriodicResponse first = forced_response(problem_, system_.laws(), options_.start);
     if (!first.converged()) return result_;
     const FrequencyParameter parameter;
     ArcLength curve(system_, parameter, scaled_options(first));
@@ -51,9 +54,9 @@ class Sweep {
  private:
   ArcLengthOptions scaled_options(const PeriodicResponse& first) const {
     ArcLengthOptions arc = options_.arc_length;
-    const double gap = std::abs(system_.law().gap());
+    const double gap = system_.laws().largest_gap();
     const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
-    if (arc.displacement_scale == 0.0) arc.displacement_scale = std::isfinite(gap) && gap > 0.0 ? gap : rms;
+    if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : rms;
     if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
     return arc;
   }
@@ -91,9 +94,15 @@ class Sweep {
   SweepPoint measure(const CurvePoint& point) {
     problem_.set_frequency(point.parameter);
     system_.evaluate(point.displacement);
-    const Eigen::VectorXd u = evaluator_(problem_.coefficients(system_.force()));
-    return {point.parameter,         u.maxCoeff(),   u.norm() / std::sqrt(double(u.size())),
-            u.cwiseAbs().maxCoeff(), point.residual, point.corner};
+    const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
+    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.corner};
+    for (int c = 0; c < problem_.contacts(); ++c) {
+      const Eigen::VectorXd u = evaluator_(coefficients.col(c));
+      measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
+      measured.rms_displacement = std::max(measured.rms_displacement, u.norm() / std::sqrt(double(u.size())));
+      measured.max_abs_displacement = std::max(measured.max_abs_displacement, u.cwiseAbs().maxCoeff());
+    }
+    return measured;
   }
 
   bool record(const CurvePoint& point) {
@@ -110,7 +119,7 @@ class Sweep {
 
 }  // namespace
 
-FrequencySweep frequency_sweep(CondensedProblem& problem, const AnyContactLaw& law,
+FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options) {
   const bool valid = std::isfinite(options.from) && std::isfinite(options.to) && options.from > 0.0 &&
                      options.to > 0.0 && options.from != options.to;
@@ -118,7 +127,7 @@ FrequencySweep frequency_sweep(CondensedProblem& problem, const AnyContactLaw& l
     throw std::invalid_argument("frequency_sweep: from " + std::to_string(options.from) + " Hz to " +
                                 std::to_string(options.to) +
                                 " Hz; both must be positive, finite and different");
-  return Sweep(problem, law, options).run();
+  return Sweep(problem, laws, options).run();
 }
 
 }  // namespace wavebalance::solvers

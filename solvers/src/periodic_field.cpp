@@ -22,6 +22,20 @@ Eigen::VectorXd MotionEvaluator::velocity(const Eigen::VectorXcd& coefficients, 
   return jump_velocity(coefficients, frequency);
 }
 
+Eigen::MatrixXd MotionEvaluator::displacement(const Eigen::MatrixXcd& coefficients) {
+  Eigen::MatrixXd values(points_, coefficients.cols());
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    values.col(c) = displacement(Eigen::VectorXcd(coefficients.col(c)));
+  return values;
+}
+
+Eigen::MatrixXd MotionEvaluator::velocity(const Eigen::MatrixXcd& coefficients, double frequency) {
+  Eigen::MatrixXd values(points_, coefficients.cols());
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    values.col(c) = velocity(Eigen::VectorXcd(coefficients.col(c)), frequency);
+  return values;
+}
+
 Eigen::VectorXd MotionEvaluator::jump_velocity(const Eigen::VectorXcd& coefficients, double frequency) {
   const Eigen::VectorXd cell = (*cells_)(coefficients);
   Eigen::VectorXd velocity(points_);
@@ -46,20 +60,24 @@ PeriodicField periodic_field(CondensedProblem& problem, const Eigen::VectorXd& c
   return field;
 }
 
-Eigen::VectorXd system_energy(const LinearStructure& structure, const AnyContactLaw& law,
+Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,
                               const PeriodicField& field) {
+  laws.require(structure.contacts());
   const Eigen::MatrixXd momentum = structure.mass * field.velocity;
   const Eigen::MatrixXd elastic = structure.stiffness * field.displacement;
   Eigen::VectorXd energy = 0.5 * (momentum.cwiseProduct(field.velocity).colwise().sum() +
                                   elastic.cwiseProduct(field.displacement).colwise().sum())
                                      .transpose();
-  for (Eigen::Index l = 0; l < energy.size(); ++l)
-    energy[l] += law.potential(field.displacement(structure.contact_dof, l));
+  for (int c = 0; c < structure.contacts(); ++c) {
+    const int dof = structure.contact_dofs[static_cast<std::size_t>(c)];
+    for (Eigen::Index l = 0; l < energy.size(); ++l)
+      energy[l] += laws[c].potential(field.displacement(dof, l));
+  }
   return energy;
 }
 
-double energy_norm(const LinearStructure& structure, const AnyContactLaw& law, const PeriodicField& field) {
-  const Eigen::VectorXd energy = system_energy(structure, law, field);
+double energy_norm(const LinearStructure& structure, const ContactLaws& laws, const PeriodicField& field) {
+  const Eigen::VectorXd energy = system_energy(structure, laws, field);
   return energy.norm() / std::sqrt(double(energy.size()));
 }
 

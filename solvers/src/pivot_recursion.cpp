@@ -47,9 +47,7 @@ void PivotRecursion::eliminate(const Row& row) {
   first_ = false;
 }
 
-void PivotRecursion::last(Eigen::VectorXcd& inverse, Eigen::VectorXcd& slope) const {
-  inverse.resize(inverse_.re.size());
-  slope.resize(inverse_.re.size());
+void PivotRecursion::last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope) const {
   inverse.real() = inverse_.re;
   inverse.imag() = inverse_.im;
   slope.real() = slope_.re;

@@ -26,8 +26,8 @@ class PivotRecursion {
 
   /// Whether a pivot nearly vanished: elimination without row exchanges is then not to be trusted.
   bool weak() const { return weak_; }
-  /// 1/d and its derivative after the last row.
-  void last(Eigen::VectorXcd& inverse, Eigen::VectorXcd& slope) const;
+  /// 1/d and its derivative after the last row, K values each.
+  void last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope) const;
 
  private:
   struct Parts {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "active_block.hpp"
 #include "wavebalance/solvers/arc_length.hpp"
 
 namespace wavebalance::solvers {
@@ -21,14 +22,25 @@ struct UnilateralSpring {
   double gap() const { return start; }
 };
 
+// The gap of each sample.
+Eigen::VectorXd sample_gaps(const Eigen::VectorXd& gaps, int points) {
+  return gaps.transpose().replicate(points, 1).reshaped();
+}
+
+ContactLaws springs(const Eigen::VectorXd& gaps, double stiffness) {
+  std::vector<AnyContactLaw> laws;
+  for (const double gap : gaps) laws.emplace_back(UnilateralSpring{stiffness, gap});
+  return laws;
+}
+
 // The path over ln(stiffness) with the compliance as unit: 0 is a spring as stiff as the structure.
 class StiffeningPath {
  public:
-  StiffeningPath(CondensedProblem& problem, double gap, const RigidResponseOptions& options)
+  StiffeningPath(CondensedProblem& problem, const Eigen::VectorXd& gaps, const RigidResponseOptions& options)
       : options_(options),
         unit_(1.0 / problem.columns().cwiseAbs().maxCoeff()),
-        system_(problem, UnilateralSpring{unit_, gap}),
-        gap_(gap),
+        system_(problem, springs(gaps, unit_)),
+        gap_(sample_gaps(gaps, problem.points())),
         size_(problem.free_response().cwiseAbs().maxCoeff()) {}
 
   double unit() const { return unit_; }
@@ -57,7 +69,7 @@ class StiffeningPath {
         reached = point.parameter;
         u = point.displacement;
       }
-      const bool rigid = point.displacement.maxCoeff() - gap_ <= options_.tolerance * size_;
+      const bool rigid = (point.displacement - gap_).maxCoeff() <= options_.tolerance * size_;
       if (rigid || point.parameter >= stiffest) break;
       if (options_.observer && !options_.observer("stiffening", step, point.residual)) break;
     }
@@ -67,7 +79,7 @@ class StiffeningPath {
  private:
   ArcLengthOptions arc_options() const {
     ArcLengthOptions arc;
-    arc.displacement_scale = std::max(size_, std::abs(gap_));
+    arc.displacement_scale = std::max(size_, gap_.cwiseAbs().maxCoeff());
     arc.parameter_scale = 4.0;
     arc.largest_step = 0.5;
     arc.smallest_step = 1e-5;
@@ -78,7 +90,7 @@ class StiffeningPath {
   RigidResponseOptions options_;
   double unit_;
   ContactSystem system_;
-  double gap_;
+  Eigen::VectorXd gap_;  // of each sample
   double size_;
   StiffnessParameter parameter_;
   int iterations_ = 0;
@@ -86,85 +98,107 @@ class StiffeningPath {
 
 // Force with u = gap at the samples where `start` presses, by least squares: K is singular on more samples
 // than there are functions. Nothing when a sign fails.
-std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, double gap,
+std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eigen::VectorXd& gap,
                                             const Eigen::VectorXd& start, double tolerance) {
   std::vector<int> active;
   for (int l = 0; l < start.size(); ++l)
     if (start[l] > 0.0) active.push_back(l);
   const auto count = static_cast<Eigen::Index>(active.size());
-  const Eigen::MatrixXd& columns = problem.columns();
-  const int period = static_cast<int>(columns.cols());
   Eigen::MatrixXd matrix(count, count);
-  Eigen::VectorXd right(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const int row = active[static_cast<std::size_t>(i)];
-    right[i] = problem.free_response()[row] - gap;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const int column = active[static_cast<std::size_t>(j)];
-      const int shifted = row - (column - column % period);
-      matrix(i, j) = columns(shifted < 0 ? shifted + problem.points() : shifted, column % period);
-    }
-  }
+  fill_active_compliance(problem, active, matrix);
+  const Eigen::VectorXd right = (problem.free_response() - gap)(active);
   const Eigen::VectorXd values = matrix.completeOrthogonalDecomposition().solve(right);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(start.size());
-  for (Eigen::Index i = 0; i < count; ++i) force[active[static_cast<std::size_t>(i)]] = values[i];
+  force(active) = values;
   Eigen::VectorXd product(start.size());
   problem.apply(force, product);
-  const double excess = (problem.free_response() - product).maxCoeff() - gap;
+  const double excess = (problem.free_response() - product - gap).maxCoeff();
   if (!force.allFinite() || (count > 0 && values.minCoeff() < 0.0) || excess > tolerance) return std::nullopt;
   return force;
+}
+
+void require_gaps(const CondensedProblem& problem, const Eigen::VectorXd& gaps) {
+  if (gaps.size() != problem.contacts())
+    throw std::invalid_argument("rigid_response: gaps has " + std::to_string(gaps.size()) +
+                                " entries; the problem has " + std::to_string(problem.contacts()) +
+                                " contacts");
+  if (!gaps.allFinite()) throw std::invalid_argument("rigid_response: every gap must be finite");
+}
+
+// Stiffens springs and then solves their active samples; fills all of `result` but what follows from the
+// force.
+void solve_contact(CondensedProblem& problem, const Eigen::VectorXd& gaps, const Eigen::VectorXd& gap,
+                   const RigidResponseOptions& options, RigidResponse& result) {
+  PeriodicResponse& response = result.response;
+  const double tolerance = options.tolerance * response.displacement.cwiseAbs().maxCoeff();
+  StiffeningPath path(problem, gaps, options);
+  Eigen::VectorXd u;
+  const std::optional<double> reached = path.follow(u);
+  response.iterations = path.iterations();
+  response.used_homotopy = true;
+  response.status = SolveStatus::stalled;
+  if (!reached) return;
+  StiffnessParameter{}.set(path.system(), *reached);
+  response.residual = path.system().evaluate(u);
+  response.contact_force = path.system().force();
+  response.displacement = u;
+  result.stiffness = path.unit() * std::exp(*reached);
+  if (const auto exact = solve_active(problem, gap, response.contact_force, 1e-9 * path.size())) {
+    Eigen::VectorXd product(problem.samples());
+    problem.apply(*exact, product);
+    response.contact_force = *exact;
+    response.displacement = problem.free_response() - product;
+    response.residual = 0.0;
+    result.stiffness = std::numeric_limits<double>::infinity();
+  }
+  if ((response.displacement - gap).maxCoeff() <= tolerance) response.status = SolveStatus::converged;
 }
 
 }  // namespace
 
 Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
                                 double gap) {
-  const Eigen::VectorXd opening = (gap - displacement.array()).matrix();
+  return complementarity(displacement, force, Eigen::VectorXd::Constant(1, gap));
+}
+
+Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
+                                const Eigen::VectorXd& gaps) {
+  const auto points = static_cast<int>(displacement.size() / gaps.size());
+  const Eigen::VectorXd opening = sample_gaps(gaps, points) - displacement;
   Complementarity result{-opening.minCoeff(), force.minCoeff(), 0.0};
   const double scale = force.cwiseAbs().maxCoeff() * opening.cwiseAbs().maxCoeff();
   if (scale > 0.0) result.product = force.cwiseProduct(opening).cwiseAbs().maxCoeff() / scale;
   return result;
 }
 
-RigidResponse rigid_response(CondensedProblem& problem, double gap, const RigidResponseOptions& options) {
-  if (!std::isfinite(gap)) throw std::invalid_argument("rigid_response: gap must be finite");
+RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& gaps,
+                             const RigidResponseOptions& options) {
+  require_gaps(problem, gaps);
+  const int points = problem.points();
+  const Eigen::VectorXd gap = sample_gaps(gaps, points);
   RigidResponse result;
   PeriodicResponse& response = result.response;
   response.frequency = problem.frequency();
   response.displacement = problem.free_response();
-  response.contact_force = Eigen::VectorXd::Zero(problem.points());
-  const double tolerance = options.tolerance * response.displacement.cwiseAbs().maxCoeff();
-  if (response.displacement.maxCoeff() <= gap) {
+  response.contact_force = Eigen::VectorXd::Zero(problem.samples());
+  if ((response.displacement - gap).maxCoeff() <= 0.0) {
     response.status = SolveStatus::converged;
     result.stiffness = std::numeric_limits<double>::infinity();
   } else {
-    StiffeningPath path(problem, gap, options);
-    Eigen::VectorXd u;
-    const std::optional<double> reached = path.follow(u);
-    response.iterations = path.iterations();
-    response.used_homotopy = true;
-    response.status = SolveStatus::stalled;
-    if (reached) {
-      StiffnessParameter{}.set(path.system(), *reached);
-      response.residual = path.system().evaluate(u);
-      response.contact_force = path.system().force();
-      response.displacement = u;
-      result.stiffness = path.unit() * std::exp(*reached);
-      if (const auto exact = solve_active(problem, gap, response.contact_force, 1e-9 * path.size())) {
-        Eigen::VectorXd product(problem.points());
-        problem.apply(*exact, product);
-        response.contact_force = *exact;
-        response.displacement = problem.free_response() - product;
-        response.residual = 0.0;
-        result.stiffness = std::numeric_limits<double>::infinity();
-      }
-      if (response.displacement.maxCoeff() - gap <= tolerance) response.status = SolveStatus::converged;
-    }
+    solve_contact(problem, gaps, gap, options, result);
   }
   response.coefficients = problem.coefficients(response.contact_force);
-  result.complementarity = complementarity(response.displacement, response.contact_force, gap);
+  result.complementarity = complementarity(response.displacement, response.contact_force, gaps);
+  for (int c = 0; c < problem.contacts(); ++c)
+    result.contact_complementarity.push_back(
+        complementarity(response.displacement.segment(c * points, points),
+                        response.contact_force.segment(c * points, points), gaps[c]));
   result.active_samples = static_cast<int>((response.contact_force.array() > 0.0).count());
   return result;
+}
+
+RigidResponse rigid_response(CondensedProblem& problem, double gap, const RigidResponseOptions& options) {
+  return rigid_response(problem, Eigen::VectorXd::Constant(problem.contacts(), gap), options);
 }
 
 }  // namespace wavebalance::solvers

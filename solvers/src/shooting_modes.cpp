@@ -41,7 +41,7 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();
   projection = shapes.transpose() * structure.mass;
-  contact = shapes.row(structure.contact_dof).transpose();
+  contact = shapes.row(structure.single_contact("shoot")).transpose();
   const Eigen::VectorXd load = shapes.transpose() * structure.load;
   linear_response.resize(load.size());
   for (Eigen::Index k = 0; k < load.size(); ++k) {

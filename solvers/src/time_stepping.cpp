@@ -164,7 +164,7 @@ struct QuinticWeights {
 class PeriodRecorder {
  public:
   PeriodRecorder(const FirstOrderSystem& system, int points)
-      : system_(system), states_(system.states(), points), contact_(Eigen::VectorXd::Zero(points)) {}
+      : system_(system), states_(system.states(), points) {}
 
   /// Records up to the end of the step or of the period; true when the period is complete.
   bool record(const Integrator& step) {
@@ -175,8 +175,8 @@ class PeriodRecorder {
   /// Opens the next period; returns the relative rms difference of this one's contact displacement to the
   /// last one's.
   double close_period() {
-    const Eigen::VectorXd contact = states_.row(system_.contact_dof()).transpose();
-    const double difference = (contact - contact_).norm();
+    const Eigen::VectorXd contact = contact_rows(0);
+    const double difference = period_ == 0 ? contact.norm() : (contact - contact_).norm();
     const double size = contact.norm();
     const double relative = difference == 0.0 ? 0.0 : difference / size;
     contact_ = contact;
@@ -188,9 +188,13 @@ class PeriodRecorder {
   PeriodSamples samples(bool full_history) const {
     const int n = system_.dofs();
     PeriodSamples result;
-    result.displacement = states_.row(system_.contact_dof()).transpose() / system_.angular_frequency();
-    result.velocity = states_.row(n + system_.contact_dof()).transpose();
-    result.contact_force = result.displacement.unaryExpr([&](double u) { return system_.law().force(u); });
+    result.contacts = static_cast<int>(system_.contact_dofs().size());
+    result.displacement = contact_rows(0) / system_.angular_frequency();
+    result.velocity = contact_rows(n);
+    result.contact_force.resize(result.displacement.size());
+    for (Eigen::Index l = 0; l < result.displacement.size(); ++l)
+      result.contact_force[l] =
+          system_.laws()[static_cast<int>(l / states_.cols())].force(result.displacement[l]);
     if (!full_history) return result;
     result.displacements = states_.topRows(n) / system_.angular_frequency();
     result.velocities = states_.bottomRows(n);
@@ -198,6 +202,15 @@ class PeriodRecorder {
   }
 
  private:
+  // The rows of all contacts, those of the states from `first` on, one after the other.
+  Eigen::VectorXd contact_rows(int first) const {
+    Eigen::VectorXd rows(static_cast<Eigen::Index>(system_.contact_dofs().size()) * states_.cols());
+    for (std::size_t c = 0; c < system_.contact_dofs().size(); ++c)
+      rows.segment(Eigen::Index(c) * states_.cols(), states_.cols()) =
+          states_.row(first + system_.contact_dofs()[c]).transpose();
+    return rows;
+  }
+
   double time_of(Eigen::Index sample) const {
     return period_ + static_cast<double>(sample) / static_cast<double>(states_.cols());
   }
@@ -242,12 +255,12 @@ const char* to_string(TimeSteppingStatus status) {
   return "unknown";
 }
 
-TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const AnyContactLaw& law,
+TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const ContactLaws& laws,
                                          double frequency_hz, const TimeSteppingOptions& options) {
   detail::require_positive("integrate_to_periodic", "frequency_hz", frequency_hz);
   structure.validate();
   validate(options, structure.size());
-  FirstOrderSystem system(structure, law, frequency_hz);
+  FirstOrderSystem system(structure, laws, frequency_hz);
   const Eigen::VectorXd initial = initial_state(system, options);
   const SilencedGslErrors silence;
   Integrator integrator(system, initial, options,

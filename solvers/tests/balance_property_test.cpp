@@ -201,7 +201,7 @@ RC_GTEST_PROP(CondensationProperty, TridiagonalAndSparseAgree, ()) {
   swapped.damping = chain.damping.twistedBy(order);
   swapped.stiffness = chain.stiffness.twistedBy(order);
   swapped.load = order * chain.load;
-  swapped.contact_dof = order.indices()[chain.contact_dof];
+  swapped.contact_dofs = {order.indices()[chain.contact_dofs[0]]};
   const TimePair pair = random_pair();
   CondensedProblem a(pair, chain, testing::cosine_load()), b(pair, swapped, testing::cosine_load());
   a.set_frequency(0.3);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -23,7 +24,7 @@ LinearStructure shuffled(const LinearStructure& structure, std::mt19937& generat
   out.damping = structure.damping.twistedBy(order);
   out.stiffness = structure.stiffness.twistedBy(order);
   out.load = order * structure.load;
-  out.contact_dof = indices[structure.contact_dof];
+  for (int& dof : out.contact_dofs) dof = indices[dof];
   return out;
 }
 
@@ -39,40 +40,87 @@ struct Dense {
 };
 
 Dense by_dense_lu(const LinearStructure& s, const StiffnessFactors& factors, const StiffnessFactors& rates,
-                  Complex load, Complex contact) {
+                  Complex load, const Eigen::VectorXcd& contact) {
   const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
   const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
   const Eigen::VectorXcd forces = s.load.cast<Complex>();
-  const int c = s.contact_dof;
-  const Eigen::VectorXcd unit = Eigen::VectorXcd::Unit(s.size(), c);
-  return {{inverse(c, c), (inverse * forces)[c], slope(c, c), (slope * forces)[c]},
-          inverse * (forces * load - unit * contact)};
+  const auto& c = s.contact_dofs;
+  Eigen::VectorXcd all = forces * load;
+  all(c) -= contact;
+  return {{inverse(c, c), (inverse * forces)(c), slope(c, c), (slope * forces)(c)}, inverse * all};
 }
 
 void expect_equal(const CondensedPoint& a, const CondensedPoint& b, double tolerance) {
-  EXPECT_LE(std::abs(a.compliance - b.compliance), tolerance * std::abs(b.compliance));
-  EXPECT_LE(std::abs(a.load_response - b.load_response), tolerance * std::abs(b.load_response));
-  EXPECT_LE(std::abs(a.compliance_slope - b.compliance_slope), tolerance * std::abs(b.compliance_slope));
-  EXPECT_LE(std::abs(a.load_response_slope - b.load_response_slope),
-            tolerance * std::abs(b.load_response_slope));
+  EXPECT_LE((a.compliance - b.compliance).norm(), tolerance * b.compliance.norm());
+  EXPECT_LE((a.load_response - b.load_response).norm(), tolerance * b.load_response.norm());
+  EXPECT_LE((a.compliance_slope - b.compliance_slope).norm(), tolerance * b.compliance_slope.norm());
+  EXPECT_LE((a.load_response_slope - b.load_response_slope).norm(), tolerance * b.load_response_slope.norm());
 }
 
-TEST(Condensation, BothMethodsEqualTheDenseInverse) {
+constexpr CondensationMethod all_methods[] = {CondensationMethod::tridiagonal, CondensationMethod::modal,
+                                              CondensationMethod::dense, CondensationMethod::sparse};
+
+// Of one to three contacts: the chain, whose damping its modes decouple, by every method.
+TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
   std::mt19937 generator(1);
   const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
   const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
-  for (const int size : {1, 2, 9, 25}) {
-    const LinearStructure chain = testing::random_chain(size, generator);
-    const Dense expected = by_dense_lu(chain, factors, rates, Complex(1.0, 2.0), Complex(0.3, -0.4));
-    const LinearStructure other = shuffled(chain, generator);
-    const Dense expected_other = by_dense_lu(other, factors, rates, Complex(1.0, 2.0), Complex(0.3, -0.4));
-    Condensation tridiagonal(chain), sparse(other);
-    expect_equal(tridiagonal.at(factors, rates), expected.point, 1e-11);
-    expect_equal(sparse.at(factors, rates), expected.point, 1e-11);
-    const auto recovered = tridiagonal.recover(factors, Complex(1.0, 2.0), Complex(0.3, -0.4));
-    EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
-    const auto other_recovered = sparse.recover(factors, Complex(1.0, 2.0), Complex(0.3, -0.4));
-    EXPECT_LE((other_recovered - expected_other.recovered).norm(), 1e-11 * expected.recovered.norm());
+  for (const int size : {1, 2, 9, 25})
+    for (const int contacts : {1, 2, 3}) {
+      if (contacts > size) continue;
+      LinearStructure chain = testing::random_chain(size, generator);
+      chain.contact_dofs = std::vector<int>{size / 2, 0, size - 1};
+      chain.contact_dofs.resize(static_cast<std::size_t>(contacts));
+      const Eigen::VectorXcd force = testing::random_vector(contacts, generator) * Complex(0.3, -0.4);
+      const Dense expected = by_dense_lu(chain, factors, rates, Complex(1.0, 2.0), force);
+      for (const CondensationMethod method : all_methods) {
+        Condensation condensation(chain, method);
+        EXPECT_EQ(condensation.method(), method);
+        EXPECT_EQ(condensation.contacts(), contacts);
+        expect_equal(condensation.at(factors, rates), expected.point, 1e-11);
+        const auto recovered = condensation.recover(factors, Complex(1.0, 2.0), force);
+        EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
+      }
+    }
+}
+
+TEST(Condensation, TakesTheFastestMethodThatTheMatricesAdmit) {
+  std::mt19937 generator(7);
+  const LinearStructure chain = testing::random_chain(120, generator);
+  EXPECT_EQ(Condensation(chain).method(), CondensationMethod::tridiagonal);
+  LinearStructure other = shuffled(chain, generator);
+  EXPECT_EQ(Condensation(other).method(), CondensationMethod::modal);
+  EXPECT_THROW(Condensation(other, CondensationMethod::tridiagonal), std::invalid_argument);
+  other.damping.coeffRef(3, 3) += 0.1;  // couples the modes
+  EXPECT_EQ(Condensation(other).method(), CondensationMethod::sparse);
+  EXPECT_THROW(Condensation(other, CondensationMethod::modal), std::invalid_argument);
+  other.stiffness =
+      Eigen::MatrixXd(Eigen::MatrixXd(chain.stiffness).llt().solve(Eigen::MatrixXd::Identity(120, 120)))
+          .sparseView();
+  other.stiffness = 0.5 * (other.stiffness + Eigen::SparseMatrix<double>(other.stiffness.transpose()));
+  EXPECT_EQ(Condensation(other).method(), CondensationMethod::dense);
+}
+
+// A contact without mass, and a body that nothing holds: modes of whichever matrix is definite.
+TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
+  std::mt19937 generator(8);
+  const StiffnessFactors factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0}, rates{Complex(-2.6), 1.0, 0.0};
+  LinearStructure massless = testing::random_chain(9, generator);
+  massless.contact_dofs = {8, 2};
+  massless.mass.row(8) *= 0.0;
+  massless.mass.col(8) *= 0.0;
+  massless.damping = 0.01 * massless.stiffness;
+  LinearStructure loose = testing::random_chain(9, generator);
+  loose.contact_dofs = {8, 2};
+  loose.stiffness.coeffRef(0, 0) = -loose.stiffness.coeff(1, 0);
+  loose.damping = 0.02 * loose.mass;
+  for (const LinearStructure& structure : {massless, loose}) {
+    const Eigen::VectorXcd force = testing::random_vector(2, generator) * Complex(0.3, -0.4);
+    const Dense expected = by_dense_lu(structure, factors, rates, 1.0, force);
+    Condensation modal(structure, CondensationMethod::modal);
+    expect_equal(modal.at(factors, rates), expected.point, 1e-11);
+    EXPECT_LE((modal.recover(factors, 1.0, force) - expected.recovered).norm(),
+              1e-11 * expected.recovered.norm());
   }
 }
 
@@ -82,7 +130,8 @@ TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
   const Complex rate(0.0, 2.0 * std::numbers::pi * 1275.0);
   const StiffnessFactors factors{rate * rate, rate, 1.0};
   const StiffnessFactors rates{2.0 * rate, 1.0, 0.0};
-  expect_equal(Condensation(bar).at(factors, rates), by_dense_lu(bar, factors, rates, 1.0, 0.0).point, 1e-9);
+  expect_equal(Condensation(bar).at(factors, rates),
+               by_dense_lu(bar, factors, rates, 1.0, Eigen::VectorXcd::Zero(1)).point, 1e-9);
 }
 
 // A bar that is loaded and touches at its tip takes the recursion over all k, any other structure goes point
@@ -105,13 +154,16 @@ TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
     Condensation condensation(structure);
     CondensedSpectrum result;
     condensation.condense(factors, rates, result);
-    ASSERT_EQ(result.compliance.size(), 9);
+    ASSERT_EQ(result.compliance.rows(), 9);
     for (int k = 0; k < 9; ++k) {
       const CondensedPoint point = condensation.at({factors[0][k], factors[1][k], factors[2][k]},
                                                    {rates[0][k], rates[1][k], rates[2][k]});
-      expect_equal({result.compliance[k], result.load_response[k], result.compliance_slope[k],
-                    result.load_response_slope[k]},
-                   point, 1e-11);
+      const int contacts = structure.contacts();
+      expect_equal(
+          {result.compliance.row(k).reshaped(contacts, contacts), result.load_response.row(k).transpose(),
+           result.compliance_slope.row(k).reshaped(contacts, contacts),
+           result.load_response_slope.row(k).transpose()},
+          point, 1e-11);
     }
   }
 }
@@ -131,10 +183,10 @@ TEST(Condensation, SlopesAreTheDerivativesAlongTheRates) {
     };
     const double h = 1e-5;
     const CondensedPoint point = condensation.at(factors, rates), ahead = moved(h), behind = moved(-h);
-    EXPECT_LE(std::abs((ahead.compliance - behind.compliance) / (2 * h) - point.compliance_slope),
-              1e-7 * std::abs(point.compliance_slope));
-    EXPECT_LE(std::abs((ahead.load_response - behind.load_response) / (2 * h) - point.load_response_slope),
-              1e-7 * std::abs(point.load_response_slope));
+    EXPECT_LE(((ahead.compliance - behind.compliance) / (2 * h) - point.compliance_slope).norm(),
+              1e-7 * point.compliance_slope.norm());
+    EXPECT_LE(((ahead.load_response - behind.load_response) / (2 * h) - point.load_response_slope).norm(),
+              1e-7 * point.load_response_slope.norm());
   }
 }
 
@@ -148,16 +200,16 @@ TEST(Condensation, VanishingLeadingPivotIsNotSingular) {
   s.mass = mass.sparseView();
   s.damping = Eigen::SparseMatrix<double>(2, 2);
   s.load = Eigen::Vector2d(3.0, 0.0);
-  s.contact_dof = 1;
+  s.contact_dofs = {1};
   Condensation condensation(s);
   const CondensedPoint point = condensation.at({-1.0, 0.0, 1.0}, {0.0, 0.0, 1.0});
-  EXPECT_NEAR(std::abs(point.compliance), 0.0, 1e-14);
-  EXPECT_NEAR(std::abs(point.load_response - 3.0), 0.0, 1e-14);
+  EXPECT_NEAR(point.compliance.norm(), 0.0, 1e-14);
+  EXPECT_NEAR(std::abs(point.load_response[0] - 3.0), 0.0, 1e-14);
   s.load = Eigen::Vector2d(0.0, 3.0);  // now at the contact: the recursion over k
   const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1), none = Eigen::VectorXcd::Zero(1);
   CondensedSpectrum result;
   Condensation(s).condense({-one, none, one}, {none, none, one}, result);
-  EXPECT_NEAR(std::abs(result.load_response[0]), 0.0, 1e-14);
+  EXPECT_NEAR(result.load_response.norm(), 0.0, 1e-14);
 }
 
 TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
@@ -170,7 +222,8 @@ TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
       Condensation condensation(structure);
       const Complex at = -modes.eigenvalues()[0];
       EXPECT_THROW(condensation.at({at, 0.0, 1.0}, {1.0, 0.0, 0.0}), SingularSystem) << size;
-      EXPECT_THROW(condensation.recover({at, 0.0, 1.0}, 1.0, 0.0), SingularSystem) << size;
+      EXPECT_THROW(condensation.recover({at, 0.0, 1.0}, 1.0, Eigen::VectorXcd::Zero(1)), SingularSystem)
+          << size;
       const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
       CondensedSpectrum result;
       EXPECT_THROW(condensation.condense({at * one, 0.0 * one, one}, {one, one, one}, result),
@@ -193,8 +246,10 @@ TEST(Condensation, RefusesMatricesThatDoNotFit) {
     EXPECT_NE(std::string(error.what()).find("damping is 2 x 2; the load has 3"), std::string::npos);
   }
   bar = testing::jl14_bar(3, 1e-4);
-  bar.contact_dof = 3;
-  EXPECT_THROW(Condensation{bar}, std::invalid_argument);
+  for (const std::vector<int>& contacts : {std::vector<int>{3}, {-1}, {}, {1, 0, 1}}) {
+    bar.contact_dofs = contacts;
+    EXPECT_THROW(Condensation{bar}, std::invalid_argument) << contacts.size();
+  }
   EXPECT_THROW(Condensation{LinearStructure{}}, std::invalid_argument);
 }
 

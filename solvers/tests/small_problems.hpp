@@ -61,7 +61,7 @@ inline LinearStructure random_chain(int size, std::mt19937& generator) {
   chain.stiffness = stiffness.sparseView();
   chain.damping = 0.05 * chain.stiffness + 0.02 * chain.mass;
   chain.load = Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
-  chain.contact_dof = size / 2;
+  chain.contact_dofs = {size / 2};
   return chain;
 }
 
@@ -78,11 +78,11 @@ inline Eigen::VectorXcd cosine_load() {
 
 /// K of u = u0 - K f, column by column through apply.
 inline Eigen::MatrixXd compliance_matrix(CondensedProblem& problem) {
-  const int points = problem.points();
-  Eigen::MatrixXd matrix(points, points);
+  const int samples = problem.samples();
+  Eigen::MatrixXd matrix(samples, samples);
   Eigen::VectorXd column;
-  for (int l = 0; l < points; ++l) {
-    problem.apply(Eigen::VectorXd::Unit(points, l), column);
+  for (int l = 0; l < samples; ++l) {
+    problem.apply(Eigen::VectorXd::Unit(samples, l), column);
     matrix.col(l) = column;
   }
   return matrix;

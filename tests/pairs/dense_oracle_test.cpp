@@ -6,7 +6,7 @@
 
 #include "dense_system.hpp"
 #include "pairs.hpp"
-#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/rigid_response.hpp"
 #include "wavebalance/solvers/translate_spectrum.hpp"
 
 // The solvers' symbols against the system of all n M unknowns that the papers assemble.
@@ -53,20 +53,24 @@ Eigen::VectorXd stacked(const Eigen::MatrixXcd& spectra, int functions) {
 class Oracle {
  public:
   Oracle(const Setting& setting, const Case& scene, int elements, int functions, int points)
+      : Oracle(setting, scene.structure(elements), scene.law(), scene.frequency_hz, functions, points) {}
+
+  Oracle(const Setting& setting, const solvers::LinearStructure& structure, solvers::ContactLaws laws,
+         double frequency_hz, int functions, int points)
       : functions_(functions),
-        law_(scene.law()),
+        laws_(std::move(laws)),
         how_(options(setting.pair, functions, points, setting.products, setting.formulation)),
-        problem_(time_pair(setting.pair, functions, how_), scene.structure(elements), cosine_load()),
-        dense_(scene.structure(elements), law_,
+        problem_(time_pair(setting.pair, functions, how_), structure, cosine_load()),
+        dense_(structure, laws_,
                dense::discretise(basis(setting.pair.trial, functions), basis(setting.pair.weight, functions),
                                  how_, cosine_load())) {
-    problem_.set_frequency(scene.frequency_hz);
-    dense_.set_frequency(scene.frequency_hz);
+    problem_.set_frequency(frequency_hz);
+    dense_.set_frequency(frequency_hz);
   }
 
   void expect_equal_linear_response() {
     const Eigen::VectorXd expected = dense_.linear_response();
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem_.points());
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem_.samples());
     const Eigen::VectorXd found = stacked(problem_.full_coefficients(zero), functions_);
     EXPECT_LE((found - expected).norm(), tolerance * expected.norm());
     const Eigen::VectorXd samples = dense_.contact_displacement(expected);
@@ -78,7 +82,7 @@ class Oracle {
     std::mt19937 generator(7);
     std::normal_distribution<double> normal;
     const Eigen::VectorXd response = dense_.linear_response();
-    solvers::ContactSystem system(problem_, law_);
+    solvers::ContactSystem system(problem_, laws_);
     for (const double noise : {0.0, 0.3}) {
       const Eigen::VectorXd state =
           response + noise * response.cwiseAbs().maxCoeff() *
@@ -92,7 +96,7 @@ class Oracle {
 
   // Returns whether there was contact.
   bool expect_equal_contact_solution() {
-    const solvers::PeriodicResponse response = solvers::forced_response(problem_, law_, {});
+    const solvers::PeriodicResponse response = solvers::forced_response(problem_, laws_, {});
     EXPECT_TRUE(response.converged());
     const Eigen::VectorXd found = stacked(problem_.full_coefficients(response.contact_force), functions_);
     EXPECT_LE(dense_.relative_residual(found), tolerance);
@@ -102,7 +106,27 @@ class Oracle {
       own = dense_.newton(found + 1e-6 * (dense_.linear_response() - found));
     EXPECT_TRUE(own.converged);
     EXPECT_LE((found - own.coefficients).norm(), tolerance * own.coefficients.norm());
-    return response.contact_force.maxCoeff() > 0.0;
+    return every_contact_presses(response.contact_force);
+  }
+
+  // Against rigid obstacles: the motion that the assembled system has under the forces found.
+  void expect_equal_rigid_solution(const Eigen::VectorXd& gaps) {
+    const solvers::RigidResponse rigid = solvers::rigid_response(problem_, gaps, {});
+    EXPECT_TRUE(rigid.response.converged());
+    const Eigen::VectorXd expected = dense_.forced_response(rigid.response.contact_force);
+    const Eigen::VectorXd found =
+        stacked(problem_.full_coefficients(rigid.response.contact_force), functions_);
+    EXPECT_LE((found - expected).norm(), tolerance * expected.norm());
+    // A spring that stands for the obstacle leaves its residual, an active set rounding.
+    const Eigen::VectorXd u = dense_.contact_displacement(expected);
+    EXPECT_LE((u - rigid.response.displacement).norm(), 10.0 * tolerance * u.norm());
+    const double size = problem_.free_response().cwiseAbs().maxCoeff();
+    for (const auto& contact : rigid.contact_complementarity) {
+      EXPECT_LE(contact.max_penetration, solvers::RigidResponseOptions{}.tolerance * size);
+      EXPECT_GE(contact.min_force, 0.0);
+      EXPECT_LE(contact.product, 1e-5);
+    }
+    EXPECT_TRUE(every_contact_presses(rigid.response.contact_force));
   }
 
   bool expect_equal() {
@@ -112,8 +136,12 @@ class Oracle {
   }
 
  private:
+  bool every_contact_presses(const Eigen::VectorXd& force) const {
+    return (force.reshaped(problem_.points(), problem_.contacts()).colwise().maxCoeff().array() > 0.0).all();
+  }
+
   int functions_;
-  solvers::AnyContactLaw law_;
+  solvers::ContactLaws laws_;
   solvers::TimePairOptions how_;
   solvers::CondensedProblem problem_;
   dense::DenseSystem dense_;
@@ -149,6 +177,46 @@ TEST(DenseOracle, EqualsTheSymbolsForTheWholeBar) {
       SCOPED_TRACE(std::string(pair.name) + ", " + scene.name);
       EXPECT_TRUE(Oracle({pair, Formulation::distributional, products}, scene, 25, 16, 256).expect_equal());
     }
+}
+
+// Contacts at the tip, the middle and the root of a bar, each with its own law and gap.
+struct Contacts {
+  solvers::LinearStructure structure;
+  Eigen::VectorXd gaps;
+  std::vector<solvers::AnyContactLaw> laws;
+};
+
+Contacts many_contacts(int count) {
+  const Case& scene = cases[0];
+  Contacts all{scene.structure(7), Eigen::Vector3d(1e-3, 0.4e-3, 0.1e-3).head(count), {}};
+  all.structure.contact_dofs = std::vector<int>{6, 3, 0};
+  all.structure.contact_dofs.resize(static_cast<std::size_t>(count));
+  for (int c = 0; c < count; ++c)
+    all.laws.emplace_back(contact::ExponentialLaw(1e8, 50.0 * (c + 1), all.gaps[c]));
+  return all;
+}
+
+TEST(DenseOracle, EqualsTheSymbolsForManyContacts) {
+  for (const int count : {2, 3}) {
+    const Contacts contacts = many_contacts(count);
+    for (const Setting& setting : admissible_settings()) {
+      SCOPED_TRACE(describe(setting) + ", contacts " + std::to_string(count));
+      Oracle oracle(setting, contacts.structure, contacts.laws, cases[0].frequency_hz, 32, 128);
+      EXPECT_TRUE(oracle.expect_equal());
+    }
+  }
+}
+
+TEST(DenseOracle, EqualsTheSymbolsForManyRigidContacts) {
+  for (const int count : {2, 3}) {
+    const Contacts contacts = many_contacts(count);
+    for (const Pair& pair : {table_2[0], table_2[2], table_2[3]}) {
+      SCOPED_TRACE(std::string(pair.name) + ", contacts " + std::to_string(count));
+      const Setting setting{pair, Formulation::distributional, InnerProducts::exact};
+      Oracle(setting, contacts.structure, {}, cases[0].frequency_hz, 16, 32)
+          .expect_equal_rigid_solution(contacts.gaps);
+    }
+  }
 }
 
 // The points need not be a multiple of the functions, odd or even, when both bases are Fourier.

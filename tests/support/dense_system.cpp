@@ -17,17 +17,13 @@ void add_kronecker(Eigen::MatrixXd& matrix, double factor, const Eigen::SparseMa
       matrix.block(entry.row() * size, entry.col() * size, size, size) += factor * entry.value() * right;
 }
 
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-std::span<double> span_of(Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
-
 }  // namespace
 
-DenseSystem::DenseSystem(solvers::LinearStructure structure, solvers::AnyContactLaw law,
+DenseSystem::DenseSystem(solvers::LinearStructure structure, solvers::ContactLaws laws,
                          TimeDiscretisation time)
-    : structure_(std::move(structure)), law_(std::move(law)), time_(std::move(time)), load_(unknowns()) {
+    : structure_(std::move(structure)), laws_(std::move(laws)), time_(std::move(time)), load_(unknowns()) {
   structure_.validate();
+  laws_.require(contacts());
   const Eigen::Index size = time_.load.size();
   for (Eigen::Index i = 0; i < structure_.load.size(); ++i)
     load_.segment(i * size, size) = structure_.load[i] * time_.load;
@@ -45,20 +41,33 @@ Eigen::VectorXd DenseSystem::solve(const Eigen::VectorXd& r) const { return matr
 Eigen::VectorXd DenseSystem::linear_response() const { return solve(load_); }
 
 Eigen::VectorXd DenseSystem::contact_displacement(const Eigen::VectorXd& coefficients) const {
-  return time_.trial * coefficients.segment(structure_.contact_dof * functions(), functions());
+  Eigen::VectorXd u(contacts() * points());
+  for (int c = 0; c < contacts(); ++c)
+    u.segment(c * points(), points()) = time_.trial * coefficients.segment(first_unknown(c), functions());
+  return u;
+}
+
+Eigen::VectorXd DenseSystem::project(const Eigen::VectorXd& force) const {
+  Eigen::VectorXd projections = Eigen::VectorXd::Zero(unknowns());
+  for (int c = 0; c < contacts(); ++c)
+    projections.segment(first_unknown(c), functions()) =
+        time_.weight.transpose() * force.segment(c * points(), points()) / double(points());
+  return projections;
+}
+
+Eigen::VectorXd DenseSystem::forced_response(const Eigen::VectorXd& force) const {
+  return solve(load_ - project(force));
 }
 
 Eigen::VectorXd DenseSystem::contact_force(const Eigen::VectorXd& coefficients) const {
   const Eigen::VectorXd u = contact_displacement(coefficients);
-  Eigen::VectorXd force(u.size());
-  law_.evaluate(span_of(u), span_of(force));
-  return time_.weight.transpose() * force / double(u.size());
+  Eigen::VectorXd force(u.size()), tangent(u.size());
+  laws_.evaluate(contacts(), u, force, tangent);
+  return project(force);
 }
 
 Eigen::VectorXd DenseSystem::residual(const Eigen::VectorXd& coefficients) const {
-  Eigen::VectorXd r = matrix_ * coefficients - load_;
-  r.segment(structure_.contact_dof * functions(), functions()) += contact_force(coefficients);
-  return r;
+  return matrix_ * coefficients - load_ + contact_force(coefficients);
 }
 
 double DenseSystem::relative_residual(const Eigen::VectorXd& coefficients) const {
@@ -69,11 +78,12 @@ double DenseSystem::relative_residual(const Eigen::VectorXd& coefficients) const
 Eigen::MatrixXd DenseSystem::jacobian(const Eigen::VectorXd& coefficients) const {
   const Eigen::VectorXd u = contact_displacement(coefficients);
   Eigen::VectorXd force(u.size()), tangent(u.size());
-  law_.evaluate(span_of(u), span_of(force), span_of(tangent));
+  laws_.evaluate(contacts(), u, force, tangent);
   Eigen::MatrixXd matrix = matrix_;
-  const int first = structure_.contact_dof * functions();
-  matrix.block(first, first, functions(), functions()) +=
-      time_.weight.transpose() * tangent.asDiagonal() * time_.trial / double(u.size());
+  for (int c = 0; c < contacts(); ++c)
+    matrix.block(first_unknown(c), first_unknown(c), functions(), functions()) +=
+        time_.weight.transpose() * tangent.segment(c * points(), points()).asDiagonal() * time_.trial /
+        double(points());
   return matrix;
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/contact_laws.hpp"
 #include "wavebalance/solvers/linear_structure.hpp"
 #include "wavebalance/solvers/time_pair.hpp"
 
@@ -62,7 +62,7 @@ struct Solution {
 /// oracle and a baseline.
 class DenseSystem {
  public:
-  DenseSystem(solvers::LinearStructure structure, solvers::AnyContactLaw law, TimeDiscretisation time);
+  DenseSystem(solvers::LinearStructure structure, solvers::ContactLaws laws, TimeDiscretisation time);
 
   int unknowns() const { return static_cast<int>(structure_.load.size() * time_.load.size()); }
   int functions() const { return static_cast<int>(time_.load.size()); }
@@ -72,9 +72,13 @@ class DenseSystem {
 
   /// Coefficients (n M) without contact, by dense LU.
   Eigen::VectorXd linear_response() const;
+  /// Coefficients (n M) under given contact force samples (contacts x N, N), by dense LU.
+  Eigen::VectorXd forced_response(const Eigen::VectorXd& force) const;
   /// x with G x = r, by dense LU.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
-  /// Displacement samples (N, m) of the contact degree of freedom.
+  int contacts() const { return structure_.contacts(); }
+  int points() const { return static_cast<int>(time_.trial.rows()); }  ///< N
+  /// Displacement samples (contacts x N, contact-major, m) of the contact degrees of freedom.
   Eigen::VectorXd contact_displacement(const Eigen::VectorXd& coefficients) const;
   /// G a - load + contact, n M.
   Eigen::VectorXd residual(const Eigen::VectorXd& coefficients) const;
@@ -85,10 +89,15 @@ class DenseSystem {
   Solution newton(const Eigen::VectorXd& start, const NewtonOptions& options = {}) const;
 
  private:
-  Eigen::VectorXd contact_force(const Eigen::VectorXd& coefficients) const;  // M projections
+  /// First unknown of a contact.
+  int first_unknown(int contact) const {
+    return structure_.contact_dofs[static_cast<std::size_t>(contact)] * functions();
+  }
+  Eigen::VectorXd project(const Eigen::VectorXd& force) const;               // n M
+  Eigen::VectorXd contact_force(const Eigen::VectorXd& coefficients) const;  // n M projections
 
   solvers::LinearStructure structure_;
-  solvers::AnyContactLaw law_;
+  solvers::ContactLaws laws_;
   TimeDiscretisation time_;
   Eigen::VectorXd load_;  // n M
   Eigen::MatrixXd matrix_;

@@ -46,9 +46,9 @@ struct ArcLengthOptions {
 };
 
 /// A point of a solution curve with its unit tangent in the scaled inner product
-/// <(u, p), (v, q)> = u.v / (N displacement_scale^2) + p q / parameter_scale^2.
+/// <(u, p), (v, q)> = u.v / (samples() displacement_scale^2) + p q / parameter_scale^2.
 struct CurvePoint {
-  Eigen::VectorXd displacement;  ///< m, N samples
+  Eigen::VectorXd displacement;  ///< m, samples() values
   double parameter = 0.0;
   Eigen::VectorXd displacement_tangent;
   double parameter_tangent = 0.0;

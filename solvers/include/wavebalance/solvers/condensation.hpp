@@ -15,13 +15,14 @@ class SingularSystem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a contact degree of freedom sees of a structure at one dynamic stiffness Z = s2 M + s1 C + s0 K.
+/// What C contact degrees of freedom see of a structure at one dynamic stiffness Z = s2 M + s1 C + s0 K, with
+/// S their C x n selection.
 struct CondensedPoint {
-  std::complex<double> compliance;     ///< e^T Z^-1 e, m/N
-  std::complex<double> load_response;  ///< e^T Z^-1 load, m for a load of unit time function
+  Eigen::MatrixXcd compliance;     ///< S Z^-1 S^T, C x C, m/N
+  Eigen::VectorXcd load_response;  ///< S Z^-1 load, C, m for a load of unit time function
   /// Derivatives of both along dZ = d2 M + d1 C + d0 K.
-  std::complex<double> compliance_slope;
-  std::complex<double> load_response_slope;
+  Eigen::MatrixXcd compliance_slope;
+  Eigen::VectorXcd load_response_slope;
 };
 
 /// The three complex factors of M, C and K.
@@ -30,39 +31,56 @@ using StiffnessFactors = std::array<std::complex<double>, 3>;
 /// The same three factors for each k of a spectrum over translates.
 using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
 
-/// CondensedPoint for each k of a spectrum.
+/// CondensedPoint for each of the K values k of a spectrum, one row each: entry (c, d) of the compliance is
+/// in column c + C d, load responses in column c.
 struct CondensedSpectrum {
-  Eigen::VectorXcd compliance, load_response;              ///< m/N; m
-  Eigen::VectorXcd compliance_slope, load_response_slope;  ///< along the rates
+  Eigen::MatrixXcd compliance, load_response;              ///< K x C^2, m/N; K x C, m
+  Eigen::MatrixXcd compliance_slope, load_response_slope;  ///< along the rates
 };
 
-/// Condensation of a structure on its contact degree of freedom: rule 1 of the solvers, after which no cost
-/// depends on the structure. Tridiagonal matrices (a bar) take O(n) a point; any other sparse matrices one
-/// sparse LU a point. Immutable after construction except for work space: one object a thread.
+/// How dynamic stiffnesses are solved. n degrees of freedom, C contacts.
+enum class CondensationMethod {
+  automatic,    ///< tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU
+  tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) a point, O(n) for one contact
+  modal,        ///< modes computed once, O(n^3), then O(n C^2) a point; C diagonal in the undamped modes
+  dense,        ///< one dense LU a point, O(n^3)
+  sparse        ///< one sparse LU a point
+};
+
+/// Condensation of a structure on its contact degrees of freedom: rule 1 of the solvers, after which no cost
+/// depends on the structure. Immutable after construction except for work space: one object a thread.
 class Condensation {
  public:
-  /// Throws std::invalid_argument as LinearStructure::validate does, and for unsymmetric matrices.
-  explicit Condensation(const LinearStructure& structure);
+  /// Throws std::invalid_argument as LinearStructure::validate does, for unsymmetric matrices, and for a
+  /// method that the matrices do not admit: one that is not tridiagonal; modes when neither K nor M is
+  /// positive definite or the damping couples them.
+  explicit Condensation(const LinearStructure& structure,
+                        CondensationMethod method = CondensationMethod::automatic);
   Condensation(Condensation&&) noexcept;
   Condensation& operator=(Condensation&&) noexcept;
   ~Condensation();
 
   int size() const;
+  int contacts() const;
+  /// The method taken, never automatic.
+  CondensationMethod method() const { return chosen_; }
 
   /// Factors {s2, s1, s0} of M, C, K, and their rates {d2, d1, d0}. Throws SingularSystem.
   CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates);
 
   /// at() for all k at once, with results resized to fit. A bar that is loaded and touches at its last degree
-  /// of freedom takes one forward recursion, vectorised over k. O(n K).
+  /// of freedom alone takes one forward recursion, vectorised over k. K times the cost of a point.
   void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates, CondensedSpectrum& result);
 
-  /// The full displacement Z^-1 (load a - e b), n values, for a load of amplitude a and a contact force b.
+  /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b
+  /// (C).
   Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
-                           std::complex<double> contact_force);
+                           const Eigen::VectorXcd& contact_forces);
 
   class Method;  ///< how one dynamic stiffness is solved; see condensation.cpp
 
  private:
+  CondensationMethod chosen_;
   std::unique_ptr<Method> method_;
 };
 

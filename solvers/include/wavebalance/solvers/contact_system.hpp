@@ -1,27 +1,36 @@
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <vector>
+#include <memory>
 
 #include "wavebalance/solvers/condensed_problem.hpp"
-#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/contact_laws.hpp"
 
 namespace wavebalance::solvers {
 
-/// The nonlinear system of a CondensedProblem and a contact law at one state u (N displacement samples, m):
+class ActiveBlock;
+
+/// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
+/// m, contact-major):
 ///   R(u) = u - u0 + K s f_c(u),   J = I + K D,   D = diag(s f_c'(u)),
-/// s a factor on the law (homotopy in contact stiffness; 1 otherwise). A linear solve with J reduces exactly
+/// s a factor on the laws (homotopy in contact stiffness; 1 otherwise). A linear solve with J reduces exactly
 /// to the active samples, those where D is not zero: x = r - K D x, an LU of their number and one product
 /// with K.
 class ContactSystem {
  public:
-  ContactSystem(CondensedProblem& problem, AnyContactLaw law);
+  /// Throws std::invalid_argument when there are neither one law nor one for each contact.
+  ContactSystem(CondensedProblem& problem, ContactLaws laws);
+  ContactSystem(ContactSystem&&) noexcept;
+  ContactSystem& operator=(ContactSystem&&) noexcept;
+  ~ContactSystem();
 
   CondensedProblem& problem() { return *problem_; }
-  const AnyContactLaw& law() const { return law_; }
+  const ContactLaws& laws() const { return laws_; }
+  /// Of the contact that a sample belongs to; its gap in m.
+  const AnyContactLaw& law_at(int sample) const { return laws_[sample / problem_->points()]; }
+  double gap_at(int sample) const { return gaps_[sample / problem_->points()]; }
   void set_stiffness_factor(double factor) { factor_ = factor; }
 
-  /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). O(N log N).
+  /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
   double evaluate(const Eigen::VectorXd& displacement);
 
   const Eigen::VectorXd& force() const { return force_; }        ///< s f_c(u), N
@@ -45,20 +54,13 @@ class ContactSystem {
   void solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y);
 
  private:
-  void collect_active();
-  void fill_active_matrix(Eigen::MatrixXd& matrix);
-  void complete(const Eigen::VectorXd& r, const Eigen::VectorXd& active_values, Eigen::VectorXd& x);
-
   CondensedProblem* problem_;
-  AnyContactLaw law_;
+  ContactLaws laws_;
+  Eigen::VectorXd gaps_;
   double factor_ = 1.0;
   double relative_residual_ = 0.0;
   Eigen::VectorXd force_, tangent_, residual_, product_;
-  std::vector<int> active_;
-  Eigen::MatrixXd matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  Eigen::VectorXd border_column_, border_row_;  // b and c of the last bordered factorization
-  double border_corner_ = 0.0;
+  std::unique_ptr<ActiveBlock> active_;
 };
 
 }  // namespace wavebalance::solvers

@@ -53,17 +53,18 @@ struct PeriodicResponse {
   int iterations = 0;      ///< Newton iterations, those of the homotopy included
   bool used_homotopy = false;
   std::vector<double> residual_history;  ///< of the last Newton run
-  Eigen::VectorXd displacement;          ///< m, N samples at the contact degree of freedom
-  Eigen::VectorXd contact_force;         ///< N, N samples
-  Eigen::VectorXcd coefficients;         ///< spectrum over translates (M/2 + 1) of the trial coefficients
+  Eigen::VectorXd displacement;          ///< m, samples() values, contact-major
+  Eigen::VectorXd contact_force;         ///< N, samples() values
+  Eigen::MatrixXcd coefficients;         ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
 
   bool converged() const { return status == SolveStatus::converged; }
 };
 
-/// The periodic response of `problem` (frequency set before) under `law`, from the contact-free response or
-/// from `guess` (N samples) when it is not empty. Never throws for want of convergence: read the status.
-/// Throws std::invalid_argument for a guess of another length and for a problem without frequency.
-PeriodicResponse forced_response(CondensedProblem& problem, const AnyContactLaw& law,
+/// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one each,
+/// from the contact-free response or from `guess` (samples() values) when it is not empty. Never throws for
+/// want of convergence: read the status. Throws std::invalid_argument for a guess or a list of laws of
+/// another length and for a problem without frequency.
+PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {});
 
 }  // namespace wavebalance::solvers

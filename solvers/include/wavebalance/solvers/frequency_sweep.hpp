@@ -19,6 +19,7 @@ enum class SweepStatus {
 
 std::string to_string(SweepStatus status);
 
+/// Displacements are each the largest that one of the contacts has.
 struct SweepPoint {
   double frequency = 0.0;             ///< Hz
   double max_displacement = 0.0;      ///< m, over output_points of the period
@@ -31,7 +32,7 @@ struct SweepPoint {
 /// Where the curve turns in frequency: at a smooth fold or at a corner.
 struct TurningPoint {
   double frequency = 0.0;             ///< Hz
-  double max_displacement = 0.0;      ///< m
+  double max_displacement = 0.0;      ///< m, as in SweepPoint
   double max_abs_displacement = 0.0;  ///< m
   bool corner = false;
 };
@@ -41,8 +42,8 @@ struct FrequencySweepOptions {
   double to = 0.0;           ///< Hz, either side of `from`
   int output_points = 1024;  ///< of the period, for the maximum and the rms
   int max_points = 20000;
-  /// Arc length: displacement_scale 0 stands for the gap, or without contact the rms response at `from`;
-  /// parameter_scale 0 stands for a 20th of the interval.
+  /// Arc length: displacement_scale 0 stands for the largest gap, or without contact the rms response at
+  /// `from`; parameter_scale 0 stands for a 20th of the interval.
   ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
   ForcedResponseOptions start;  ///< the solver of the first point
   /// Told of each accepted point; returns false to stop.
@@ -57,8 +58,9 @@ struct FrequencySweep {
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
 /// folds and corners, from `from` until it leaves the interval. Throws std::invalid_argument for frequencies
-/// that are not positive, finite and different. O(points (active^3 + N log N)).
-FrequencySweep frequency_sweep(CondensedProblem& problem, const AnyContactLaw& law,
+/// that are not positive, finite and different, and for laws that are neither one nor one a contact. O(points
+/// (active^3 + N log N)).
+FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options);
 
 }  // namespace wavebalance::solvers

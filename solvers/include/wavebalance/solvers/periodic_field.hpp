@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "wavebalance/solvers/condensed_problem.hpp"
-#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/contact_laws.hpp"
 #include "wavebalance/solvers/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -24,6 +24,9 @@ class MotionEvaluator {
   Eigen::VectorXd displacement(const Eigen::VectorXcd& coefficients);
   /// m/s; frequency in Hz.
   Eigen::VectorXd velocity(const Eigen::VectorXcd& coefficients, double frequency);
+  /// The same of several motions, a column each: points x C for (M/2 + 1) x C.
+  Eigen::MatrixXd displacement(const Eigen::MatrixXcd& coefficients);
+  Eigen::MatrixXd velocity(const Eigen::MatrixXcd& coefficients, double frequency);
 
  private:
   Eigen::VectorXd jump_velocity(const Eigen::VectorXcd& coefficients, double frequency);
@@ -41,16 +44,16 @@ struct PeriodicField {
   Eigen::MatrixXd velocity;
 };
 
-/// The motion that belongs to contact force samples (N values, N) of a solved problem. O(n (M + points log
-/// points)).
+/// The motion that belongs to contact force samples (samples() values, N) of a solved problem. O(n (M +
+/// points log points)).
 PeriodicField periodic_field(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points);
 
-/// E = u'^T M u' / 2 + u^T K u / 2 + the contact law's potential, J, at each point [JL14, eq. (35)]. O(n
-/// points).
-Eigen::VectorXd system_energy(const LinearStructure& structure, const AnyContactLaw& law,
+/// E = u'^T M u' / 2 + u^T K u / 2 + the potentials of all contacts, J, at each point [JL14, eq. (35)].
+/// Throws std::invalid_argument for laws that are neither one nor one a contact. O(n points).
+Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,
                               const PeriodicField& field);
 
 /// The rms of the system energy over the period, J: the paper's energy norm before it is normalised.
-double energy_norm(const LinearStructure& structure, const AnyContactLaw& law, const PeriodicField& field);
+double energy_norm(const LinearStructure& structure, const ContactLaws& laws, const PeriodicField& field);
 
 }  // namespace wavebalance::solvers

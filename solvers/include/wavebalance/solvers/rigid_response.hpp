@@ -1,11 +1,12 @@
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "wavebalance/solvers/forced_response.hpp"
 
 namespace wavebalance::solvers {
 
-/// How far samples are from u <= gap, force >= 0 and their product 0.
+/// How far samples are from u <= gap, force >= 0 and their product 0, over all contacts.
 struct Complementarity {
   double max_penetration = 0.0;  ///< max(u - gap), m; negative when nothing touches
   double min_force = 0.0;        ///< N
@@ -14,6 +15,9 @@ struct Complementarity {
 
 Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
                                 double gap);
+/// Of contacts with a gap each, samples contact-major.
+Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
+                                const Eigen::VectorXd& gaps);
 
 struct RigidResponseOptions {
   double tolerance = 1e-6;  ///< penetration at the N points over the largest |u0| that counts as rigid
@@ -24,23 +28,30 @@ struct RigidResponseOptions {
 };
 
 /// A response with rigid (Signorini) contact. `response.status` is converged only when complementarity holds
-/// at every one of the N points to the tolerance; otherwise the stiffest spring reached is what it describes.
+/// at every sample of every contact to the tolerance; otherwise the stiffest spring reached is what it
+/// describes.
 struct RigidResponse {
   PeriodicResponse response;
-  Complementarity complementarity;
+  Complementarity complementarity;                       ///< overall
+  std::vector<Complementarity> contact_complementarity;  ///< of each contact
   double stiffness = 0.0;  ///< N/m of the last spring; infinity when the active set was solved exactly
   int active_samples = 0;
 };
 
-/// The periodic response of `problem` (frequency set before) against a rigid obstacle at `gap`, which is any
-/// sign:
+/// The periodic response of `problem` (frequency set before) against rigid obstacles at `gaps`, one a contact
+/// and of any sign:
 ///
-///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at the N points.
+///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at all samples.
 ///
 /// An active set started from the contact-free response cycles in nearly every case. A unilateral spring is
 /// stiffened by arc length instead, from one that hardly acts to one whose penetration meets the tolerance,
 /// through folds and corners; its active samples are then solved with u = gap, which is accepted when every
-/// sign holds. O(steps (active^3 + N log N)).
+/// sign holds. Throws std::invalid_argument for gaps that are not finite or not one a contact. O(steps
+/// (active^3
+/// + N log N)).
+RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& gaps,
+                             const RigidResponseOptions& options);
+/// With one gap for all contacts.
 RigidResponse rigid_response(CondensedProblem& problem, double gap, const RigidResponseOptions& options);
 
 }  // namespace wavebalance::solvers

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/contact_laws.hpp"
 #include "wavebalance/solvers/linear_structure.hpp"
 #include "wavebalance/solvers/period_samples.hpp"
 
@@ -39,16 +39,16 @@ struct TimeSteppingResult {
   int periods = 0;        ///< complete periods integrated
   long steps = 0;         ///< accepted steps
   long failed_steps = 0;  ///< steps tried and rejected
-  /// Relative rms difference of the contact displacement of periods i+2 and i+1; periods - 1 entries.
+  /// Relative rms difference of the contact displacements of periods i+2 and i+1; periods - 1 entries.
   std::vector<double> period_error;
   PeriodSamples samples;  ///< the last complete period; empty when there is none
 };
 
-/// Integrates M u'' + C u' + K u = load cos(2 pi f t) - e f_c(u_c) [JL14, eq. (7)] until two successive
-/// periods of the contact displacement differ by less than period_tolerance in relative rms. The integrator
-/// is the variable-step, variable-order (1..5) backward differentiation of GSL (msbdf) with the analytic
-/// Jacobian; [JL14, section 4] used the closely related NDF. It never steps to an output time: samples come
-/// from the quintic that matches displacement, velocity and acceleration at both ends of a step.
+/// Integrates M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c) [JL14, eq. (7)] until two
+/// successive periods of the contact displacements differ by less than period_tolerance in relative rms. The
+/// integrator is the variable-step, variable-order (1..5) backward differentiation of GSL (msbdf) with the
+/// analytic Jacobian; [JL14, section 4] used the closely related NDF. It never steps to an output time:
+/// samples come from the quintic that matches displacement, velocity and acceleration at both ends of a step.
 ///
 /// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
 /// Floquet multiplier; the distance left to the periodic motion is about multiplier / (1 - multiplier) times
@@ -59,9 +59,9 @@ struct TimeSteppingResult {
 /// GSL's error handler (which would end the program) is switched off for the duration of the call and
 /// restored; that handler belongs to the process.
 ///
-/// Throws std::invalid_argument when the structure does not fit together, its mass is not positive definite,
-/// frequency_hz (Hz) is not positive and finite, or an option is out of range.
-TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const AnyContactLaw& law,
+/// Throws std::invalid_argument when the structure or the laws do not fit together, its mass is not positive
+/// definite, frequency_hz (Hz) is not positive and finite, or an option is out of range.
+TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const ContactLaws& laws,
                                          double frequency_hz, const TimeSteppingOptions& options = {});
 
 }  // namespace wavebalance::solvers
