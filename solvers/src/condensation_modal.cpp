@@ -58,7 +58,8 @@ std::optional<Modes> decouple(const LinearStructure& structure) {
   modes.damping = damping.diagonal();
   Eigen::MatrixXd coupling = damping;
   coupling.diagonal().setZero();
-  constexpr double tolerance = 1e-10;  // what assembling a modal damping matrix leaves by rounding
+  // A modal damping matrix is made of modes that are known to eps times the spread of their eigenvalues.
+  constexpr double tolerance = 1e-8;
   if (coupling.cwiseAbs().maxCoeff() > tolerance * modes.damping.cwiseAbs().maxCoeff()) return std::nullopt;
   return modes;
 }

@@ -257,7 +257,7 @@ TEST(ManyContactsSweep, PassesFoldsAndEqualsPointsSolvedSingly) {
   CondensedProblem problem(pair, chain(2), testing::cosine_load());
   FrequencySweepOptions options;
   options.from = 0.02;
-  options.to = 0.1;
+  options.to = 0.06;
   const FrequencySweep sweep = frequency_sweep(problem, springs({0, 1}), options);
   ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
   ASSERT_GE(sweep.turning_points.size(), 2u);
@@ -267,8 +267,10 @@ TEST(ManyContactsSweep, PassesFoldsAndEqualsPointsSolvedSingly) {
     high = std::max(high, turning.frequency);
   }
   int compared = 0;
-  for (const SweepPoint& point : sweep.points) {
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const SweepPoint& point = sweep.points[i];
     EXPECT_LE(point.residual, 1e-9);
+    if (i % 5 != 0) continue;
     if (point.frequency >= low && point.frequency <= high) continue;  // more than one response
     problem.set_frequency(point.frequency);
     const PeriodicResponse single = forced_response(problem, springs({0, 1}), {});
