@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "colour_bands.hpp"
 #include "number_text.hpp"
 #include "plot_text.hpp"
 
@@ -144,39 +145,6 @@ std::vector<Facet> facets_of(const SurfaceView& view, double tolerance) {
   return facets;
 }
 
-struct Rgb {
-  double red, green, blue;
-};
-
-/// Linear between stops, uniform over 0..1.
-Rgb colour_at(ColourBands::Map map, double share) {
-  static const std::vector<Rgb> diverging{
-      {0, 114, 178}, {127, 184, 216}, {255, 255, 255}, {234, 174, 127}, {213, 94, 0}};
-  static const std::vector<Rgb> sequential{
-      {247, 251, 255}, {173, 216, 240}, {86, 180, 233}, {0, 114, 178}, {6, 42, 78}};
-  const auto& stops = map == ColourBands::Map::diverging ? diverging : sequential;
-  const double place = share * static_cast<double>(stops.size() - 1);
-  const auto low = std::min(static_cast<std::size_t>(place), stops.size() - 2);
-  const double rest = place - static_cast<double>(low);
-  const Rgb &a = stops[low], &b = stops[low + 1];
-  return {a.red + rest * (b.red - a.red), a.green + rest * (b.green - a.green),
-          a.blue + rest * (b.blue - a.blue)};
-}
-
-int packed(const Rgb& colour) {
-  return (static_cast<int>(std::lround(colour.red)) << 16) +
-         (static_cast<int>(std::lround(colour.green)) << 8) + static_cast<int>(std::lround(colour.blue));
-}
-
-int band_colour(const ColourBands& colours, int band) {
-  return packed(colour_at(colours.map, static_cast<double>(band) / (colours.bands - 1)));
-}
-
-int band_of(const ColourBands& colours, double value) {
-  const double place = (value - colours.lower) / (colours.upper - colours.lower) * colours.bands;
-  return std::clamp(static_cast<int>(std::floor(place)), 0, colours.bands - 1);
-}
-
 std::string polygon_text(const Polygon& polygon, int colour, double resolution) {
   std::string text;
   const auto line = [&](const Corner& corner) {
@@ -188,11 +156,46 @@ std::string polygon_text(const Polygon& polygon, int colour, double resolution) 
   return text + "\n";
 }
 
+/// The edges of facets, each once, as connected lines.
+class Edges {
+ public:
+  explicit Edges(double resolution) : resolution_(resolution) {}
+
+  void add(const Polygon& ring) {
+    bool joined = false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Place from = place(ring[i]), to = place(ring[(i + 1) % ring.size()]);
+      if (!drawn_.insert(std::minmax(from, to)).second) {
+        joined = false;
+        continue;
+      }
+      if (!joined) text_ += "\n" + row(from);
+      text_ += row(to);
+      joined = true;
+    }
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  using Place = std::pair<long, long>;  // in units of the resolution
+  Place place(const Corner& corner) const {
+    return {std::lround(corner.at.x() / resolution_), std::lround(corner.at.y() / resolution_)};
+  }
+  std::string row(const Place& at) const {
+    return coordinate(static_cast<double>(at.first) * resolution_) + " " +
+           coordinate(static_cast<double>(at.second) * resolution_) + "\n";
+  }
+
+  double resolution_;
+  std::set<std::pair<Place, Place>> drawn_;
+  std::string text_;
+};
+
 /// The facet in the colour of its lowest band, and over it the parts above each further level: no gaps show.
 std::string filled(const Facet& facet, const SurfaceView& view, double resolution) {
   if (!facet.valued) {
     const double brightness = 235.0 * (1.0 - view.shading * (1.0 - facet.light));
-    return polygon_text(facet.ring, packed({brightness, brightness, brightness}), resolution);
+    return polygon_text(facet.ring, grey(brightness), resolution);
   }
   const auto [least, largest] =
       std::minmax_element(facet.ring.begin(), facet.ring.end(),
@@ -201,8 +204,7 @@ std::string filled(const Facet& facet, const SurfaceView& view, double resolutio
   const int first = band_of(colours, least->value), last = band_of(colours, largest->value);
   std::string text = polygon_text(facet.ring, band_colour(colours, first), resolution);
   for (int band = first + 1; band <= last; ++band) {
-    const double level = colours.lower + (colours.upper - colours.lower) * band / colours.bands;
-    const Polygon part = above(facet.ring, level);
+    const Polygon part = above(facet.ring, level_of(colours, band));
     if (part.size() >= 3) text += polygon_text(part, band_colour(colours, band), resolution);
   }
   return text;
@@ -256,20 +258,21 @@ void add(SurfaceScript& script, const std::string& name, const std::string& rows
 
 void add_facets(SurfaceScript& script, const SurfaceView& view, const std::string& name, double size) {
   const double resolution = size * 1e-4;
-  const auto facets = facets_of(view, 5.0 * resolution);
+  const auto facets = facets_of(view, 10.0 * resolution);
   int layers = 0;
   for (const Facet& facet : facets) layers = std::max(layers, facet.layer + 1);
   for (int layer = 0; layer < layers; ++layer) {
-    std::string fills, lines;
+    std::string fills;
+    Edges edges(resolution);
     for (const Facet& facet : facets)
       if (facet.layer == layer) {
         fills += filled(facet, view, resolution);
-        lines += polygon_text(facet.ring, 0, resolution);
+        edges.add(facet.ring);
       }
     const std::string number = std::to_string(layer);
     add(script, name + "_fill" + number, fills,
         "using 1:2:3 with filledcurves closed fc rgb variable notitle");
-    add(script, name + "_lines" + number, lines,
+    add(script, name + "_lines" + number, edges.text(),
         "using 1:2 with lines lc rgb '#444444' lw 0.45 dt 1 notitle");
   }
 }
@@ -293,25 +296,6 @@ std::string axes_text(const SurfaceView& view, const Eigen::Vector2d& corner) {
             number_text(label.y()) + " center front\n";
   }
   return text;
-}
-
-/// '#0a1b2c', quoted.
-std::string hexadecimal(int colour) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text = "'#";
-  for (int shift = 20; shift >= 0; shift -= 4) text += digits[(colour >> shift) & 15];
-  return text + "'";
-}
-
-std::string palette_text(const ColourBands& colours) {
-  std::string stops;
-  for (int band = 0; band < colours.bands; ++band)
-    for (const int end : {band, band + 1})
-      stops +=
-          (stops.empty() ? "" : ", ") + std::to_string(end) + " " + hexadecimal(band_colour(colours, band));
-  return "set palette defined (" + stops + ")\nset cbrange [" + number_text(colours.lower) + ":" +
-         number_text(colours.upper) + "]\nset cblabel " + quoted(colours.label) +
-         "\nset colorbox\nset cbtics scale 0.4\nset rmargin 14\n";
 }
 
 }  // namespace
@@ -362,7 +346,8 @@ SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis&
               symbol_text(static_cast<std::size_t>(std::max(marks.marker, 1) - 1)) + " title " +
               quoted(marks.label));
     }
-  const Eigen::Vector2d lower = extent.lower.array() - margin, upper = extent.upper.array() + margin;
+  const Eigen::Vector2d lower = extent.lower.array() - margin - 0.8 * view.axes;
+  const Eigen::Vector2d upper = extent.upper.array() + margin;
   script.setup = "set size ratio -1\n" + limits_text("x", x, lower.x(), upper.x()) +
                  limits_text("y", y, lower.y(), upper.y());
   if (view.axes > 0.0)
@@ -370,12 +355,7 @@ SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis&
         axes_text(view, {x.lower.value_or(lower.x()) + 0.3 * margin, y.lower.value_or(lower.y()) + margin});
   const bool valued = std::any_of(view.surfaces.begin(), view.surfaces.end(),
                                   [](const Surface& surface) { return !surface.values.empty(); });
-  if (valued && view.colours.bar) {
-    script.setup += palette_text(view.colours);
-    // A point out of sight, which makes gnuplot draw the bar.
-    script.items.push_back("'+' using (NaN):(NaN):(" + number_text(view.colours.lower) +
-                           ") with points pt 0 lc palette notitle");
-  }
+  if (valued && view.colours.bar) script.setup += colour_bar_text(view.colours);
   return script;
 }
 

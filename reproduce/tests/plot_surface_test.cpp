@@ -106,7 +106,7 @@ TEST(Surface, ValuesBecomeBandsThatMeetAtTheirLevels) {
     }
     EXPECT_NEAR(lowest, 0.25 * band, 1e-4);
   }
-  EXPECT_NE(script.find("set cbrange [0:1]"), std::string::npos);
+  EXPECT_EQ(occurrences(script, "set object rectangle from graph"), 5);  // four bands and their frame
   EXPECT_NE(script.find("height (m)"), std::string::npos);
   const std::string svg = render(figure, PictureFormat::svg);
   EXPECT_NE(svg.find("height (m)"), std::string::npos);

@@ -39,6 +39,11 @@ void Artefact::more_data(const std::string& suffix, reproduce::Table table, std:
   headings_.push_back(heading(std::move(units), {}));
 }
 
+void Artefact::attach(const std::string& name, std::string contents, bool listed) {
+  texts_[name] = std::move(contents);
+  if (!listed) unlisted_.insert(name);
+}
+
 void Artefact::picture(reproduce::Figure figure) { figure_ = std::move(figure); }
 
 void Artefact::markdown(const reproduce::Table& table) {
@@ -62,7 +67,7 @@ void Artefact::write(double wall_seconds) {
   reproduce::OutputFiles files(output_);
   for (const auto& [name, text] : texts_) {
     files.add(name, text);
-    record_.files.push_back(name);
+    if (unlisted_.count(name) == 0) record_.files.push_back(name);
   }
   record_.wall_seconds = wall_seconds;
   reproduce::OutputFiles records(output_ / "records");

@@ -32,11 +32,11 @@ std::string verdict(const Claim& claim) {
   return fmt::format("<td class=\"verdict {0}\">{0}</td>", word);
 }
 
-std::string claims_table(const std::vector<Claim>& claims) {
+std::string claims_table(const std::vector<Claim>& claims, const char* who) {
   if (claims.empty()) return "";
-  std::string text =
-      "<table><tr><th>The paper says</th><th>Measured, and what decides</th><th>Found in this "
-      "run</th><th></th></tr>\n";
+  std::string text = std::string("<table><tr><th>") + who +
+                     "</th><th>Measured, and what decides</th><th>Found in this "
+                     "run</th><th></th></tr>\n";
   for (const Claim& claim : claims)
     text +=
         fmt::format("<tr><td><q>{}</q> <span class=\"place\">({})</span></td><td>{}</td><td>{}</td>{}</tr>\n",
@@ -83,11 +83,14 @@ std::string origins(const Record& record) {
   return text + fmt::format(" · {:.2f} s</p>\n", record.wall_seconds);
 }
 
-std::string artefact_section(const Record& record) {
+/// Who says what is held against the figures.
+const char* speaker(const Paper& paper) { return paper.link.empty() ? "Statement" : "The paper says"; }
+
+std::string artefact_section(const Record& record, const Paper& paper) {
   std::string text = fmt::format("<section id=\"{}\">\n<h3>{}: {}</h3>\n", record.identity.stem,
                                  escaped(record.identity.number), escaped(record.identity.title));
   text += picture(record) + "<p>" + escaped(record.caption) + "</p>\n" + data_table(record.table);
-  text += claims_table(record.claims);
+  text += claims_table(record.claims, speaker(paper));
   for (const auto& note : record.notes) text += "<p class=\"note\">" + escaped(note) + "</p>\n";
   return text + origins(record) + "</section>\n";
 }
@@ -104,8 +107,8 @@ std::string differing(const Section& section) {
             escaped(claim.measured));
   if (rows.empty()) return "";
   return "<h3>Statements that do not hold as measured here</h3>\n"
-         "<table><tr><th></th><th>The paper says</th><th>Found in this run</th></tr>\n" +
-         rows + "</table>\n";
+         "<table><tr><th></th><th>" +
+         std::string(speaker(section.paper)) + "</th><th>Found in this run</th></tr>\n" + rows + "</table>\n";
 }
 
 std::string overview(const Section& section) {
@@ -121,20 +124,21 @@ std::string overview(const Section& section) {
     }
   }
   return fmt::format(
-      "<p>{} figures, tables and references in {:.1f} s of computing. Of {} statements of the paper <span "
+      "<p>{} figures, tables and references in {:.1f} s of computing. Of {} statements{} <span "
       "class=\"verdict agrees\">{} agree</span> and <span class=\"verdict differs\">{} differ</span> by the "
       "thresholds given with each.</p>\n<nav>{}</nav>\n",
-      section.records.size(), seconds, claims, holding, claims - holding, links);
+      section.records.size(), seconds, claims, section.paper.link.empty() ? "" : " of the paper", holding,
+      claims - holding, links);
 }
 
 std::string paper_section(const Section& section) {
-  std::string text = fmt::format(
-      "<h2>{}</h2>\n<p class=\"place\">Text: <a href=\"{}\">{}</a>. Sentences are quoted from it "
-      "under {}.</p>\n",
-      escaped(section.paper.citation), section.paper.link, escaped(section.paper.link),
-      escaped(section.paper.licence));
+  std::string text = fmt::format("<h2>{}</h2>\n", escaped(section.paper.citation));
+  if (!section.paper.link.empty())
+    text += fmt::format(
+        "<p class=\"place\">Text: <a href=\"{}\">{}</a>. Sentences are quoted from it under {}.</p>\n",
+        section.paper.link, escaped(section.paper.link), escaped(section.paper.licence));
   text += overview(section) + differing(section);
-  for (const Record& record : section.records) text += artefact_section(record);
+  for (const Record& record : section.records) text += artefact_section(record, section.paper);
   return text;
 }
 
@@ -151,6 +155,7 @@ const std::vector<Paper>& papers() {
        "Laxalde & Legrand 2010, Nonlinear modal analysis of mechanical systems with frictionless contact "
        "interfaces (preprint, version 1)",
        "https://hal.science/hal-00492775", "the right of quotation"},
+      {"blade", "The blade further: beyond the papers", "", ""},
   };
   return all;
 }

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/report/page.hpp"
 #include "wavebalance/reproduce/output.hpp"
@@ -66,6 +69,27 @@ TEST(Page, LinksPicturesAndDataAndHasNoScript) {
   EXPECT_NE(page().find("href=\"some_paper/fig01_example.csv\""), std::string::npos);
   EXPECT_NE(page().find("src=\"some_paper/fig01_example.png\""), std::string::npos);
   EXPECT_EQ(page().find("<script"), std::string::npos);
+}
+
+TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOne) {
+  const std::string own = page_html({{{"own", "Further", "", ""}, {example()}}});
+  EXPECT_EQ(own.find("Sentences are quoted"), std::string::npos);
+  EXPECT_EQ(own.find("The paper says"), std::string::npos);
+  EXPECT_NE(own.find("Statement"), std::string::npos);
+  EXPECT_NE(page().find("The paper says"), std::string::npos);
+}
+
+TEST(Artefact, AttachedFilesAreWrittenAndOnlyListedOnesAreLinked) {
+  std::string folder = (std::filesystem::temp_directory_path() / "wavebalance_report_XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder, folder);
+  artefact.attach("series.pvd", "a");
+  artefact.attach("series_00.vtu", "b", false);
+  artefact.write(0.0);
+  EXPECT_EQ(reproduce::read_file(std::filesystem::path(folder) / "series_00.vtu"), "b");
+  const auto record = std::filesystem::path(folder) / "records" / "fig02.json";
+  EXPECT_EQ(parse_record(reproduce::read_file(record), record).files, std::vector<std::string>{"series.pvd"});
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Markdown, HoldsARowALine) {

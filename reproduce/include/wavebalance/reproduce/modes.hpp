@@ -46,6 +46,8 @@ class ModeStudy {
   const Scene& scene() const { return scene_; }
   const StructureModel& model() const { return model_; }
   const solvers::NonlinearMode& mode() const { return mode_; }
+  /// n x r, mass-normalised, of the (reduced) structure's own coordinates.
+  const Eigen::MatrixXd& linear_shapes() const { return modes_.shapes; }
   double linear_frequency() const;  ///< Hz
 
   /// The curve up to analysis.largest_energy or analysis.last_frequency_ratio.

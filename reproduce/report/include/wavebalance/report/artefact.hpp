@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ class Artefact {
   void data(reproduce::Table table, std::string units, std::vector<std::string> notes = {});
   /// A further CSV file, stem_suffix.csv.
   void more_data(const std::string& suffix, reproduce::Table table, std::string units);
+  /// Any other file beside stem.csv; the page links it if `listed`.
+  void attach(const std::string& name, std::string contents, bool listed = true);
   void picture(reproduce::Figure figure);
   void markdown(const reproduce::Table& table);
   void caption(std::string text) { record_.caption = std::move(text); }
@@ -51,6 +54,7 @@ class Artefact {
   std::filesystem::path output_;
   std::filesystem::path scenes_;
   std::map<std::string, std::string> texts_;
+  std::set<std::string> unlisted_;
   std::vector<std::pair<std::string, reproduce::Table>> tables_;
   std::vector<reproduce::CsvHeading> headings_;
   std::optional<reproduce::Figure> figure_;

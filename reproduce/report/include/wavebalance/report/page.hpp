@@ -6,11 +6,11 @@
 
 namespace wavebalance::report {
 
-/// What the page says of a paper as a whole.
+/// What the page says of a paper as a whole, or of results of this project's own.
 struct Paper {
   std::string folder;    ///< below results/ and reproduce/scenes/
   std::string citation;  ///< authors, title, where and when
-  std::string link;      ///< to its text
+  std::string link;      ///< to its text; empty: results of this project's own
   std::string licence;   ///< of the sentences quoted
 };
 

@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/fem/blade.hpp"
+#include "wavebalance/reproduce/modes.hpp"
+#include "wavebalance/reproduce/surface.hpp"
+
+/// What is measured of a blade's motions and how they are drawn.
+namespace wavebalance::blade {
+
+/// Displacements of all nodes of the scene's blade, 3 x nodes (m), at `times` uniform times of a mode's
+/// period from t = 0 on. O(n r times), n unknowns and r coordinates of the reduced blade.
+std::vector<Eigen::Matrix3Xd> motion(const reproduce::ModeStudy& study, const solvers::ModePoint& point,
+                                     int times);
+
+/// The rigid motion in planes z = const that is nearest to the displacements of the tip's contact nodes
+/// (least squares).
+struct TipMotion {
+  Eigen::Vector2d translation = Eigen::Vector2d::Zero();  ///< m, of the nodes' centre
+  double rotation = 0.0;                                  ///< rad, about z
+  double radius = 0.0;                                    ///< m, of gyration of the nodes about their centre
+  /// Of the squared displacement of the rigid motion, the share that is rotation.
+  double rotation_share() const;
+};
+/// displacements: 3 x nodes, m.
+TipMotion tip_motion(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements);
+
+/// Half the difference of the largest and the smallest rotation of the tip over a period, rad.
+double twist_amplitude(const fem::Blade& blade, const std::vector<Eigen::Matrix3Xd>& motion);
+
+/// Which linear modes are torsion: those whose tip rotates more than it translates.
+std::vector<bool> torsion_modes(const reproduce::ModeStudy& study);
+
+/// Of the kinetic energy of a motion, mean over its period, the share in the modes of `torsion`: linear modes
+/// are orthogonal, so that the energy is the sum over harmonics n and modes j of n^2 |a_jn|^2.
+double torsion_share(const std::vector<bool>& torsion, const solvers::ModePoint& point);
+
+/// Fractions of the period at which samples bear a force, at the contact nodes of either half of the chord.
+struct EdgeContact {
+  std::vector<double> leading, trailing;
+};
+/// force: contacts x samples, N, contacts from the leading to the trailing edge.
+EdgeContact edge_contact(const Eigen::MatrixXd& force);
+/// True if `times` are symmetric about `centre` (all in periods) and hold it, to half a sample.
+bool centred(const std::vector<double>& times, double centre, double sample);
+
+/// The blade's surface in mm. displacements: 3 x nodes, m, or empty; added `scale` times.
+reproduce::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {},
+                           double scale = 0.0);
+
+}  // namespace wavebalance::blade

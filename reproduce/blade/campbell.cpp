@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "rotating_blade.hpp"
+#include "wavebalance/report/artefact.hpp"
+#include "wavebalance/reproduce/modes.hpp"
+
+using namespace wavebalance;
+using reproduce::Colour;
+
+namespace {
+
+constexpr double energies[] = {1.0, 2.0, 4.0, 7.0, 10.4};
+constexpr double largest_rpm = 12000.0;
+constexpr int speeds = 6;
+constexpr double lowest = 500.0, highest = 850.0;  // Hz, of the picture
+constexpr int claimed_order = 5;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+double rad_per_s(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
+
+std::string column(double energy) { return "energy_" + report::number(energy); }
+
+/// Hz over rotation speed for each energy; missing where the branch was not found.
+reproduce::Table campbell(const blade::RotatingBlade& blade, const reproduce::Scene& scene,
+                          std::string& interruptions) {
+  std::vector<std::string> columns{"rotation_rpm", "linear_Hz"};
+  for (const double energy : energies) columns.push_back(column(energy));
+  reproduce::Table table(columns);
+  for (int i = 0; i < speeds; ++i) {
+    const double rpm = largest_rpm * i / (speeds - 1);
+    const reproduce::ModeStudy study(scene, blade.at(rad_per_s(rpm)));
+    const auto curve = study.backbone();
+    for (const auto& gap : curve.interruptions)
+      interruptions += (interruptions.empty() ? "" : ", ") + report::number(rpm, 5) +
+                       " 1/min: " + (gap.tongues.empty() ? gap.status : gap.tongues.front()) + " at " +
+                       report::number(gap.first_ratio, 4);
+    std::vector<reproduce::Cell> row{rpm, study.linear_frequency()};
+    for (const double energy : energies) {
+      const auto point = study.at_energy(curve, energy);
+      row.emplace_back(point.accepted() ? point.omega / (2.0 * std::numbers::pi) : missing);
+    }
+    table.append_row(row);
+  }
+  return table;
+}
+
+reproduce::Figure drawn(const reproduce::Table& table) {
+  reproduce::Figure figure;
+  figure.panel_width = 760;
+  figure.panel_height = 480;
+  auto& panel = figure.add_panel("first mode of the blade");
+  panel.x.label = "Rotation speed (1/min)";
+  panel.x.lower = 0.0;
+  panel.x.upper = largest_rpm;
+  panel.y.label = "Frequency (Hz)";
+  panel.y.lower = lowest;
+  panel.y.upper = highest;
+  panel.legend = reproduce::Legend::right_of_panel;
+  for (const double energy : energies) {
+    reproduce::Series series("energy " + report::number(energy) + (energy == 1.0 ? " (linear)" : ""), table,
+                             "rotation_rpm", column(energy), reproduce::SeriesStyle::line_points);
+    series.marker = 1;
+    panel.add(series);
+  }
+  for (const int order : {4, 5, 6, 8}) {
+    const double per_rpm = order / 60.0, to = std::min(highest / per_rpm, largest_rpm);
+    panel.segments.push_back(
+        {lowest / per_rpm, lowest, to, to * per_rpm, false, reproduce::Dash::dashed, Colour::grey, 1.0});
+    const double label = lowest + 0.08 * (highest - lowest);
+    panel.texts.push_back(
+        {label / per_rpm - 100.0, label, "EO " + std::to_string(order), reproduce::TextMark::Align::right});
+  }
+  return figure;
+}
+
+/// Rotation speed at which engine order `order` meets the frequencies of a column, linear between speeds; NaN
+/// outside.
+double crossing(const reproduce::Table& table, double energy, int order) {
+  const auto rpm = table.numbers("rotation_rpm"), hz = table.numbers(column(energy));
+  for (std::size_t i = 1; i < rpm.size(); ++i) {
+    const double before = hz[i - 1] - order * rpm[i - 1] / 60.0, after = hz[i] - order * rpm[i] / 60.0;
+    if (before >= 0.0 && after <= 0.0) return rpm[i - 1] + (rpm[i] - rpm[i - 1]) * before / (before - after);
+  }
+  return missing;
+}
+
+void claims(report::Artefact& artefact, const reproduce::Table& table) {
+  bool with_speed = true, with_energy = true;
+  const auto linear = table.numbers("linear_Hz");
+  for (std::size_t i = 1; i < linear.size(); ++i) with_speed = with_speed && linear[i] > linear[i - 1];
+  int found = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    double before = 0.0;
+    for (const double energy : energies) {
+      const double value = table.numbers(column(energy))[row];
+      if (std::isnan(value)) continue;
+      with_energy = with_energy && value > before;
+      before = value;
+      ++found;
+    }
+  }
+  artefact.claim({"this project", "Centrifugal forces stiffen the blade.",
+                  "the first linear frequency rises from each speed to the next",
+                  report::number(linear.front(), 5) + " Hz at rest, " + report::number(linear.back(), 5) +
+                      " Hz at " + report::number(largest_rpm, 5) + " 1/min",
+                  with_speed});
+  artefact.claim({"this project", "Contact stiffens it at every speed.",
+                  "at each speed the frequency rises from each energy to the next",
+                  std::to_string(found) + " of " + std::to_string(table.rows() * std::size(energies)) +
+                      " points found; " + report::number(table.numbers(column(10.4)).front(), 5) +
+                      " Hz at rest and energy 10.4",
+                  with_energy});
+  const double still = crossing(table, 1.0, claimed_order), moved = crossing(table, 10.4, claimed_order);
+  artefact.claim({"this project",
+                  "A resonance with an engine order moves to another speed when the tip touches.",
+                  "engine order " + std::to_string(claimed_order) +
+                      " meets the mode of energy 10.4 at a speed at least 5 % above that of the linear mode",
+                  report::number(still, 5) + " 1/min without contact, " + report::number(moved, 5) +
+                      " 1/min at energy 10.4",
+                  moved > 1.05 * still});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const report::Identity identity{"blade", "Blade: Campbell diagram",
+                                  "frequency over rotation speed at several energies", "campbell"};
+  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
+    const auto scene = artefact.scene("campbell.toml");
+    const blade::RotatingBlade blade(scene);
+    std::string interruptions;
+    const auto table = campbell(blade, scene, interruptions);
+    artefact.data(table, "rotation_rpm in 1/min, frequencies in Hz; missing where the branch was not found",
+                  {"energies over that of the linear mode that just touches at the same speed"});
+    artefact.picture(drawn(table));
+    artefact.caption(
+        "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the "
+        "open "
+        "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
+        "that just touches at the same speed; EO are engine orders.");
+    artefact.note(
+        "The gap is that of the turning blade. Its static displacement, up to " +
+        report::number(1e3 * blade.static_displacement(rad_per_s(largest_rpm)), 2) +
+        " mm at the largest speed, stiffens the blade but is not part of the motion; Coriolis forces are not "
+        "included. All speeds take the reduction at rest (" +
+        report::number(blade.at_rest().reduction_seconds, 2) + " s).");
+    if (!interruptions.empty())
+      artefact.note(
+          "Branches interrupted by internal resonances (harmonic : linear mode) or unsolved, at "
+          "frequencies over the linear one: " +
+          interruptions + ".");
+    claims(artefact, table);
+  });
+}

@@ -1,0 +1,62 @@
+#include "blade.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "wavebalance/fem/eigenmodes.hpp"
+
+namespace wavebalance::ll10 {
+
+solvers::ModePoint accepted_at(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+                               double energy_ratio) {
+  auto point = study.at_energy(curve, energy_ratio);
+  if (!point.accepted())
+    throw report::NotConverged("energy ratio " + report::number(energy_ratio) + ": " +
+                               to_string(point.status));
+  return point;
+}
+
+Table blade_backbones(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+                      const std::vector<solvers::LagrangianPoint>& published) {
+  const double linear = study.mode().linear_omega();
+  Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
+  table.append_row({"published", 0.0, 1.0, 1.0});
+  for (const auto& point : published) {
+    const double root = std::sqrt(point.rayleigh) / linear;
+    if (point.accepted()) table.append_row({"published", point.prescribed_ratio, root, root});
+  }
+  table.append_row({"consistent", 0.0, 1.0, 1.0});
+  table.append_row({"consistent", 1.0, 1.0, 1.0});
+  for (const auto& point : curve.points)
+    if (point.accepted())
+      table.append_row(
+          {"consistent", point.energy_ratio, point.omega / linear, std::sqrt(point.rayleigh) / linear});
+  return table;
+}
+
+Table blade_measures(const reproduce::ModeStudy& study, const reproduce::Backbone& curve) {
+  constexpr int times = 32;
+  const double degrees_per_mm = 180.0 / std::numbers::pi * 1e-3 / study.scene().contact.gap;
+  const auto torsion = blade::torsion_modes(study);
+  Table table({"energy_ratio", "torsion_share", "tip_twist_degrees", "contact_fraction"});
+  for (const auto& point : curve.points) {
+    if (!point.accepted()) continue;
+    const double twist =
+        blade::twist_amplitude(*study.model().blade, blade::motion(study, point, times)) * degrees_per_mm;
+    table.append_row(
+        {point.energy_ratio, blade::torsion_share(torsion, point), twist, point.contact_fraction});
+  }
+  return table;
+}
+
+double reduction_error(const reproduce::ModeStudy& study) {
+  constexpr int modes = 8;
+  const auto matrices = fem::solid_matrices(study.model().blade->model);
+  const auto whole = fem::eigenmodes(matrices.stiffness, matrices.mass, modes);
+  if (whole.status != fem::EigenmodesStatus::converged)
+    throw report::NotConverged("frequencies of the whole blade");
+  const Eigen::VectorXd reduced = study.mode().model().omega_squared.head(modes).cwiseSqrt();
+  return (reduced.cwiseQuotient(whole.omega).array() - 1.0).abs().maxCoeff();
+}
+
+}  // namespace wavebalance::ll10

@@ -1,0 +1,130 @@
+// Runs the programs of the blade's figures and holds what they write to figures found independently.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "blade.hpp"
+#include "wavebalance/report/record.hpp"
+#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace wavebalance::ll10 {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Ll10Blade : public testing::Test {
+ protected:
+  Ll10Blade() {
+    std::string name = (fs::temp_directory_path() / "wavebalance_ll10_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder_ = name;
+  }
+  ~Ll10Blade() override { fs::remove_all(folder_); }
+
+  int run(const std::string& program) const {
+    const std::string command =
+        std::string(LL10_PROGRAMS) + "/ll10_" + program + " --output '" + folder_.string() + "'";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+  Table read(const std::string& file) const { return reproduce::read_csv(folder_ / file); }
+  bool has(const std::string& file) const { return fs::is_regular_file(folder_ / file); }
+  bool verdict(const std::string& stem, const std::string& words) const {
+    const auto file = folder_ / "records" / (stem + ".json");
+    for (const auto& claim : report::parse_record(reproduce::read_file(file), file).claims)
+      if (claim.quote.find(words) != std::string::npos) return claim.holds;
+    throw std::runtime_error("no statement holds \"" + words + "\"");
+  }
+
+  fs::path folder_;
+};
+
+/// Frequency ratio of a formulation at an energy ratio, linear between its rows.
+double at(const Table& table, const std::string& formulation, double energy_ratio,
+          const std::string& column = "frequency_ratio") {
+  const Table rows = table.where("formulation", formulation);
+  const auto energy = rows.numbers("energy_ratio"), value = rows.numbers(column);
+  for (std::size_t i = 1; i < energy.size(); ++i)
+    if (energy[i - 1] <= energy_ratio && energy_ratio <= energy[i])
+      return value[i - 1] +
+             (value[i] - value[i - 1]) * (energy_ratio - energy[i - 1]) / (energy[i] - energy[i - 1]);
+  throw std::runtime_error("no rows enclose the energy");
+}
+
+TEST_F(Ll10Blade, ModelIsReducedAsThePaperSaysAndItsNodesAreListed) {
+  ASSERT_EQ(run("fig06"), 0);
+  EXPECT_TRUE(verdict("fig06_blade", "Craig-Bampton procedure"));
+  const Table table = read("fig06_blade.csv");
+  EXPECT_EQ(table.rows(), 24u);
+  for (const double z : table.numbers("z_m")) EXPECT_EQ(z, 0.091);
+  EXPECT_LT(table.numbers("x_m").front(), table.numbers("x_m").back());
+  EXPECT_TRUE(has("fig06_blade.svg") && has("fig06_blade.png"));
+}
+
+TEST_F(Ll10Blade, BackboneIsTheListedOneAndThePublishedFormulaFallsShortOfIt) {
+  ASSERT_EQ(run("fig07"), 0);
+  const Table table = read("fig07_blade_backbone.csv");
+  EXPECT_EQ(table.columns(), (std::vector<std::string>{"formulation", "energy_ratio", "frequency_ratio",
+                                                       "rayleigh_frequency_ratio"}));
+  for (const auto& listed : listed_points)
+    EXPECT_NEAR(at(table, "consistent", listed.energy_ratio), listed.frequency_ratio, 0.003);
+  EXPECT_GT(table.where("formulation", "consistent").numbers("energy_ratio").back(), 10.4);
+  EXPECT_GT(table.where("formulation", "published").numbers("energy_ratio").back(), 7.0);
+  EXPECT_LT(at(table, "published", 7.0), 1.13);
+  EXPECT_NEAR(at(table, "published", 7.0), at(table, "consistent", 7.0, "rayleigh_frequency_ratio"), 0.03);
+  for (const char* words : {"Fig. 7 depicts", "increase of the natural frequency", "leading and trailing"})
+    EXPECT_TRUE(verdict("fig07_blade_backbone", words)) << words;
+  EXPECT_FALSE(verdict("fig07_blade_backbone", "ω² = r"));
+}
+
+TEST_F(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
+  ASSERT_EQ(run("fig08"), 0);
+  EXPECT_TRUE(verdict("fig08_blade_shapes", "torsion effects"));
+  EXPECT_TRUE(verdict("fig08_blade_shapes", "Sensitivity of mode shapes"));
+  const Table table = read("fig08_blade_shapes.csv");
+  ASSERT_EQ(table.rows(), 3u * 2u * 24u);
+  const auto energy = table.numbers("energy_ratio"), time = table.numbers("time_fraction"),
+             u = table.numbers("u_z_over_gap");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_LE(u[row], 1.0 + 1e-9) << row;
+    if (energy[row] < 1.0) {
+      EXPECT_LT(u[row], 1.0) << row;
+    }
+  }
+  // The leading edge touches at t = 0, the trailing edge at T/2.
+  const auto touches = [&](double ratio, double fraction, bool leading) {
+    double largest = -1.0;
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      if (energy[row] == ratio && time[row] == fraction && (row % 24 < 12) == leading)
+        largest = std::max(largest, u[row]);
+    return largest > 1.0 - 1e-9;
+  };
+  for (const double ratio : {4.7, 10.4}) {
+    EXPECT_TRUE(touches(ratio, 0.0, true));
+    EXPECT_TRUE(touches(ratio, 0.5, false));
+    EXPECT_FALSE(touches(ratio, 0.0, false));
+    EXPECT_FALSE(touches(ratio, 0.5, true));
+  }
+  for (const char* file :
+       {"fig08_energy_0.8.pvd", "fig08_energy_4.7.pvd", "fig08_energy_10.4.pvd", "fig08_energy_10.4_15.vtu"})
+    EXPECT_TRUE(has(file)) << file;
+}
+
+TEST_F(Ll10Blade, EveryPointBalancesItsForces) {
+  const std::vector<std::string> overrides{"analysis.points=40"};
+  const reproduce::ModeStudy study(reproduce::load_scene(
+      fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "blade_mode.toml", overrides));
+  const auto curve = study.backbone();
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    if (!curve.points[i].accepted()) continue;
+    EXPECT_LT(curve.points[i].identity_defect, 1e-12) << i;  // omega^2 = r + <force> gap / m
+    EXPECT_LT(curve.residuals[i], 1e-9) << i;
+    EXPECT_GE(curve.points[i].min_force, 0.0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::ll10
