@@ -76,5 +76,28 @@ TEST(FastWaveletTransformErrors, NameTheArgument) {
   EXPECT_THROW(transform.analysis(Eigen::VectorXd(), 0), std::invalid_argument);
 }
 
+// The analysis of one level takes the samples of a smooth function's coefficients to those of the translates
+// twice as wide, which are known from their own inner products.
+TEST(TwoScaleFilter, OfTheOrthonormalSplineIsOrthonormalAndRefinesItsTranslates) {
+  const auto phi = ScalingFunction::orthonormal_bspline();
+  const TwoScaleFilter filter = two_scale_filter(phi);
+  EXPECT_EQ(filter.first % 2, 0);
+  EXPECT_NEAR(filter.values.sum(), 2.0, 1e-13);
+  for (int shift = 0; shift < 8; shift += 2) {
+    const Eigen::Index overlap = filter.values.size() - shift;
+    EXPECT_NEAR(filter.values.head(overlap).dot(filter.values.tail(overlap)), shift == 0 ? 2.0 : 0.0, 1e-12);
+  }
+  const PeriodicBasis coarse(phi, 4), fine(phi, 5);
+  const Eigen::VectorXd wide = coarse.samples(256, 0), narrow = fine.samples(256, 0);
+  Eigen::VectorXd refined = Eigen::VectorXd::Zero(256);
+  for (Eigen::Index l = 0; l < filter.values.size(); ++l)
+    for (int i = 0; i < 256; ++i) {
+      const auto from = i - (filter.first + l) * 8;
+      refined[i] += filter.values[l] * narrow[((from % 256) + 256) % 256];
+    }
+  EXPECT_LT((refined - wide).cwiseAbs().maxCoeff(), 1e-11 * wide.cwiseAbs().maxCoeff());
+  EXPECT_EQ(two_scale_filter(ScalingFunction::daubechies(6)).values, daubechies_filter(6));
+}
+
 }  // namespace
 }  // namespace wavebalance::wavelets

@@ -72,4 +72,15 @@ class ScalingFunction {
   double sobolev_exponent_ = 0.0;
 };
 
+/// Filter p of phi itself, phi(x) = sum_l p_l phi(2x - l - first) with an even `first`, of even length: what
+/// FastWaveletTransform takes. Its coarse functions are then numbered first / 2 lower than the translates of
+/// phi. Daubechies: filter(), first 0. The orthonormal B-spline: 2^(-3) (1 + w)^4 C(w^2) / C(w) with C the
+/// symbol of c, by a discrete Fourier sum; it decays like 0.732^|l| and is cut to 224 values, orthonormal to
+/// 1e-13. O(1e5).
+struct TwoScaleFilter {
+  int first = 0;
+  Eigen::VectorXd values;
+};
+TwoScaleFilter two_scale_filter(const ScalingFunction& phi);
+
 }  // namespace wavebalance::wavelets

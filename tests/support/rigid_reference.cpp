@@ -1,0 +1,134 @@
+#include "rigid_reference.hpp"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace wavebalance::reference {
+namespace {
+
+constexpr int halvings = 32;
+
+// State: displacements and velocities of the dofs with mass, displacement of the tip, cosine and sine of the
+// load; time as a fraction of the period.
+class Flows {
+ public:
+  Flows(const solvers::LinearStructure& structure, double gap, double frequency, int points)
+      : masses_(structure.size() - 1), gap_(gap) {
+    const Eigen::MatrixXd m = structure.mass, c = structure.damping, k = structure.stiffness;
+    const int n = masses_, size = 2 * n + 3;
+    if (structure.single_contact("rigid_reference") != n || m.row(n).cwiseAbs().maxCoeff() != 0.0 ||
+        c(n, n) <= 0.0)
+      throw std::invalid_argument(
+          "rigid_reference: the last degree of freedom must touch, have no mass and "
+          "be damped");
+    force_ = Eigen::RowVectorXd::Zero(size);
+    force_ << -k.row(n).head(n), -c.row(n).head(n), -k(n, n), structure.load[n], 0.0;
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, size);
+    forces << -k.topLeftCorner(n, n), -c.topLeftCorner(n, n), -k.col(n).head(n), structure.load.head(n),
+        Eigen::VectorXd::Zero(n);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(m.topLeftCorner(n, n));
+    for (const bool closed : {false, true}) {
+      Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
+      const Eigen::RowVectorXd tip =
+          closed ? Eigen::RowVectorXd::Zero(size) : Eigen::RowVectorXd(force_ / c(n, n));
+      a.block(0, n, n, n).setIdentity();
+      a.middleRows(n, n) = lu.solve(forces - c.col(n).head(n) * tip);
+      a.row(2 * n) = tip;
+      a /= frequency;
+      a(2 * n + 1, 2 * n + 2) = -2.0 * std::numbers::pi;
+      a(2 * n + 2, 2 * n + 1) = 2.0 * std::numbers::pi;
+      for (int h = 0; h <= halvings; ++h) steps_[closed].push_back((a * std::ldexp(1.0 / points, -h)).exp());
+    }
+  }
+
+  double tip(const Eigen::VectorXd& state) const { return state[2 * masses_]; }
+  double force(const Eigen::VectorXd& state) const { return force_ * state; }
+  bool leaves(const Eigen::VectorXd& state, bool closed) const {
+    return closed ? force(state) < 0.0 : tip(state) > gap_;
+  }
+  Eigen::VectorXd advance(const Eigen::VectorXd& state, bool closed, int halving) const {
+    return steps_[closed][static_cast<std::size_t>(halving)] * state;
+  }
+  void close(Eigen::VectorXd& state) const { state[2 * masses_] = gap_; }
+  Eigen::VectorXd start() const {
+    Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * masses_ + 3);
+    state[2 * masses_ + 1] = 1.0;
+    return state;
+  }
+  void reset_load(Eigen::VectorXd& state) const { state.tail<2>() = Eigen::Vector2d(1.0, 0.0); }
+
+ private:
+  int masses_;
+  double gap_;
+  Eigen::RowVectorXd force_;
+  std::array<std::vector<Eigen::MatrixXd>, 2> steps_;
+};
+
+// One sample ahead, through any number of switches, whose places within the sample are appended.
+void advance_sample(const Flows& flows, Eigen::VectorXd& state, bool& closed, std::vector<double>& places) {
+  long done = 0;
+  const long whole = 1L << halvings;
+  while (done < whole) {
+    for (int h = 0; h <= halvings && done < whole; ++h) {
+      const long length = whole >> h;
+      if (done + length > whole) continue;
+      Eigen::VectorXd next = flows.advance(state, closed, h);
+      const bool leaves = flows.leaves(next, closed);
+      if (leaves && h < halvings) continue;
+      state = std::move(next);
+      done += length;
+      if (!leaves) continue;
+      places.push_back(double(done) / double(whole));
+      closed = !closed;
+      if (closed) flows.close(state);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+solvers::LinearStructure without_tip_mass(solvers::LinearStructure structure) {
+  const int tip = structure.size() - 1;
+  structure.mass.coeffRef(tip - 1, tip - 1) +=
+      structure.mass.coeff(tip, tip) + 2.0 * structure.mass.coeff(tip, tip - 1);
+  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
+    structure.mass.coeffRef(row, column) = 0.0;
+  structure.mass.prune(0.0);
+  return structure;
+}
+
+RigidReference rigid_reference(const solvers::LinearStructure& structure, double gap, double frequency_hz,
+                               int points, double tolerance, int max_periods) {
+  const Flows flows(structure, gap, frequency_hz, points);
+  RigidReference result;
+  result.displacement.resize(points);
+  result.contact_force.resize(points);
+  Eigen::VectorXd state = flows.start();
+  bool closed = false;
+  while (!result.converged && result.periods < max_periods) {
+    const Eigen::VectorXd before = state;
+    result.instants.clear();
+    std::vector<double> places;
+    for (int l = 0; l < points; ++l) {
+      result.displacement[l] = flows.tip(state);
+      result.contact_force[l] = closed ? flows.force(state) : 0.0;
+      places.clear();
+      advance_sample(flows, state, closed, places);
+      for (const double place : places) result.instants.push_back((l + place) / points);
+    }
+    flows.reset_load(state);
+    ++result.periods;
+    result.change = (state - before).norm() / state.norm();
+    result.converged = result.change <= tolerance;
+  }
+  return result;
+}
+
+}  // namespace wavebalance::reference
