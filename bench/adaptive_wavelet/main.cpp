@@ -58,6 +58,7 @@ void add_error_panel(reproduce::Figure& figure, const std::string& title, const 
   panel.y.logarithmic = true;
   panel.y.tick_format = "10^{%L}";
   panel.legend = legend;
+  if (legend != Legend::none) panel.y.upper = 10.0;  // room for it above the curves
 }
 
 void mark_instants(Panel& panel, const bench::Study& study) {
