@@ -22,20 +22,25 @@ function(wavebalance_set_test_options target)
     "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 endfunction()
 
-# wavebalance_add_test(name SOURCES <files> LINK <targets> LABELS <labels>)
-# declares one GoogleTest executable whose tests are known to CTest by their own names.
+# wavebalance_add_test(name SOURCES <files> LINK <targets> LABELS <labels> [CASES <number>])
+# declares one GoogleTest executable whose tests are known to CTest by their own names. CASES of each property are
+# tried, 100 by default.
 function(wavebalance_add_test name)
   if(NOT WAVEBALANCE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 T "" "" "SOURCES;LINK;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 T "" "CASES" "SOURCES;LINK;LABELS")
   add_executable(${name} ${T_SOURCES})
   target_link_libraries(${name} PRIVATE ${T_LINK} GTest::gtest_main)
   wavebalance_add_test_headers()
   wavebalance_set_test_options(${name})
   target_precompile_headers(${name} REUSE_FROM wavebalance_test_headers)
+  set(parameters "seed=20140817")
+  if(T_CASES)
+    string(APPEND parameters " max_success=${T_CASES}")
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${T_LABELS}" TIMEOUT 240 ENVIRONMENT "RC_PARAMS=seed=20140817")
+    PROPERTIES LABELS "${T_LABELS}" TIMEOUT 240 ENVIRONMENT "RC_PARAMS=${parameters}")
 endfunction()
 
 # wavebalance_add_readme_test(module): compiles and runs the first ```cpp block of the module's README.md.

@@ -102,9 +102,20 @@ std::string read_header(Lines& lines, const std::string& format, const std::vect
   return symmetry;
 }
 
+// A line of sizes alone must not take memory that no file of that length can need.
+constexpr int largest_side = 100'000'000;
+
 int read_size(const Lines& lines, std::size_t word, const char* what) {
   const int size = lines.number<int>(word, what);
   if (size < 0) lines.fail(std::string(what) + " is " + std::to_string(size) + "; it must not be negative");
+  return size;
+}
+
+int read_side(const Lines& lines, std::size_t word, const char* what) {
+  const int size = read_size(lines, word, what);
+  if (size > largest_side)
+    lines.fail(std::string(what) + " is " + std::to_string(size) + "; it must be at most " +
+               std::to_string(largest_side));
   return size;
 }
 
@@ -126,8 +137,8 @@ struct CoordinateSizes {
 CoordinateSizes read_coordinate_sizes(Lines& lines, bool symmetric) {
   if (!lines.next_with_data()) lines.fail("the line of sizes is missing");
   lines.require_words(3, "rows, columns and entries");
-  const CoordinateSizes sizes{read_size(lines, 0, "the count of rows"),
-                              read_size(lines, 1, "the count of columns"),
+  const CoordinateSizes sizes{read_side(lines, 0, "the count of rows"),
+                              read_side(lines, 1, "the count of columns"),
                               read_size(lines, 2, "the count of entries")};
   if (symmetric && sizes.rows != sizes.columns)
     lines.fail("a symmetric matrix must be square; this one is " + std::to_string(sizes.rows) + " x " +

@@ -75,6 +75,8 @@ TEST(MatrixMarket, NamesWhatIsWrongAndWhere) {
       {general + "2 2.5 1\n", "must be a whole number"},
       {general + "99999999999 1 1\n", "must be a whole number in range"},
       {general + "2 2 5\n", "has room for 4"},
+      {general + "2147483647 2 0\n", "the count of rows is 2147483647; it must be at most 100000000"},
+      {general + "2 2147483647 0\n", "the count of columns is 2147483647; it must be at most 100000000"},
       {symmetric + "2 3 1\n", "must be square; this one is 2 x 3"},
       {general + "2 2 1\n3 1 1\n", "given.mtx:3: the row is 3; it must be in 1..2"},
       {general + "2 2 1\n1 0 1\n", "the column is 0; it must be in 1..2"},

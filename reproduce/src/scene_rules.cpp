@@ -1,6 +1,8 @@
 #include "scene_rules.hpp"
 
 #include <bit>
+#include <cmath>
+#include <initializer_list>
 
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/scene_keys.hpp"
@@ -102,6 +104,26 @@ void check_rigid(const Document& document, const Scene& scene) {
         "analysis.type = \"forced_response\"");
 }
 
+/// Each number may be in range and their products not.
+void check_products(const Document& document, const Scene& scene) {
+  const Structure& bar = scene.structure;
+  const auto check = [&](double value, std::initializer_list<std::string_view> names,
+                         const std::string& what) {
+    if (!(value >= 1e-300 && value <= 1e300))
+      fail_rule(document, names, what + " is " + toml_text(value) + "; expected a product in 1e-300..1e300");
+  };
+  const double size = bar.length / bar.elements;
+  const double stiffness = bar.youngs_modulus * bar.area / size;
+  check(stiffness, {"structure.area", "structure.youngs_modulus"},
+        "the stiffness of an element, youngs_modulus x area x elements / length");
+  check(bar.density * bar.area * size, {"structure.area", "structure.density"},
+        "the mass of an element, density x area x length / elements");
+  if (scene.forcing.amplitude != 0.0)
+    check(std::abs(scene.forcing.amplitude) * bar.length / (bar.youngs_modulus * bar.area),
+          {"forcing.amplitude"},
+          "the static displacement of the tip, amplitude x length / (youngs_modulus x area)");
+}
+
 }  // namespace
 
 void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
@@ -117,6 +139,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
   check_stepping(document, scene);
+  if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
   check_dense_size(document, scene);
 }

@@ -123,6 +123,7 @@ std::string overview(const Section& section) {
       holding += claim.holds ? 1 : 0;
     }
   }
+  if (claims == 0) return fmt::format("<nav>{}</nav>\n", links);
   return fmt::format(
       "<p>{} figures, tables and references in {:.1f} s of computing. Of {} statements{} <span "
       "class=\"verdict agrees\">{} agree</span> and <span class=\"verdict differs\">{} differ</span> by the "
@@ -156,6 +157,7 @@ const std::vector<Paper>& papers() {
        "interfaces (preprint, version 1)",
        "https://hal.science/hal-00492775", "the right of quotation"},
       {"blade", "The blade further: beyond the papers", "", ""},
+      {"extremes", "Extremes: inputs at the edge of what numbers, structures and bases can be", "", ""},
   };
   return all;
 }

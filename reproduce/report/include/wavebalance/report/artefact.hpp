@@ -29,6 +29,8 @@ class Artefact {
 
   /// The scene in scenes/name, with "section.key=value" overrides. The record names it. Throws SceneError.
   reproduce::Scene scene(const std::string& name, const std::vector<std::string>& overrides = {});
+  /// The folder of the scene files.
+  const std::filesystem::path& scenes() const { return scenes_; }
   /// A table that an earlier step left in the output folder. Throws reproduce::IoError naming it.
   reproduce::Table result(const std::string& file) const;
 

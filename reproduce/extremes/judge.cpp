@@ -1,0 +1,210 @@
+#include "judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/reproduce/structure_model.hpp"
+#include "wavebalance/solvers/shooting.hpp"
+#include "wavebalance/solvers/translate_spectrum.hpp"
+#include "wavebalance/spectral/fft.hpp"
+
+namespace wavebalance::extremes {
+namespace {
+
+using reproduce::ContactLawType;
+using reproduce::Scene;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+Eigen::VectorXcd spectrum(spectral::RealFft& fft, const Eigen::VectorXd& samples) {
+  Eigen::VectorXcd result(fft.harmonics());
+  fft.forward({samples.data(), static_cast<std::size_t>(samples.size())},
+              {result.data(), static_cast<std::size_t>(result.size())});
+  return result;
+}
+
+/// Trial coefficients of every degree of freedom, n x (M/2 + 1), by projecting its samples on the trial
+/// functions.
+Eigen::MatrixXcd coefficients(const solvers::TimePair& pair, const Eigen::MatrixXd& displacements) {
+  const solvers::TranslateIndex index{pair.functions(), pair.points()};
+  spectral::RealFft fft(pair.points());
+  Eigen::VectorXcd gram, projected;
+  index.fold(pair.trial_spectrum(), pair.trial_spectrum(), gram);
+  Eigen::MatrixXcd result(displacements.rows(), pair.spectrum_size());
+  for (Eigen::Index dof = 0; dof < displacements.rows(); ++dof) {
+    index.fold(pair.trial_spectrum(), spectrum(fft, displacements.row(dof)), projected);
+    result.row(dof) = projected.cwiseQuotient(gram);
+  }
+  return result;
+}
+
+double motion_residual(const Scene& scene, const solvers::PeriodSamples& samples) {
+  const solvers::LinearStructure structure = reproduce::make_model(scene).structure;
+  const solvers::TimePair pair = reproduce::make_pair(scene.time);
+  const Eigen::MatrixXcd a = coefficients(pair, samples.displacements);
+  spectral::RealFft fft(pair.points());
+  Eigen::VectorXcd contact, harmonics = Eigen::VectorXcd::Zero(2);
+  harmonics[1] = 1.0;
+  pair.project(spectrum(fft, samples.contact_force), contact);
+  const Eigen::VectorXcd load = pair.load(harmonics);
+  const double f = scene.forcing.frequency;
+  const Eigen::Index tip = structure.size() - 1;
+  double worst = 0.0, scale = 0.0;
+  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+    const std::array<Eigen::VectorXcd, 3> terms{structure.mass * (pair.symbol(2)[k] * f * f * a.col(k)),
+                                                structure.damping * (pair.symbol(1)[k] * f * a.col(k)),
+                                                structure.stiffness * (pair.symbol(0)[k] * a.col(k))};
+    Eigen::VectorXcd residual = terms[0] + terms[1] + terms[2] - structure.load * load[k];
+    residual[tip] += contact[k];
+    double size = std::abs(contact[k]) + structure.load.cwiseAbs().maxCoeff() * std::abs(load[k]);
+    for (const auto& term : terms) size += term.cwiseAbs().maxCoeff();
+    worst = std::max(worst, residual.cwiseAbs().maxCoeff());
+    scale = std::max(scale, size);
+    if (std::isnan(residual.cwiseAbs().sum())) return missing;
+  }
+  return scale > 0.0 ? worst / scale : worst;
+}
+
+double complementarity(const Scene& scene, const solvers::PeriodSamples& samples) {
+  const Eigen::ArrayXd force = samples.contact_force.array();
+  const Eigen::ArrayXd opening = scene.contact.gap - samples.displacement.array();
+  const double largest = force.abs().maxCoeff();
+  const double span = samples.displacement.cwiseAbs().maxCoeff();
+  double worst = 0.0;
+  if (largest > 0.0)
+    worst = std::max(
+        {0.0, -force.minCoeff() / largest, (force * (opening > 0.0).cast<double>()).maxCoeff() / largest});
+  if (scene.contact.law != ContactLawType::rigid) return worst;
+  // On the obstacle to rounding or to the solver's promise, the force presses or not.
+  worst = std::max(0.0, -force.minCoeff()) / (largest > 0.0 ? largest : 1.0);
+  if (span > 0.0) worst = std::max(worst, -opening.minCoeff() / span);
+  if (largest > 0.0 && span > 0.0)
+    worst = std::max(worst, ((force / largest) * (opening / span)).abs().maxCoeff());
+  return worst;
+}
+
+/// Steps follow the fastest mode of the structure: many periods of it take too many.
+bool is_slow(const Scene& scene) {
+  const auto& bar = scene.structure;
+  return scene.forcing.frequency * bar.length < 0.01 * std::sqrt(bar.youngs_modulus / bar.density);
+}
+
+bool can_be_stepped(const Scene& scene, int stepped_elements) {
+  return !is_slow(scene) && scene.contact.law != ContactLawType::rigid && !scene.structure.massless_tip &&
+         scene.structure.elements <= stepped_elements && scene.time.trial != "haar" &&
+         scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
+}
+
+double periodicity(const Scene& scene, const solvers::PeriodSamples& samples) {
+  solvers::ShootingOptions options;
+  options.output_points = 2;
+  options.settling_periods = 0;
+  options.max_iterations = 1;
+  options.initial_displacement = samples.displacements.col(0);
+  options.initial_velocity = samples.velocities.col(0);
+  try {
+    const auto result = solvers::shoot(reproduce::make_model(scene).structure,
+                                       reproduce::make_law(scene.contact), scene.forcing.frequency, options);
+    return result.residual_history.empty() ? missing : result.residual_history.front();
+  } catch (const std::invalid_argument&) {
+    return missing;  // an undamped structure at a natural frequency of its own
+  }
+}
+
+bool all_finite(const solvers::PeriodSamples& samples) {
+  return samples.displacement.allFinite() && samples.velocity.allFinite() &&
+         samples.contact_force.allFinite() && samples.displacements.allFinite() &&
+         samples.velocities.allFinite();
+}
+
+/// What is wrong with a response that calls itself converged; empty if nothing is.
+std::string objection(const reproduce::Response& response, const Residuals& found) {
+  if (!all_finite(response.samples)) return "converged with samples that are not finite";
+  if (!(response.residual >= 0.0)) return "converged with a residual that is no number";
+  if (!(found.motion <= largest_motion_residual)) return "converged, the equation of motion does not hold";
+  if (!(found.complementarity <= largest_complementarity)) return "converged, complementarity does not hold";
+  return "";
+}
+
+Verdict solved_or_not(const Scene& scene, int stepped_elements = 30) {
+  Verdict verdict;
+  const reproduce::Response response = solve(scene);
+  if (!response.converged) {
+    verdict.outcome = Outcome::not_converged;
+    verdict.text = response.status;
+    return verdict;
+  }
+  verdict.residuals = residuals(scene, response, stepped_elements);
+  verdict.text = objection(response, verdict.residuals);
+  verdict.outcome = verdict.text.empty() ? Outcome::solved : Outcome::wrong;
+  return verdict;
+}
+
+Verdict timed(const std::function<Verdict()>& run) {
+  const std::clock_t start = std::clock();
+  Verdict verdict;
+  try {
+    verdict = run();
+  } catch (const std::exception& error) {
+    verdict.outcome = Outcome::error;
+    verdict.text = error.what();
+  }
+  verdict.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return verdict;
+}
+
+/// The error without the place where the file lies, which differs from machine to machine.
+std::string without_folder(const std::string& text, const std::filesystem::path& scenes) {
+  const std::string folder = (scenes / "").string();
+  const auto place = text.find(folder);
+  return place == std::string::npos ? text : text.substr(0, place) + text.substr(place + folder.size());
+}
+
+}  // namespace
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::solved:
+      return "solved";
+    case Outcome::error:
+      return "error";
+    case Outcome::not_converged:
+      return "not converged";
+    case Outcome::wrong:
+      break;
+  }
+  return "wrong";
+}
+
+reproduce::Response solve(Scene scene) {
+  scene.analysis.output_points = scene.time.quadrature_points;
+  reproduce::ResponseOptions options;
+  options.full_history = true;
+  return reproduce::weighted_residual_response(scene, options);
+}
+
+Residuals residuals(const Scene& scene, const reproduce::Response& response, int stepped_elements) {
+  Residuals result;
+  result.motion = motion_residual(scene, response.samples);
+  result.complementarity = complementarity(scene, response.samples);
+  if (can_be_stepped(scene, stepped_elements)) result.periodicity = periodicity(scene, response.samples);
+  return result;
+}
+
+Verdict judge(const Scene& scene, int stepped_elements) {
+  return timed([&] { return solved_or_not(scene, stepped_elements); });
+}
+
+Verdict judge(const Case& item, const std::filesystem::path& scenes) {
+  Verdict verdict =
+      timed([&] { return solved_or_not(reproduce::load_scene(scenes / item.scene, item.overrides)); });
+  verdict.text = without_folder(verdict.text, scenes);
+  verdict.holds = verdict.outcome == item.must && verdict.text.find(item.named) != std::string::npos &&
+                  verdict.seconds <= most_seconds;
+  return verdict;
+}
+
+}  // namespace wavebalance::extremes
