@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mode_record.hpp"
+#include "motion_files.hpp"
 #include "record_figure.hpp"
 #include "summary_parts.hpp"
 #include "wavebalance/reproduce/compose.hpp"
@@ -38,7 +39,7 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   return options;
 }
 
-Record response_record(const Scene& scene, const Response& response) {
+Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
   record.converged = response.converged;
   record.status = response.status;
@@ -55,10 +56,12 @@ Record response_record(const Scene& scene, const Response& response) {
     record.summary.emplace_back("complementarity", response.rigid->product);
     record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
   }
-  if (response.samples.points() > 0) {
-    record.response = response_table(response.samples);
-    record.figure = response_figure(scene, response);
-  }
+  append_structure(record.summary, model);
+  if (response.contacts.points() == 0) return record;
+  record.response = response_table(response.samples);
+  record.figure = response_figure(scene, response);
+  add_contacts(record, response.contacts, response.contact);
+  record.files = motion_files(model, response.motion);
   return record;
 }
 
@@ -68,7 +71,12 @@ double largest(const solvers::FrequencySweep& curve, double solvers::SweepPoint:
   return value;
 }
 
-Record sweep_record(const Scene& scene, const Sweep& sweep) {
+/// The law's force at the largest displacement; missing where contacts have different gaps.
+double force_at(const Contact& contact, double displacement) {
+  return contact.gaps.empty() ? make_law(contact).force(displacement) : missing;
+}
+
+Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
   Record record;
   record.converged = sweep.converged();
   record.status = to_string(sweep.curve.status);
@@ -80,14 +88,14 @@ Record sweep_record(const Scene& scene, const Sweep& sweep) {
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
       opening(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
-              scene.time.functions, sweep.wall_seconds);
+              model.contacts() * scene.time.functions, sweep.wall_seconds);
   record.summary.emplace_back("max_displacement_m", highest);
   record.summary.emplace_back("min_displacement_m", missing);
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
   record.summary.emplace_back("max_contact_force_N", points == 0 ? missing
                                                      : rigid     ? sweep.max_force
-                                                                 : make_law(scene.contact).force(highest));
+                                                                 : force_at(scene.contact, highest));
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
@@ -98,12 +106,13 @@ Record sweep_record(const Scene& scene, const Sweep& sweep) {
     record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
     record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
   }
+  append_structure(record.summary, model);
   record.sweep = sweep_table(sweep.curve);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
   return record;
 }
 
-Sweep arc_length_sweep(const Scene& scene, const ProgressObserver& observer) {
+Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
   int points = 0;
   if (observer)
@@ -112,29 +121,30 @@ Sweep arc_length_sweep(const Scene& scene, const ProgressObserver& observer) {
       return true;
     };
   Sweep sweep;
-  solvers::CondensedProblem problem = make_problem(scene);
-  sweep.curve = solvers::frequency_sweep(problem, make_law(scene.contact), options);
+  solvers::CondensedProblem problem = make_problem(scene, model);
+  sweep.curve = solvers::frequency_sweep(problem, make_laws(scene), options);
   return sweep;
 }
 
 /// One point of a rigid sweep; nothing when there is no response.
-std::optional<solvers::SweepPoint> rigid_point(Scene& scene, double frequency, Sweep& sweep) {
+std::optional<solvers::SweepPoint> rigid_point(Scene& scene, const StructureModel& model, double frequency,
+                                               Sweep& sweep) {
   scene.forcing.frequency = frequency;
-  const Response response = weighted_residual_response(scene);
+  const Response response = weighted_residual_response(scene, model);
   if (!response.converged) return std::nullopt;
   sweep.max_penetration = std::max(sweep.max_penetration, response.rigid->max_penetration);
-  sweep.max_force = std::max(sweep.max_force, response.samples.contact_force.maxCoeff());
-  const Eigen::VectorXd& u = response.samples.displacement;
+  sweep.max_force = std::max(sweep.max_force, response.contacts.force.maxCoeff());
+  const Eigen::MatrixXd& u = response.contacts.displacement;
   solvers::SweepPoint point;
   point.frequency = frequency;
   point.max_displacement = u.maxCoeff();
-  point.rms_displacement = rms(u);
+  point.rms_displacement = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
   point.max_abs_displacement = u.cwiseAbs().maxCoeff();
   point.residual = response.residual;
   return point;
 }
 
-Sweep rigid_sweep(Scene scene, const ProgressObserver& observer) {
+Sweep rigid_sweep(Scene scene, const StructureModel& model, const ProgressObserver& observer) {
   const Analysis& analysis = scene.analysis;
   const double interval = analysis.frequency_to - analysis.frequency_from;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(interval) / analysis.largest_step)));
@@ -146,7 +156,7 @@ Sweep rigid_sweep(Scene scene, const ProgressObserver& observer) {
       break;
     }
     const double frequency = analysis.frequency_from + interval * i / steps;
-    if (const auto point = rigid_point(scene, frequency, sweep))
+    if (const auto point = rigid_point(scene, model, frequency, sweep))
       sweep.curve.points.push_back(*point);
     else
       ++sweep.unsolved;
@@ -158,27 +168,34 @@ Sweep rigid_sweep(Scene scene, const ProgressObserver& observer) {
 }  // namespace
 
 Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
+  return frequency_sweep(scene, make_model(scene), observer);
+}
+
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
   const auto start = std::chrono::steady_clock::now();
   const bool rigid = scene.contact.law == ContactLawType::rigid;
-  Sweep sweep = rigid ? rigid_sweep(scene, observer) : arc_length_sweep(scene, observer);
+  Sweep sweep = rigid ? rigid_sweep(scene, model, observer) : arc_length_sweep(scene, model, observer);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sweep;
 }
 
 Record analyse(const Scene& scene, const ProgressObserver& observer) {
+  if (observer && scene.structure.kept_modes >= 0) observer({"structure", "reduction", {}});
+  const StructureModel model = make_model(scene);
   ResponseOptions options;
   options.observer = observer;
+  options.motion_points = std::max(0, scene.analysis.motion_points);
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
-      return sweep_record(scene, frequency_sweep(scene, observer));
+      return sweep_record(scene, model, frequency_sweep(scene, model, observer));
     case AnalysisType::nonlinear_mode:
-      return mode_record(scene, observer);
+      return mode_record(scene, model, observer);
     case AnalysisType::time_stepping:
-      return response_record(scene, time_stepping_response(scene, options));
+      return response_record(scene, model, time_stepping_response(scene, model, options));
     case AnalysisType::forced_response:
       break;
   }
-  return response_record(scene, weighted_residual_response(scene, options));
+  return response_record(scene, model, weighted_residual_response(scene, model, options));
 }
 
 Table response_table(const solvers::PeriodSamples& samples) {

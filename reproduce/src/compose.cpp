@@ -72,7 +72,8 @@ solvers::AnyContactLaw make_law(const Contact& contact, int index) {
   return contact::NoContact();
 }
 
-std::vector<solvers::AnyContactLaw> make_laws(const Scene& scene) {
+solvers::ContactLaws make_laws(const Scene& scene) {
+  if (scene.contact.gaps.empty()) return make_law(scene.contact);
   std::vector<solvers::AnyContactLaw> laws;
   for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
     laws.push_back(make_law(scene.contact, contact));
@@ -116,7 +117,8 @@ StructureModes make_modes(const StructureModel& model) {
     throw std::runtime_error("make_modes: the eigenvalue solver did not find all linear modes");
   Eigen::MatrixXd contact_shapes(model.contacts(), modes.shapes.cols());
   for (int contact = 0; contact < model.contacts(); ++contact)
-    contact_shapes.row(contact) = modes.shapes.row(model.contact_dofs[static_cast<std::size_t>(contact)]);
+    contact_shapes.row(contact) =
+        modes.shapes.row(model.structure.contact_dofs[static_cast<std::size_t>(contact)]);
   return {{modes.omega.cwiseAbs2(), std::move(contact_shapes), model.gaps}, std::move(modes.shapes)};
 }
 

@@ -15,6 +15,14 @@ int ContactMotion::leading(const Eigen::VectorXd& gaps) const {
   return static_cast<int>(contact);
 }
 
+ContactMotion ContactMotion::of(const solvers::PeriodSamples& samples) {
+  if (samples.points() == 0) return {};
+  const auto by_contact = [&](const Eigen::VectorXd& values) -> Eigen::MatrixXd {
+    return values.reshaped(samples.points(), samples.contacts).transpose();
+  };
+  return {by_contact(samples.displacement), by_contact(samples.velocity), by_contact(samples.contact_force)};
+}
+
 solvers::PeriodSamples ContactMotion::samples(int contact) const {
   solvers::PeriodSamples samples;
   if (points() == 0) return samples;

@@ -31,7 +31,7 @@ Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& 
                                 std::to_string(structure.size()));
   // A rigid obstacle stores no energy.
   const bool rigid = scene.contact.law == ContactLawType::rigid;
-  return solvers::system_energy(structure, make_law(rigid ? Contact{} : scene.contact), {u, v});
+  return solvers::system_energy(structure, rigid ? solvers::ContactLaws() : make_laws(scene), {u, v});
 }
 
 double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples) {

@@ -148,10 +148,7 @@ Record motion_record(const ModeStudy& study) {
                  moves ? point.identity_defect : missing);
   if (!moves) return record;
   record.response = response_table(response.samples);
-  if (contacts.contacts() > 1) {
-    record.summary.emplace_back("leading_contact", std::int64_t{response.contact + 1});
-    record.contacts = contacts_table(contacts);
-  }
+  add_contacts(record, contacts, response.contact);
   if (scene.analysis.motion_points > 0)
     record.files =
         motion_files(study.model(), study.samples(point, scene.analysis.motion_points, true).displacements);
@@ -207,9 +204,9 @@ Record published_record(const ModeStudy& study) {
 
 }  // namespace
 
-Record mode_record(const Scene& scene, const ProgressObserver& observer) {
+Record mode_record(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
   if (observer) observer({"nonlinear mode", "linear modes", {}});
-  const ModeStudy study(scene);
+  const ModeStudy study(scene, model);
   if (observer) observer({"nonlinear mode", "backbone", {}});
   const double energy = scene.analysis.energy_ratio;
   const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode

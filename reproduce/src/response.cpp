@@ -45,20 +45,38 @@ solvers::SolveObserver solve_observer(const ProgressObserver& observer) {
   };
 }
 
-/// Displacement, velocity and, if asked for, the field of all degrees of freedom.
-solvers::PeriodSamples sample_motion(solvers::CondensedProblem& problem,
-                                     const solvers::PeriodicResponse& response, int points,
-                                     bool full_history) {
+/// Displacements and velocities of all contacts.
+ContactMotion sample_motion(const solvers::CondensedProblem& problem,
+                            const solvers::PeriodicResponse& response, int points) {
   solvers::MotionEvaluator motion(problem.pair().trial(), points);
-  solvers::PeriodSamples samples;
-  samples.contacts = problem.contacts();
-  samples.displacement = motion.displacement(response.coefficients).reshaped();
-  samples.velocity = motion.velocity(response.coefficients, response.frequency).reshaped();
-  if (!full_history) return samples;
-  auto field = solvers::periodic_field(problem, response.contact_force, points);
-  samples.displacements = std::move(field.displacement);
-  samples.velocities = std::move(field.velocity);
-  return samples;
+  return {motion.displacement(response.coefficients).transpose(),
+          motion.velocity(response.coefficients, response.frequency).transpose(),
+          {}};
+}
+
+/// Contact forces that are known at the quadrature points only: those of the nearest ones.
+Eigen::MatrixXd nearest_forces(const solvers::PeriodicResponse& response, int contacts, int points) {
+  const Eigen::Index samples = response.contact_force.size() / contacts;
+  Eigen::MatrixXd forces(contacts, points);
+  for (Eigen::Index contact = 0; contact < contacts; ++contact)
+    forces.row(contact) = nearest_samples(response.contact_force.segment(contact * samples, samples), points);
+  return forces;
+}
+
+/// The contacts' motion, its leading one and what the options ask for of the whole structure.
+void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found,
+                 const StructureModel& model, ContactMotion contacts, const ResponseOptions& options,
+                 Response& result) {
+  result.contact = contacts.leading(model.gaps);
+  result.samples = contacts.samples(result.contact);
+  if (options.full_history) {
+    auto field = solvers::periodic_field(problem, found.contact_force, contacts.points());
+    result.samples.displacements = std::move(field.displacement);
+    result.samples.velocities = std::move(field.velocity);
+  }
+  if (options.motion_points > 0)
+    result.motion = solvers::periodic_field(problem, found.contact_force, options.motion_points).displacement;
+  result.contacts = std::move(contacts);
 }
 
 void note_solution(Response& result, const solvers::PeriodicResponse& found) {
@@ -69,47 +87,58 @@ void note_solution(Response& result, const solvers::PeriodicResponse& found) {
   result.used_homotopy = found.used_homotopy;
 }
 
-void solve_law(const Scene& scene, solvers::CondensedProblem& problem, const ResponseOptions& options,
-               Response& result) {
+void solve_law(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
+               const ResponseOptions& options, Response& result) {
   solvers::ForcedResponseOptions solver;
   solver.observer = solve_observer(options.observer);
-  const solvers::AnyContactLaw law = make_law(scene.contact);
-  const auto found = solvers::forced_response(problem, law, solver, options.guess);
+  const solvers::ContactLaws laws = make_laws(scene);
+  const auto found = solvers::forced_response(problem, laws, solver, options.guess);
   note_solution(result, found);
-  result.samples = sample_response(problem, found, law, scene.analysis.output_points, options.full_history);
+  note_motion(problem, found, model, sample_response(problem, found, laws, scene.analysis.output_points),
+              options, result);
 }
 
-void solve_rigid(const Scene& scene, solvers::CondensedProblem& problem, const ResponseOptions& options,
-                 Response& result) {
+void solve_rigid(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
+                 const ResponseOptions& options, Response& result) {
   solvers::RigidResponseOptions solver;
   solver.observer = solve_observer(options.observer);
-  const auto found = solvers::rigid_response(problem, scene.contact.gap, solver);
+  const auto found = solvers::rigid_response(problem, model.gaps, solver);
   note_solution(result, found.response);
   const auto& contact = found.complementarity;
   result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
   result.residual = std::max(found.response.residual, contact.product);
-  result.samples = sample_motion(problem, found.response, scene.analysis.output_points, options.full_history);
-  result.samples.contact_force = nearest_samples(found.response.contact_force, scene.analysis.output_points);
+  const int points = scene.analysis.output_points;
+  ContactMotion contacts = sample_motion(problem, found.response, points);
+  contacts.force = nearest_forces(found.response, problem.contacts(), points);
+  note_motion(problem, found.response, model, std::move(contacts), options, result);
 }
 
 }  // namespace
 
-solvers::PeriodSamples sample_response(solvers::CondensedProblem& problem,
-                                       const solvers::PeriodicResponse& response,
-                                       const solvers::AnyContactLaw& law, int points, bool full_history) {
-  solvers::PeriodSamples samples = sample_motion(problem, response, points, full_history);
-  samples.contact_force = samples.displacement.unaryExpr([&law](double u) { return law.force(u); });
-  return samples;
+ContactMotion sample_response(const solvers::CondensedProblem& problem,
+                              const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
+                              int points) {
+  ContactMotion motion = sample_motion(problem, response, points);
+  motion.force =
+      Eigen::MatrixXd::NullaryExpr(motion.contacts(), points, [&](Eigen::Index contact, Eigen::Index l) {
+        return laws[static_cast<int>(contact)].force(motion.displacement(contact, l));
+      });
+  return motion;
 }
 
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options) {
+  return weighted_residual_response(scene, make_model(scene), options);
+}
+
+Response weighted_residual_response(const Scene& scene, const StructureModel& model,
+                                    const ResponseOptions& options) {
   const auto start = Clock::now();
   Response result;
-  result.unknowns = scene.time.functions;
+  result.unknowns = model.contacts() * scene.time.functions;
   try {
-    solvers::CondensedProblem problem = make_problem(scene);
+    solvers::CondensedProblem problem = make_problem(scene, model);
     const bool rigid = scene.contact.law == ContactLawType::rigid;
-    (rigid ? solve_rigid : solve_law)(scene, problem, options, result);
+    (rigid ? solve_rigid : solve_law)(scene, model, problem, options, result);
   } catch (const solvers::SingularSystem& error) {
     result.status = std::string("singular: ") + error.what();
     result.residual = std::numeric_limits<double>::quiet_NaN();
@@ -119,6 +148,11 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
 }
 
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options) {
+  return time_stepping_response(scene, make_model(scene), options);
+}
+
+Response time_stepping_response(const Scene& scene, const StructureModel& model,
+                                const ResponseOptions& options) {
   const auto start = Clock::now();
   solvers::TimeSteppingOptions stepping;
   stepping.output_points = scene.analysis.output_points;
@@ -131,8 +165,8 @@ Response time_stepping_response(const Scene& scene, const ResponseOptions& optio
           logarithmic_share(difference, scene.analysis.tolerance)});
     return true;
   };
-  auto found = solvers::integrate_to_periodic(make_structure(scene), make_law(scene.contact),
-                                              scene.forcing.frequency, stepping);
+  auto found =
+      solvers::integrate_to_periodic(model.structure, make_laws(scene), scene.forcing.frequency, stepping);
   Response result;
   result.wall_seconds = seconds_since(start);
   result.converged = found.status == solvers::TimeSteppingStatus::converged;
@@ -140,8 +174,12 @@ Response time_stepping_response(const Scene& scene, const ResponseOptions& optio
   result.residual =
       found.period_error.empty() ? std::numeric_limits<double>::quiet_NaN() : found.period_error.back();
   result.iterations = found.periods;
-  result.unknowns = 2 * scene.structure.elements;
-  result.samples = std::move(found.samples);
+  result.unknowns = 2 * model.size();
+  result.contacts = ContactMotion::of(found.samples);
+  result.contact = result.contacts.leading(model.gaps);
+  result.samples = result.contacts.samples(result.contact);
+  result.samples.displacements = std::move(found.samples.displacements);
+  result.samples.velocities = std::move(found.samples.velocities);
   return result;
 }
 

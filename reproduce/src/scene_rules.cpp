@@ -26,6 +26,9 @@ void check_wavelet_sizes(const Document& document, const Scene& scene) {
     fail_rule(document, {"time.quadrature_points"}, "expected a power of two for " + basis);
   if (is_wavelet(time.trial) && !is_power_of_two(scene.analysis.output_points))
     fail_rule(document, {"analysis.output_points"}, "expected a power of two for " + basis);
+  if (is_wavelet(time.trial) && scene.analysis.motion_points > 0 &&
+      !is_power_of_two(scene.analysis.motion_points))
+    fail_rule(document, {"analysis.motion_points"}, "expected 0 or a power of two for " + basis);
 }
 
 void check_time(const Document& document, const Scene& scene) {
@@ -88,12 +91,6 @@ void check_mode(const Document& document, const Scene& scene) {
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
 }
 
-void check_stepping(const Document& document, const Scene& scene) {
-  if (scene.analysis.type == AnalysisType::time_stepping && scene.structure.type != StructureType::bar)
-    fail_rule(document, {"analysis.type", "structure.type"},
-              "time stepping is there for structure.type = \"bar\" only; expected another analysis");
-}
-
 void check_rigid(const Document& document, const Scene& scene) {
   if (scene.contact.law != ContactLawType::rigid) return;
   if (scene.analysis.type == AnalysisType::time_stepping)
@@ -138,7 +135,6 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (!stepping && !mode) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
-  check_stepping(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
   check_dense_size(document, scene);

@@ -41,7 +41,7 @@ StructureModel bar_model(const Scene& scene) {
   model.structure.mass = std::move(matrices.mass);
   model.structure.damping = std::move(matrices.damping);
   model.structure.stiffness = std::move(matrices.stiffness);
-  model.contact_dofs = {bar.elements - 1};
+  model.structure.contact_dofs = {bar.elements - 1};
   model.structure.load = Eigen::VectorXd::Zero(bar.elements);
   model.structure.load[bar.elements - 1] = scene.forcing.amplitude;
   model.unknowns = bar.elements;
@@ -121,8 +121,9 @@ StructureModel blade_model(const Scene& scene) {
   fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
   turn(matrices, blade->model, scene.structure.blade);
   reduce(model, matrices, blade_load(scene, *blade), blade->boundary_unknowns, scene.structure.kept_modes);
+  model.structure.contact_dofs.clear();
   for (std::size_t contact = 0; contact < blade->contact_unknowns.size(); ++contact)
-    model.contact_dofs.push_back(static_cast<int>(3 * contact + 2));  // z of each corner node
+    model.structure.contact_dofs.push_back(static_cast<int>(3 * contact + 2));  // z of each corner node
   model.unknowns = blade->model.dofs.count();
   model.blade = blade;
   return model;
@@ -160,12 +161,12 @@ StructureModel matrices_model(const Scene& scene) {
   const auto contacts = static_cast<std::ptrdiff_t>(structure.matrices.contact_dofs.size());
   if (structure.kept_modes < 0) {
     set_structure(model, std::move(matrices), load);
-    model.contact_dofs.assign(boundary.begin(), boundary.begin() + contacts);
+    model.structure.contact_dofs.assign(boundary.begin(), boundary.begin() + contacts);
     return model;
   }
   reduce(model, matrices, load, boundary, structure.kept_modes);
-  model.contact_dofs.resize(structure.matrices.contact_dofs.size());
-  std::iota(model.contact_dofs.begin(), model.contact_dofs.end(), 0);
+  model.structure.contact_dofs.resize(structure.matrices.contact_dofs.size());
+  std::iota(model.structure.contact_dofs.begin(), model.structure.contact_dofs.end(), 0);
   return model;
 }
 
@@ -196,7 +197,6 @@ StructureModel make_model(const Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   StructureModel model = model_of_type(scene);
   add_modal_damping(model.structure, scene.structure.modal_damping);
-  model.structure.contact_dofs = {model.contact_dofs.front()};
   const int contacts = model.contacts();
   if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
     throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +

@@ -21,6 +21,12 @@ void append_structure(Summary& summary, const StructureModel& model) {
   summary.emplace_back("reduction_seconds", model.reduction_seconds);
 }
 
+void add_contacts(Record& record, const ContactMotion& contacts, int leading) {
+  if (contacts.contacts() < 2) return;
+  record.summary.emplace_back("leading_contact", std::int64_t{leading + 1});
+  record.contacts = contacts_table(contacts);
+}
+
 void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
   const bool empty = samples.points() == 0;
   const auto& u = samples.displacement;

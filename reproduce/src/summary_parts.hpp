@@ -16,6 +16,9 @@ Summary opening(bool converged, const std::string& status, double residual, int 
 /// How large the structure is, before and after its reduction.
 void append_structure(Summary& summary, const StructureModel& model);
 
+/// The table of all contacts, and which of them the record shows, where there are several.
+void add_contacts(Record& record, const ContactMotion& contacts, int leading);
+
 /// The fields of one motion of the leading contact; missing values when `samples` are empty.
 void append_motion(Summary& summary, const solvers::PeriodSamples& samples);
 

@@ -176,7 +176,7 @@ TEST(BladeModel, RecoveryIsThatOfTheReduction) {
   EXPECT_NEAR(q.dot(model.structure.stiffness * q), energy, 1e-9 * energy);
   for (int contact = 0; contact < model.contacts(); ++contact)
     EXPECT_DOUBLE_EQ(u[model.blade->contact_unknowns[static_cast<std::size_t>(contact)]],
-                     q[model.contact_dofs[static_cast<std::size_t>(contact)]]);
+                     q[model.structure.contact_dofs[static_cast<std::size_t>(contact)]]);
 }
 
 TEST(MatricesModel, FilesOfTheStripAreWhatFemMakes) {

@@ -155,7 +155,6 @@ TEST_F(ChainScene, KeysOfAnotherTypeAreErrorsThatNameIt) {
                "only with structure.type = \"blade\"");
   expect_error(with(bar_scene, "[contact]", "contact_dofs = [1]\n[contact]"), 9, "structure.contact_dofs",
                "only with structure.type = \"matrices\"");
-  EXPECT_EQ(error_of(chain_scene, {"analysis.type=time_stepping"}).key, "analysis.type");
 }
 
 TEST_F(ChainScene, NonlinearModesAreWithoutDampingAndWithPositiveGaps) {

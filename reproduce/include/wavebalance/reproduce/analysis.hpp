@@ -33,6 +33,8 @@ struct Sweep {
 /// instead at uniform frequencies, analysis.largest_step apart at most: all points meet complementarity, but
 /// where several responses exist which one is found may change from one frequency to the next.
 Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {});
+/// The same for the scene's structure composed before.
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer = {});
 
 using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
 using Summary = std::vector<std::pair<std::string, SummaryValue>>;

@@ -2,7 +2,7 @@
 #include "wavebalance/reproduce/scene.hpp"
 #include "wavebalance/reproduce/structure_model.hpp"
 #include "wavebalance/solvers/condensed_problem.hpp"
-#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/contact_laws.hpp"
 #include "wavebalance/solvers/linear_structure.hpp"
 #include "wavebalance/solvers/nonlinear_mode.hpp"
 #include "wavebalance/solvers/time_pair.hpp"
@@ -16,7 +16,7 @@ solvers::LinearStructure make_structure(const Scene& scene);
 /// law but a complementarity.
 solvers::AnyContactLaw make_law(const Contact& contact, int index = 0);
 /// One law a contact of the scene's structure.
-std::vector<solvers::AnyContactLaw> make_laws(const Scene& scene);
+solvers::ContactLaws make_laws(const Scene& scene);
 
 /// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a
 /// wavelet basis whose number of functions is not a power of two.

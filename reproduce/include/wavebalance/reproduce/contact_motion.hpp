@@ -16,6 +16,8 @@ struct ContactMotion {
   /// The contact with the largest force; without any force, the one that comes nearest to its gap (m, one a
   /// contact). From 0.
   int leading(const Eigen::VectorXd& gaps) const;
+  /// That of contact-major samples.
+  static ContactMotion of(const solvers::PeriodSamples& samples);
   /// Time histories of one contact.
   solvers::PeriodSamples samples(int contact) const;
 };

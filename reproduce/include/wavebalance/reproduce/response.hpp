@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "wavebalance/reproduce/contact_motion.hpp"
 #include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/reproduce/structure_model.hpp"
 #include "wavebalance/solvers/condensed_problem.hpp"
 #include "wavebalance/solvers/forced_response.hpp"
 #include "wavebalance/solvers/period_samples.hpp"
@@ -30,7 +32,7 @@ struct RigidContact {
   double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
 };
 
-/// A periodic response of a scene's tip, or an honest failure to find one.
+/// A periodic response of a scene's contacts, or an honest failure to find one.
 struct Response {
   bool converged = false;
   std::string status;  ///< "converged" or why not
@@ -41,13 +43,15 @@ struct Response {
   bool used_homotopy = false;
   double wall_seconds = 0.0;          ///< composition, solution and samples
   std::optional<RigidContact> rigid;  ///< of scenes with rigid contact
-  solvers::PeriodSamples
-      samples;      ///< analysis.output_points samples: SI units; empty if there is nothing at all
-  int contact = 0;  ///< the leading one, whose samples these are
+  ContactMotion contacts;             ///< analysis.output_points samples; empty if there is nothing at all
+  int contact = 0;                    ///< the leading one, see ContactMotion::leading()
+  solvers::PeriodSamples samples;     ///< of that one; the full history is of the structure as solvers see it
+  Eigen::MatrixXd motion;  ///< that structure's displacements, size x ResponseOptions::motion_points
 };
 
 struct ResponseOptions {
   bool full_history = false;  ///< also displacement and velocity of every degree of freedom
+  int motion_points = 0;      ///< uniform instants of Response::motion; not of time stepping
   Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response
   ProgressObserver observer;
 };
@@ -60,18 +64,23 @@ struct ResponseOptions {
 /// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is
 /// known at these points only: the samples hold that of the nearest one.
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
+/// The same for the scene's structure composed before.
+Response weighted_residual_response(const Scene& scene, const StructureModel& model,
+                                    const ResponseOptions& options = {});
 
 /// The scene's response by time stepping until two periods agree to analysis.tolerance.
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});
+Response time_stepping_response(const Scene& scene, const StructureModel& model,
+                                const ResponseOptions& options = {});
 
-/// The scene's response by shooting, for checks of the other two.
+/// The scene's response by shooting, for checks of the other two. One contact only.
 Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
 
-/// What a solution of `problem` looks like at `points` uniform times; velocities as solvers::MotionEvaluator
-/// defines them, contact forces by the law from the displacement. O((n if full_history else 1) points
+/// The motion of all contacts in a solution of `problem` at `points` uniform times; velocities as
+/// solvers::MotionEvaluator defines them, contact forces by the laws from the displacements. O(C points
 /// log(points)).
-solvers::PeriodSamples sample_response(solvers::CondensedProblem& problem,
-                                       const solvers::PeriodicResponse& response,
-                                       const solvers::AnyContactLaw& law, int points, bool full_history);
+ContactMotion sample_response(const solvers::CondensedProblem& problem,
+                              const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
+                              int points);
 
 }  // namespace wavebalance::reproduce

@@ -14,8 +14,8 @@ namespace wavebalance::reproduce {
 /// A scene's structure, composed once: what the solvers see of it, and the way back to the whole structure.
 /// Immutable once made.
 struct StructureModel {
-  /// Reduced if the scene asks for it; displacements in contact count towards their obstacles. Its load is
-  /// the force's amplitude.
+  /// Reduced if the scene asks for it; its displacements in contact count towards their obstacles. Its load
+  /// is the force's amplitude.
   solvers::LinearStructure structure;
   std::vector<int> contact_dofs;   ///< of the reduced structure
   Eigen::VectorXd gaps;            ///< m, one a contact
@@ -27,7 +27,7 @@ struct StructureModel {
   Eigen::VectorXd signs;  ///< unknowns, 1 or -1 where the obstacle is on the negative side; empty: all 1
   std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
 
-  int contacts() const { return static_cast<int>(contact_dofs.size()); }
+  int contacts() const { return structure.contacts(); }
   int size() const { return structure.size(); }
   bool reduced() const { return recovery.size() > 0; }
   /// unknowns x points: displacements (or velocities) of the whole structure from those of the reduced one, r
