@@ -7,6 +7,7 @@
 #include <csignal>
 #include <thread>
 
+#include "chain_files.hpp"
 #include "scene_texts.hpp"
 #include "temporary_folder.hpp"
 #include "wavebalance/reproduce/output.hpp"
@@ -99,6 +100,55 @@ TEST(CommandRun, BadInputIsTwoAndWritesNothing) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.errors, "wavebalance: " + bad + ":13: contact.gap = \"big\": expected a number in m\n");
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(CommandRun, MatricesWriteEveryContactAndTheWholeMotion) {
+  const TemporaryFolder folder;
+  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "matrices" / "strip_forced.toml";
+  const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* name :
+       {"summary.json", "response.csv", "response.svg", "contacts.csv", "motion.mtx", "scene.toml"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
+  EXPECT_EQ(read_csv(folder / "out" / "contacts.csv").rows(), 2u * 1024u);
+  EXPECT_NE(read_file(folder / "out" / "motion.mtx").find("\n72 32\n"), std::string::npos);
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"degrees_of_freedom\": 72"), std::string::npos);
+  EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(scene));
+}
+
+TEST(CommandRun, WrongMatricesAreTwoAndWriteNothing) {
+  const TemporaryFolder folder;
+  write_chain(folder);
+  folder.write("m.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1\n2 2 1\n");
+  const std::string scene = folder.write("case.toml", chain_scene);
+  for (const char* command : {"run", "check"}) {
+    std::vector<std::string> arguments{command, scene};
+    if (arguments[0] == "run") arguments.insert(arguments.end(), {"--output", folder / "out"});
+    const Outcome outcome = run(folder, arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.errors,
+              "wavebalance: " + scene +
+                  ":3: structure.mass = \"m.mtx\": the matrix is 2 x 2; expected 3 x 3, the size "
+                  "of structure.stiffness\n");
+  }
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(CommandRun, BladeMotionIsASeriesForParaView) {
+  const TemporaryFolder folder;
+  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "blade_mode.toml";
+  const Outcome outcome =
+      run(folder, {"run", scene, "--output", folder / "out", "--set", "structure.chord_elements=3", "--set",
+                   "structure.span_elements=4", "--set", "analysis.energy_ratio=0.5", "--set",
+                   "analysis.motion_points=4"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string series = read_file(folder / "out" / "motion.pvd");
+  for (const char* name : {"motion_0000.vtu", "motion_0003.vtu"}) {
+    EXPECT_NE(series.find(name), std::string::npos);
+    EXPECT_NE(read_file(folder / "out" / name).find("Name=\"stress\""), std::string::npos);
+  }
+  EXPECT_EQ(read_csv(folder / "out" / "contacts.csv").rows(), 8u * 1024u);
 }
 
 TEST(CommandRun, FailureToConvergeIsThreeWithTheRecord) {

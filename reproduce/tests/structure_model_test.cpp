@@ -10,6 +10,7 @@
 #include "wavebalance/fem/matrix_market.hpp"
 #include "wavebalance/reproduce/analysis.hpp"
 #include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/measures.hpp"
 #include "wavebalance/reproduce/modes.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
 
@@ -189,6 +190,93 @@ TEST(MatricesModel, FilesOfTheStripAreWhatFemMakes) {
   EXPECT_LT(stiffness.norm(), 1e-12 * matrices.stiffness.norm());
   for (const char* scene : {"strip_mode.toml", "strip_forced.toml"})
     EXPECT_EQ(unknowns_of(load_scene(folder / scene)), 72) << scene;
+}
+
+Scene chain(const TemporaryFolder& folder, const std::vector<std::string>& overrides,
+            const std::string& text = chain_scene) {
+  write_chain(folder);
+  return load_scene(folder.write("case.toml", text), overrides);
+}
+
+TEST(Contacts, TwoOfAChainMoveAsTimeSteppingSays) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> overrides{"forcing.frequency=40", "contact.gap=[1e-4, 2e-4]",
+                                           "time.functions=127", "time.quadrature_points=2048"};
+  const Response found = weighted_residual_response(chain(folder, overrides));
+  auto stepping = overrides;
+  stepping.insert(stepping.end(), {"analysis.type=time_stepping", "analysis.tolerance=1e-7"});
+  const Response reference = time_stepping_response(chain(folder, stepping));
+  ASSERT_TRUE(found.converged && reference.converged);
+  ASSERT_EQ(found.contacts.contacts(), 2);
+  for (int contact = 0; contact < 2; ++contact) {
+    const auto a = found.contacts.samples(contact), b = reference.contacts.samples(contact);
+    // A kink of the force leaves Fourier coefficients of the displacement of order k^-4: 63^-3 here.
+    EXPECT_LT(relative_rms_error(a.displacement, b.displacement), 5e-5) << contact;
+    EXPECT_GT(b.contact_force.maxCoeff(), 0.0) << contact;
+  }
+  EXPECT_EQ(found.samples.displacement, found.contacts.samples(found.contact).displacement);
+}
+
+TEST(Contacts, RigidOnesHoldAtEveryPoint) {
+  const TemporaryFolder folder;
+  const std::string rigid = with(with(chain_scene, "\"linear\"", "\"rigid\""), "stiffness = 1e7", "# ");
+  const Record record = analyse(chain(folder, {"forcing.frequency=30", "contact.gap=[5e-5, 1e-4]"}, rigid));
+  EXPECT_TRUE(record.converged) << record.status;
+  const auto contacts = record.contacts.texts("contact");
+  const auto displacements = record.contacts.numbers("displacement_m"),
+             forces = record.contacts.numbers("contact_force_N");
+  double largest[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    largest[contacts[i] == "1" ? 0 : 1] = std::max(largest[contacts[i] == "1" ? 0 : 1], displacements[i]);
+  // Between the quadrature points 16 harmonics overshoot a little.
+  EXPECT_LT(largest[0], 5e-5 * 1.05);
+  EXPECT_LT(largest[1], 1e-4 * 1.05);
+  EXPECT_GT(*std::max_element(forces.begin(), forces.end()), 0.0);
+}
+
+TEST(Contacts, ObstaclesOnEitherSideAreMirrorImages) {
+  const TemporaryFolder folder;
+  const auto up = weighted_residual_response(chain(folder, {"forcing.frequency=40"}));
+  const auto down = weighted_residual_response(
+      chain(folder, {"forcing.frequency=40", "structure.contact_dofs=[-2,-3]", "forcing.load_dofs=[-3]"}));
+  ASSERT_TRUE(up.converged && down.converged);
+  EXPECT_LT((up.contacts.displacement - down.contacts.displacement).norm(),
+            1e-12 * up.contacts.displacement.norm());
+}
+
+TEST(Contacts, AllPairsAgreeOnTheChain) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> overrides{"forcing.frequency=40", "time.functions=256",
+                                           "time.quadrature_points=1024"};
+  const Response fourier = weighted_residual_response(chain(folder, overrides));
+  for (const auto& [trial, weight, tolerance] :
+       std::vector<std::tuple<std::string, std::string, double>>{{"bspline", "bspline", 1e-3},
+                                                                 {"daubechies6", "daubechies6", 1e-3},
+                                                                 {"daubechies6", "fourier", 1e-3},
+                                                                 {"haar", "fourier", 2e-2},
+                                                                 {"haar", "bspline", 2e-2}}) {
+    auto all = overrides;
+    all.insert(all.end(), {"time.trial=" + trial, "time.weight=" + weight});
+    const Response wavelet = weighted_residual_response(chain(folder, all));
+    ASSERT_TRUE(wavelet.converged) << trial << weight << wavelet.status;
+    EXPECT_LT((wavelet.contacts.displacement - fourier.contacts.displacement).norm(),
+              tolerance * fourier.contacts.displacement.norm())
+        << trial << weight;
+  }
+}
+
+TEST(Contacts, MotionOfTheWholeFollowsTheContacts) {
+  const TemporaryFolder folder;
+  const Scene scene = chain(folder, {"forcing.frequency=40", "structure.contact_dofs=[-2,3]"});
+  const StructureModel model = make_model(scene);
+  ResponseOptions options;
+  options.motion_points = 64;
+  const Response response = weighted_residual_response(scene, model, options);
+  const Eigen::MatrixXd whole = model.recover(response.motion);
+  for (int l = 0; l < 64; ++l) {
+    EXPECT_NEAR(whole(1, l), -response.contacts.displacement(0, 16 * l), 1e-12 * whole.norm());
+    EXPECT_NEAR(whole(2, l), response.contacts.displacement(1, 16 * l), 1e-12 * whole.norm());
+  }
 }
 
 TEST(MatricesModel, FilesAreReadOnce) {
