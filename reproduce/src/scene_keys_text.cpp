@@ -1,6 +1,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -101,7 +102,7 @@ std::string toml_text(const SceneValue& value) {
 }
 
 std::string Bounds::text() const {
-  if (!std::isfinite(lower)) return "";
+  if (lower <= std::numeric_limits<int>::min() + 1.0) return "";  // whatever an int holds
   if (std::isfinite(upper))
     return (lower_excluded ? "> " + limit_text(lower) + " and <= " : "in " + limit_text(lower) + "..") +
            limit_text(upper);
