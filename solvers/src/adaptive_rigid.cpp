@@ -1,12 +1,12 @@
 #include "wavebalance/solvers/adaptive_rigid.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "dense_solve.hpp"
 #include "option_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -28,11 +28,12 @@ class CellProblem {
     return active;
   }
 
-  // The active set of the rigid obstacle from a given one; false when it cycles.
+  // The active set of the rigid obstacle from a given one; false when it cycles or becomes singular.
   bool solve_rigid(ActiveSet active, int max_iterations) {
     constexpr double rounding = 1e-10;
     for (int iteration = 0; iteration < max_iterations; ++iteration, ++iterations) {
-      const Eigen::VectorXd pressed = k_(active, active).partialPivLu().solve(q_(active));
+      const Eigen::VectorXd pressed = detail::dense_solve(k_(active, active), q_(active));
+      if (pressed.size() != static_cast<Eigen::Index>(active.size())) return false;  // singular
       const Eigen::VectorXd y = q_ - k_(Eigen::all, active) * pressed;
       force_.setZero(q_.size());
       force_(active) = pressed;
@@ -59,7 +60,8 @@ class CellProblem {
     for (int iteration = 0; iteration < max_iterations; ++iteration, ++iterations) {
       Eigen::MatrixXd matrix = stiffness * k_(active, active);
       matrix.diagonal().array() += 1.0;
-      const Eigen::VectorXd pressed = matrix.partialPivLu().solve(q_(active));
+      const Eigen::VectorXd pressed = detail::dense_solve(matrix, q_(active));
+      if (pressed.size() != static_cast<Eigen::Index>(active.size())) return false;  // singular
       const Eigen::VectorXd y = q_ - stiffness * (k_(Eigen::all, active) * pressed).eval();
       ActiveSet next = where_positive(y);
       if (next == active) return true;

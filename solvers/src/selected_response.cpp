@@ -1,9 +1,9 @@
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "dense_solve.hpp"
 #include "spans.hpp"
 #include "wavebalance/solvers/adaptive_wavelet.hpp"
 
@@ -50,10 +50,7 @@ class SelectedSystem {
     const Eigen::MatrixXd effect = balance_.effect(active, Eigen::all);
     Eigen::MatrixXd jacobian = effect.transpose() * values;
     jacobian.diagonal().array() += 1.0;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(jacobian);
-    const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-    if (!std::isfinite(pivots.sum()) || pivots.minCoeff() <= std::numeric_limits<double>::min()) return {};
-    return lu.solve(residual_);
+    return detail::dense_solve(jacobian, residual_);
   }
 
  private:

@@ -196,9 +196,15 @@ TEST(AdaptiveWavelet, NamesWhatDoesNotFit) {
   EXPECT_THROW(multiscale(galerkin[0], 32, 48, 2), std::invalid_argument);
   EXPECT_THROW(multiscale(galerkin[0], 32, 64, 6), std::invalid_argument);
   EXPECT_THROW(basis.uniform(4), std::invalid_argument);
-  solvers::AdaptiveOptions options;
-  options.fraction = 0.0;
-  EXPECT_THROW(solvers::adaptive_response(whole, basis, cases[0].law(), options), std::invalid_argument);
+  auto touching_twice = cases[0].structure();
+  touching_twice.contact_dofs = {23, 24};
+  const auto how = options(galerkin[0], 32, 64, InnerProducts::exact);
+  solvers::CondensedProblem twice(time_pair(galerkin[0], 32, how), touching_twice, cosine_load());
+  twice.set_frequency(150.0);
+  EXPECT_THROW(solvers::selected_balance(twice, basis, {0}), std::invalid_argument);
+  solvers::AdaptiveOptions adapt;
+  adapt.fraction = 0.0;
+  EXPECT_THROW(solvers::adaptive_response(whole, basis, cases[0].law(), adapt), std::invalid_argument);
 }
 
 }  // namespace

@@ -19,11 +19,12 @@ struct SelectedBalance {
 
 /// P W (u0 - K f): the structure answers in all M functions, where it is diagonal, and only the contact
 /// displacement is confined to the selection. K smooths, so that this Galerkin method for an equation of the
-/// second kind errs by a factor of the best approximation in the selected functions. (To select before
-/// inverting, P W Z W^T P^T for each mode, has resonances of its own: a single real wavelet sees
-/// no damping.) With all functions it is the balance of the pair itself. `basis` spans the trial functions of
-/// the problem's pair, its frequency set and its one contact. O(N |S| + (N/M) blocks M log M), independent of
-/// the structure. Throws std::invalid_argument when basis and problem differ in functions or points.
+/// second kind errs by a factor of the best approximation in the selected functions once they resolve the
+/// contact; with too few it may err more than a whole coarse level. (To select before inverting, P W Z W^T
+/// P^T for each mode, has resonances of its own: a single real wavelet sees no damping.) With all functions
+/// it is the balance of the pair itself. `basis` spans the trial functions of the problem's pair, its
+/// frequency set and its one contact. O(N |S| + (N/M) blocks M log M), independent of the structure. Throws
+/// std::invalid_argument when basis and problem differ in functions or points.
 SelectedBalance selected_balance(CondensedProblem& problem, const MultiscaleBasis& basis,
                                  const Selection& selection);
 
