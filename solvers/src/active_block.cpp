@@ -1,19 +1,9 @@
 #include "active_block.hpp"
 
-#include <cmath>
-#include <limits>
+#include "pivots.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-// An LU with a vanishing or non-finite pivot says that the matrix is singular; rcond() costs more than the
-// solve.
-bool is_regular(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu) {
-  if (lu.rows() == 0) return true;
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  const double smallest = pivots.minCoeff();
-  return std::isfinite(pivots.sum()) && smallest > std::numeric_limits<double>::min();
-}
 
 std::vector<int> contacts_of(std::span<const int> active, int points) {
   std::vector<int> contacts;
@@ -77,7 +67,7 @@ bool ActiveBlock::factorize(CondensedProblem& problem, const Eigen::VectorXd& ta
   matrix_.resize(count(), count());
   fill(problem);
   if (count() > 0) lu_.compute(matrix_);
-  return count() == 0 || is_regular(lu_);
+  return count() == 0 || has_regular_pivots(lu_);
 }
 
 void ActiveBlock::solve(CondensedProblem& problem, const Eigen::VectorXd& r, Eigen::VectorXd& x) {
@@ -100,7 +90,7 @@ bool ActiveBlock::factorize_bordered(CondensedProblem& problem, const Eigen::Vec
   }
   matrix_(count(), count()) = d - c.dot(b);
   lu_.compute(matrix_);
-  return is_regular(lu_);
+  return has_regular_pivots(lu_);
 }
 
 void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s,
@@ -111,6 +101,10 @@ void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorX
   values = lu_.solve(values).eval();
   y = values[count()];
   complete(problem, r - border_column_ * y, values.head(count()), x);
+}
+
+double ActiveBlock::condition() const {
+  return matrix_.size() == 0 ? 1.0 : 1.0 / lu_.rcond();
 }
 
 }  // namespace wavebalance::solvers

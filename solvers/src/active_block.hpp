@@ -29,6 +29,9 @@ class ActiveBlock {
   void solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, Eigen::VectorXd& x,
                       double& y);
 
+  /// Estimate of the condition number, in the 1-norm, of what was factorized last. O(active^2).
+  double condition() const;
+
  private:
   void collect(const Eigen::VectorXd& tangent);
   void fill(CondensedProblem& problem);

@@ -49,7 +49,7 @@ bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
   const double corner = along.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
   if (!system_.factorize_bordered(slope_, scaled(along.displacement_tangent), corner)) return false;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slope_.size());
-  system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent);
+  if (!system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent)) return false;
   if (!point.displacement_tangent.allFinite() || !std::isfinite(point.parameter_tangent)) return false;
   normalize(point);
   return true;
@@ -86,7 +86,7 @@ bool ArcLength::correct(const CurvePoint& from, double step, CurvePoint& to, int
     if (!system_.factorize_bordered(slope_, row, corner)) return false;
     const double plane =
         row.dot(to.displacement - from.displacement) + corner * (to.parameter - from.parameter) - step;
-    system_.solve_bordered(system_.residual(), plane, change_, parameter_change);
+    if (!system_.solve_bordered(system_.residual(), plane, change_, parameter_change)) return false;
     to.displacement -= change_;
     to.parameter -= parameter_change;
   }
@@ -172,7 +172,7 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
     system_.set_tangent(sample, arrives_free ? 0.0 : system_.law_at(sample).tangent(gap));
     parameter_.slope(system_, slope_);
     if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
-    system_.solve_bordered(system_.residual(), miss, change_, parameter_change);
+    if (!system_.solve_bordered(system_.residual(), miss, change_, parameter_change)) return false;
     corner.displacement -= change_;
     corner.parameter -= parameter_change;
   }
@@ -192,7 +192,8 @@ bool ArcLength::leave_corner(int sample, CurvePoint& corner) {
   row[sample] = 1.0;
   if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(row.size());
-  system_.solve_bordered(zero, direction, corner.displacement_tangent, corner.parameter_tangent);
+  if (!system_.solve_bordered(zero, direction, corner.displacement_tangent, corner.parameter_tangent))
+    return false;
   if (!corner.displacement_tangent.allFinite() || !std::isfinite(corner.parameter_tangent)) return false;
   normalize(corner);
   return true;

@@ -92,13 +92,19 @@ StiffnessScale::StiffnessScale(const LinearStructure& structure)
     : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
                largest_entry(structure.stiffness)} {}
 
-void StiffnessScale::require_regular(const StiffnessFactors& factors,
-                                     const Eigen::Ref<const Eigen::VectorXcd>& solution,
-                                     double right_norm) const {
+double StiffnessScale::condition(const StiffnessFactors& factors, double solution_norm,
+                                 double right_norm) const {
   const double scale = std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
                        std::abs(factors[2]) * largest_[2];
+  return right_norm > 0.0 ? scale * solution_norm / right_norm : 0.0;
+}
+
+double StiffnessScale::require_regular(const StiffnessFactors& factors,
+                                       const Eigen::Ref<const Eigen::VectorXcd>& solution,
+                                       double right_norm) const {
+  const double found = condition(factors, solution.norm(), right_norm);
   constexpr double largest_condition = 0.1 / std::numeric_limits<double>::epsilon();
-  if (solution.norm() * scale <= largest_condition * right_norm) return;
+  if (found <= largest_condition) return found;
   throw SingularSystem(
       "the dynamic stiffness is singular to working precision: no damping at a natural frequency, or a pair "
       "whose symbol vanishes");
@@ -122,7 +128,9 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
   const Eigen::Index size = factors[0].size(), count = contacts();
   for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
   for (auto* matrix : {&result.load_response, &result.load_response_slope}) matrix->resize(size, count);
+  method_->forget_condition();
   method_->condense(factors, rates, result);
+  condition_ = method_->condition();
 }
 
 void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,

@@ -9,7 +9,7 @@ CondensedPoint DirectMethod::at(const StiffnessFactors& factors, const Stiffness
   for (int c = 0; c < count; ++c) right(structure_.contact_dofs[static_cast<std::size_t>(c)], c) = 1.0;
   right.col(count) = structure_.load;
   const Eigen::MatrixXcd response = solve(right);
-  for (int c = 0; c < count; ++c) scale_.require_regular(factors, response.col(c), 1.0);
+  for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), 1.0));
   const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(rates) * response);
   const Eigen::MatrixXcd at_contacts = response(structure_.contact_dofs, Eigen::all);
   return {at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count), slope.col(count)};

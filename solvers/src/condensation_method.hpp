@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -18,6 +19,16 @@ class Condensation::Method {
                         CondensedSpectrum& result);
   virtual Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
                                    const Eigen::VectorXcd& contact_forces) = 0;
+
+  /// The largest lower bound of a condition number met since it was forgotten.
+  double condition() const { return condition_; }
+  void forget_condition() { condition_ = 0.0; }
+
+ protected:
+  void record(double condition) { condition_ = std::max(condition_, condition); }
+
+ private:
+  double condition_ = 0.0;
 };
 
 /// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure
@@ -25,9 +36,11 @@ class Condensation::Method {
 class StiffnessScale {
  public:
   explicit StiffnessScale(const LinearStructure& structure);
+  /// scale ||x|| / ||b|| for Z x = b: what the size of x says of the condition number of Z.
+  double condition(const StiffnessFactors& factors, double solution_norm, double right_norm) const;
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
-  /// working precision makes it, or not finite. O(n).
-  void require_regular(const StiffnessFactors& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
+  /// working precision makes it, or not finite. Returns condition(). O(n).
+  double require_regular(const StiffnessFactors& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
                        double right_norm) const;
 
  private:

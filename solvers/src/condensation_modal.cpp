@@ -113,9 +113,9 @@ class ModalMethod final : public Condensation::Method {
 
   // 1 / (s2 m_j + s1 c_j + s0 k_j). A mode is as singular as its share |x|^2 / d of Z^-1 is large: natural
   // frequencies are known no better than the entries of the matrices.
-  Eigen::ArrayXcd invert(const StiffnessFactors& factors) const {
+  Eigen::ArrayXcd invert(const StiffnessFactors& factors) {
     const Eigen::ArrayXcd inverse = combine(factors).inverse();
-    scale_.require_regular(factors, inverse * sizes_, 1.0);
+    record(scale_.require_regular(factors, inverse * sizes_, 1.0));
     return inverse;
   }
 

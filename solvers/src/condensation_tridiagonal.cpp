@@ -51,7 +51,11 @@ class TridiagonalMethod final : public Condensation::Method {
   int contacts() const override { return static_cast<int>(contacts_.size()); }
 
   CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
-    if (!factorize(factors)) return pivoting().at(factors, rates);
+    if (!factorize(factors)) {
+      const CondensedPoint point = pivoting().at(factors, rates);
+      record(pivoting().condition());
+      return point;
+    }
     CondensedPoint point;
     set_compliance(factors, rates, point);
     if (load_at_contact_) {
@@ -77,6 +81,9 @@ class TridiagonalMethod final : public Condensation::Method {
     recursion.last(result.compliance.col(0), result.compliance_slope.col(0));
     result.load_response = load_[single_] * result.compliance;
     result.load_response_slope = load_[single_] * result.compliance_slope;
+    for (Eigen::Index k = 0; k < factors[0].size(); ++k)
+      record(scale_.condition({factors[0][k], factors[1][k], factors[2][k]},
+                              std::abs(result.compliance(k, 0)), 1.0));
   }
 
   Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
@@ -125,7 +132,7 @@ class TridiagonalMethod final : public Condensation::Method {
       units_[c].setZero();
       units_[c][contacts_[c]] = 1.0;
       solve(units_[c]);
-      scale_.require_regular(factors, units_[c], 1.0);
+      record(scale_.require_regular(factors, units_[c], 1.0));
       const auto column = Eigen::Index(c);
       for (std::size_t d = 0; d <= c; ++d) {
         const auto row = Eigen::Index(d);

@@ -107,6 +107,18 @@ void CondensedProblem::apply_transposed(const Eigen::VectorXd& values, Eigen::Ve
                result);
 }
 
+Eigen::MatrixXcd CondensedProblem::harmonic_response(int n) const {
+  const int k = n % pair_.functions();
+  const bool mirrored = k >= pair_.spectrum_size();
+  const double scale = double(pair_.functions()) / points() / points();
+  const std::complex<double> bases =
+      scale * std::conj(pair_.weight_spectrum()[n]) * pair_.trial_spectrum()[n];
+  Eigen::MatrixXcd compliance =
+      condensed_.compliance.row(mirrored ? pair_.functions() - k : k).reshaped(contacts(), contacts());
+  if (mirrored) compliance = compliance.conjugate().eval();
+  return bases * compliance;
+}
+
 const Eigen::MatrixXd& CondensedProblem::columns() {
   std::vector<int> all(static_cast<std::size_t>(contacts()));
   std::iota(all.begin(), all.end(), 0);

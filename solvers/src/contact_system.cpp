@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "active_block.hpp"
+#include "jacobian_solver.hpp"
 
 namespace wavebalance::solvers {
 
@@ -12,7 +12,7 @@ ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
       laws_(std::move(laws)),
       force_(problem.samples()),
       tangent_(problem.samples()),
-      active_(std::make_unique<ActiveBlock>()) {
+      jacobian_(std::make_unique<JacobianSolver>()) {
   laws_.require(problem.contacts());
   gaps_ = laws_.gaps(problem.contacts());
 }
@@ -39,16 +39,23 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
   return relative_residual_;
 }
 
-bool ContactSystem::factorize() { return active_->factorize(*problem_, tangent_); }
+void ContactSystem::set_linear_solver(LinearSolver method) { jacobian_->set_method(method); }
 
-void ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) { active_->solve(*problem_, r, x); }
+bool ContactSystem::factorize() { return jacobian_->factorize(*problem_, tangent_); }
 
-bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
-  return active_->factorize_bordered(*problem_, tangent_, b, c, d);
+bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
+  return jacobian_->solve(*problem_, r, reduction, x);
 }
 
-void ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y) {
-  active_->solve_bordered(*problem_, r, s, x, y);
+double ContactSystem::condition() { return jacobian_->condition(*problem_); }
+
+bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
+  return jacobian_->factorize_bordered(*problem_, tangent_, b, c, d);
+}
+
+bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
+                                   double reduction) {
+  return jacobian_->solve_bordered(*problem_, r, s, reduction, x, y);
 }
 
 }  // namespace wavebalance::solvers

@@ -87,6 +87,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   response.status = result.status;
   response.residual = result.residual;
   response.residual_history = std::move(result.residual_history);
+  response.condition = result.condition;
   response.contact_force = system.force();
   response.coefficients = problem.coefficients(system.force());
   response.displacement = std::move(u);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "wavebalance/solvers/forced_response.hpp"
@@ -36,9 +37,14 @@ bool line_search(ContactSystem& system, Eigen::VectorXd& u, const Eigen::VectorX
   return false;
 }
 
-}  // namespace
+// Residual to which a Newton system is solved by iteration: so small that the active sets, and with them the
+// steps, are those of exact solves, and not below what the tolerance asks for.
+double forcing_term(double residual, double tolerance) {
+  constexpr double exact_enough = 1e-6, share = 0.1, least = 1e-12;
+  return std::max({least, share * tolerance / residual, exact_enough * std::min(1.0, 100.0 * residual)});
+}
 
-NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options) {
+NewtonResult iterate(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options) {
   NewtonResult result;
   Eigen::VectorXd direction;
   system.evaluate(u);
@@ -50,16 +56,25 @@ NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptio
       return result;
     }
     if (result.iterations >= options.max_iterations) return result;
-    if (!system.factorize()) {
+    const double reduction = forcing_term(result.residual, options.tolerance);
+    if (!system.factorize() || !system.solve(system.residual(), direction, reduction)) {
       result.status = SolveStatus::singular;
       return result;
     }
-    system.solve(system.residual(), direction);
     if (!line_search(system, u, direction, options)) {
       result.status = SolveStatus::stalled;
       return result;
     }
   }
+}
+
+}  // namespace
+
+NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options) {
+  system.set_linear_solver(options.linear_solver);
+  NewtonResult result = iterate(system, u, options);
+  if (result.iterations > 0) result.condition = system.condition();
+  return result;
 }
 
 }  // namespace wavebalance::solvers

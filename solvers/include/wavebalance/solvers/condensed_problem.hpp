@@ -53,6 +53,10 @@ class CondensedProblem {
   /// K^T v.
   void apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result);
 
+  /// C x C: the parts exp(2 pi i n t) of the displacements that contact forces exp(2 pi i n t) cause, m/N,
+  /// 0 <= n <= N/2. The diagonal of K over harmonics of the samples, which is all of K for two Fourier bases.
+  Eigen::MatrixXcd harmonic_response(int n) const;
+
   /// The first p = shift_period() columns of K of each contact, samples() x C p: column d p + m belongs to a
   /// unit force at point m of contact d. The column of point m + j p is that of m with the samples of every
   /// contact shifted cyclically by j p. Made on first use after set_frequency. O(C p (C N log N + C M)).

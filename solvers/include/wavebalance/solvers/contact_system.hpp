@@ -7,7 +7,14 @@
 
 namespace wavebalance::solvers {
 
-class ActiveBlock;
+class JacobianSolver;
+
+/// How systems with the Newton matrix J are solved.
+enum class LinearSolver {
+  automatic,  ///< LU for few active samples, GMRES for many
+  dense,      ///< LU of the active samples, O(active^3)
+  krylov      ///< GMRES with FFT products and J on its low harmonics as preconditioner, O(N log N) an iteration
+};
 
 /// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
 /// m, contact-major):
@@ -42,16 +49,24 @@ class ContactSystem {
   /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
   void set_tangent(int sample, double value) { tangent_[sample] = factor_ * value; }
 
-  /// Factorizes J restricted to the active samples. False when singular to working precision. O(active^3).
+  void set_linear_solver(LinearSolver method);
+
+  /// Factorizes J restricted to the active samples, or its preconditioner. False when singular to working
+  /// precision. O(active^3), or O(N log N) for many.
   bool factorize();
-  /// x = J^-1 r.
-  void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x);
+  /// x = J^-1 r, with GMRES until the residual is at most `reduction` of r on the active samples. False when
+  /// that was not reached: J is singular or nearly so.
+  bool solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction = 1e-10);
 
   /// Factorizes the bordered matrix [J b; c^T d], which stays regular where the curve turns. False when
   /// singular.
   bool factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d);
   /// Solves J x + b y = r, c.x + d y = s.
-  void solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y);
+  bool solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
+                      double reduction = 1e-10);
+
+  /// Condition of what was factorized last, as NewtonResult says; 0 before any.
+  double condition();
 
  private:
   CondensedProblem* problem_;
@@ -60,7 +75,7 @@ class ContactSystem {
   double factor_ = 1.0;
   double relative_residual_ = 0.0;
   Eigen::VectorXd force_, tangent_, residual_, product_;
-  std::unique_ptr<ActiveBlock> active_;
+  std::unique_ptr<JacobianSolver> jacobian_;
 };
 
 }  // namespace wavebalance::solvers

@@ -12,7 +12,7 @@ enum class SolveStatus {
   converged,        ///< the residual meets the tolerance
   stalled,          ///< no descent along the Newton direction, and the homotopy did not get through either
   iteration_limit,  ///< iterations used up
-  singular          ///< the Newton matrix is singular
+  singular          ///< the Newton matrix is singular, or so nearly that GMRES gets nowhere
 };
 
 std::string to_string(SolveStatus status);
@@ -21,6 +21,7 @@ struct NewtonOptions {
   double tolerance = 1e-11;  ///< on ||R|| / (||u0|| + ||K f||)
   int max_iterations = 60;
   double smallest_step = 1.0 / 4096;  ///< of the line search, relative to the Newton step
+  LinearSolver linear_solver = LinearSolver::automatic;
 };
 
 struct NewtonResult {
@@ -28,6 +29,9 @@ struct NewtonResult {
   int iterations = 0;
   double residual = 0.0;                 ///< relative, see NewtonOptions
   std::vector<double> residual_history;  ///< one entry an iteration, the first before any step
+  /// Condition number of the last Newton matrix on the active samples: with LU an estimate in the 1-norm, with
+  /// GMRES a lower bound in the 2-norm from vectors that were multiplied. 0 when no system was solved.
+  double condition = 0.0;
 };
 
 /// Semismooth Newton with line search on ||R||^2 from the displacement samples in `u`, which it improves in
@@ -53,6 +57,7 @@ struct PeriodicResponse {
   int iterations = 0;      ///< Newton iterations, those of the homotopy included
   bool used_homotopy = false;
   std::vector<double> residual_history;  ///< of the last Newton run
+  double condition = 0.0;                ///< of its last Newton matrix, see NewtonResult
   Eigen::VectorXd displacement;          ///< m, samples() values, contact-major
   Eigen::VectorXd contact_force;         ///< N, samples() values
   Eigen::MatrixXcd coefficients;         ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
