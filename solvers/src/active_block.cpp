@@ -103,8 +103,6 @@ void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorX
   complete(problem, r - border_column_ * y, values.head(count()), x);
 }
 
-double ActiveBlock::condition() const {
-  return matrix_.size() == 0 ? 1.0 : 1.0 / lu_.rcond();
-}
+double ActiveBlock::condition() const { return matrix_.size() == 0 ? 1.0 : 1.0 / lu_.rcond(); }
 
 }  // namespace wavebalance::solvers

@@ -41,7 +41,7 @@ class StiffnessScale {
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
   /// working precision makes it, or not finite. Returns condition(). O(n).
   double require_regular(const StiffnessFactors& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
-                       double right_norm) const;
+                         double right_norm) const;
 
  private:
   std::array<double, 3> largest_;  // entry of M, C, K

@@ -16,7 +16,8 @@ class HessenbergLeastSquares {
   bool add(Eigen::VectorXd column) {
     const auto j = static_cast<Eigen::Index>(rotations_.size());
     const double size = column.norm();
-    for (Eigen::Index i = 0; i < j; ++i) rotate(rotations_[static_cast<std::size_t>(i)], column[i], column[i + 1]);
+    for (Eigen::Index i = 0; i < j; ++i)
+      rotate(rotations_[static_cast<std::size_t>(i)], column[i], column[i + 1]);
     const double length = std::hypot(column[j], column[j + 1]);
     constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
     if (!(length > rounding * size)) return false;

@@ -8,9 +8,9 @@ namespace wavebalance::solvers {
 using LinearMap = std::function<void(const Eigen::VectorXd& v, Eigen::VectorXd& product)>;
 
 struct GmresResult {
-  bool solved = false;   ///< the residual is at most the target
-  int iterations = 0;    ///< products with A
-  double residual = 0.0; ///< ||right - A x||
+  bool solved = false;    ///< the residual is at most the target
+  int iterations = 0;     ///< products with A
+  double residual = 0.0;  ///< ||right - A x||
 };
 
 /// GMRES without restarts: x from the Krylov space of `right` with the least ||right - A x||, until that is

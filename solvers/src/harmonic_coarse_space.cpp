@@ -83,8 +83,8 @@ void HarmonicCoarseSpace::respond_transposed(const Eigen::VectorXd& values, Eige
     }
 }
 
-// W^T D W of one contact: products of cosines and sines are those of sums and differences, so that its entries
-// are Fourier coefficients of D up to 2h, wrapped around where the samples cannot tell them apart.
+// W^T D W of one contact: products of cosines and sines are those of sums and differences, so that its
+// entries are Fourier coefficients of D up to 2h, wrapped around where the samples cannot tell them apart.
 void HarmonicCoarseSpace::fill_contact(const Eigen::VectorXd& tangent, Eigen::Index contact,
                                        Eigen::MatrixXd& gram) {
   fft_->forward({tangent.data() + contact * points_, static_cast<std::size_t>(points_)},

@@ -20,8 +20,8 @@ struct ComplianceOperator {
 };
 
 /// The harmonics |n| <= h of the samples of each contact, where the compliance is large: with W
-/// (C N x C (2h + 1)) their orthonormal synthesis (mean, cosines, sines), K is nearly W B W^T plus a part that
-/// decays as the harmonics beyond h do, like 1 / n^2. Owns a plan and buffers: one object a thread.
+/// (C N x C (2h + 1)) their orthonormal synthesis (mean, cosines, sines), K is nearly W B W^T plus a part
+/// that decays as the harmonics beyond h do, like 1 / n^2. Owns a plan and buffers: one object a thread.
 class HarmonicCoarseSpace {
  public:
   /// Takes the responses of the harmonics 0..h of K; h < N/2.

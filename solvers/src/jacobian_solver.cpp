@@ -24,8 +24,8 @@ void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::Vector
   active_ = (tangent.array() != 0.0).count();
   const bool large = active_ > crossover * problem.contacts();
   const bool given_up = krylov_failed_ && active_ <= largest_dense;
-  const bool krylov = method_ == LinearSolver::krylov ||
-                      (method_ == LinearSolver::automatic && large && !given_up);
+  const bool krylov =
+      method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
   used_ = krylov ? Used::krylov : Used::dense;
 }
 

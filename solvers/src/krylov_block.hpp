@@ -44,8 +44,8 @@ class KrylovBlock {
   /// Harmonics in the preconditioner.
   int harmonics() const { return coarse_.harmonics(); }
   /// Lower bound of the condition number, in the 2-norm, of J on the active samples: the largest over the
-  /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation and of a few of iterations with
-  /// J and P^-1. Three products more.
+  /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation and of a few of iterations
+  /// with J and P^-1. Three products more.
   double condition(const ComplianceOperator& compliance);
 
  private:
@@ -74,10 +74,10 @@ class KrylovBlock {
   Eigen::VectorXd weighted_, samples_, coefficients_, responses_;  // work
   double largest_gain_ = 0.0, smallest_gain_ = 0.0;                // of ||J z|| / ||z||
   bool bordered_ = false;
-  Eigen::VectorXd column_, row_;         // b and c over all samples
-  Eigen::VectorXd active_column_;        // b at the active samples
-  Eigen::VectorXd active_row_;           // c^T (x - r) of the active values: -D K^T c
-  double corner_ = 0.0;                  // d - c.b
+  Eigen::VectorXd column_, row_;   // b and c over all samples
+  Eigen::VectorXd active_column_;  // b at the active samples
+  Eigen::VectorXd active_row_;     // c^T (x - r) of the active values: -D K^T c
+  double corner_ = 0.0;            // d - c.b
 };
 
 }  // namespace wavebalance::solvers

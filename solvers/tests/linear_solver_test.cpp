@@ -24,7 +24,8 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt19
 TEST(Gmres, ReachesTheTargetThatItReports) {
   std::mt19937 generator(1);
   const Eigen::Index size = 40;
-  const Eigen::MatrixXd matrix = random_matrix(size, size, generator);  // no structure: needs all of the space
+  const Eigen::MatrixXd matrix =
+      random_matrix(size, size, generator);  // no structure: needs all of the space
   const Eigen::VectorXd right = testing::random_vector(size, generator);
   Eigen::VectorXd x;
   for (const double target : {1e-1, 1e-5, 1e-9}) {
@@ -107,7 +108,8 @@ class CoarseSpaceTest : public ::testing::Test {
 
 TEST_F(CoarseSpaceTest, SynthesisIsOrthonormalAndAnalysisItsTranspose) {
   const Eigen::MatrixXd w = synthesis();
-  EXPECT_LE((w.transpose() * w - Eigen::MatrixXd::Identity(space_.size(), space_.size())).norm(), 100.0 * eps);
+  EXPECT_LE((w.transpose() * w - Eigen::MatrixXd::Identity(space_.size(), space_.size())).norm(),
+            100.0 * eps);
   const Eigen::VectorXd u = testing::random_vector(problem_.samples(), generator_);
   Eigen::VectorXd coefficients;
   space_.analyse(u, coefficients);
@@ -128,12 +130,13 @@ TEST_F(CoarseSpaceTest, ResponseIsTheComplianceOfItsHarmonics) {
 TEST_F(CoarseSpaceTest, MatrixIsThatOfTheExplicitProducts) {
   const Eigen::MatrixXd w = synthesis();
   const Eigen::VectorXd tangent = testing::random_vector(problem_.samples(), generator_).cwiseAbs();
-  const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(space_.size(), space_.size()) +
-                                   w.transpose() * tangent.asDiagonal() * w * w.transpose() *
-                                       testing::compliance_matrix(problem_) * w;
+  const Eigen::MatrixXd expected =
+      Eigen::MatrixXd::Identity(space_.size(), space_.size()) +
+      w.transpose() * tangent.asDiagonal() * w * w.transpose() * testing::compliance_matrix(problem_) * w;
   Eigen::MatrixXd matrix(space_.size() + 1, space_.size() + 1);
   space_.fill(tangent, matrix);
-  EXPECT_LE((matrix.topLeftCorner(space_.size(), space_.size()) - expected).norm(), 1e3 * eps * expected.norm());
+  EXPECT_LE((matrix.topLeftCorner(space_.size(), space_.size()) - expected).norm(),
+            1e3 * eps * expected.norm());
 }
 
 // The same state of each kind of pair, solved by LU and by GMRES.
@@ -201,9 +204,8 @@ TEST_P(LinearSolverTest, ConditionOfGmresIsALowerBound) {
   std::vector<Eigen::Index> active;
   for (Eigen::Index l = 0; l < u_.size(); ++l)
     if (system_.tangent()[l] != 0.0) active.push_back(l);
-  const Eigen::MatrixXd jacobian =
-      Eigen::MatrixXd::Identity(u_.size(), u_.size()) +
-      testing::compliance_matrix(problem_) * system_.tangent().asDiagonal();
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(u_.size(), u_.size()) +
+                                   testing::compliance_matrix(problem_) * system_.tangent().asDiagonal();
   const Eigen::MatrixXd block = jacobian(active, active);
   const double bound = block.norm() * block.inverse().norm();  // Frobenius: at least the 2-norm's
   system_.set_linear_solver(LinearSolver::krylov);
@@ -252,7 +254,8 @@ TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
 }
 
 TEST(LinearSolver, ATangentThatIsNotFiniteIsASingularMatrix) {
-  CondensedProblem problem(testing::fourier_pair(127, 512), testing::jl14_bar(1, 1e-4), testing::cosine_load());
+  CondensedProblem problem(testing::fourier_pair(127, 512), testing::jl14_bar(1, 1e-4),
+                           testing::cosine_load());
   problem.set_frequency(150.0);
   for (const auto method : {LinearSolver::dense, LinearSolver::krylov, LinearSolver::automatic}) {
     for (const double stiffness : {std::numeric_limits<double>::infinity(), std::nan("")}) {
@@ -279,7 +282,8 @@ TEST(LinearSolver, ResponsesByGmresAndByLuAreEqual) {
     for (const TimePair& pair : testing::pair_kinds(256, 1024)) {
       CondensedProblem problem(pair, reference.structure(), testing::cosine_load());
       problem.set_frequency(reference.frequency_hz);
-      for (const AnyContactLaw& law : {AnyContactLaw(reference.law), AnyContactLaw(Stop{reference.law.start})}) {
+      for (const AnyContactLaw& law :
+           {AnyContactLaw(reference.law), AnyContactLaw(Stop{reference.law.start})}) {
         ForcedResponseOptions options;
         options.homotopy = false;
         options.newton.linear_solver = LinearSolver::dense;

@@ -13,7 +13,7 @@ class JacobianSolver;
 enum class LinearSolver {
   automatic,  ///< LU for few active samples, GMRES for many
   dense,      ///< LU of the active samples, O(active^3)
-  krylov      ///< GMRES with FFT products and J on its low harmonics as preconditioner, O(N log N) an iteration
+  krylov  ///< GMRES with FFT products and J on its low harmonics as preconditioner, O(N log N) an iteration
 };
 
 /// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
@@ -21,7 +21,7 @@ enum class LinearSolver {
 ///   R(u) = u - u0 + K s f_c(u),   J = I + K D,   D = diag(s f_c'(u)),
 /// s a factor on the laws (homotopy in contact stiffness; 1 otherwise). A linear solve with J reduces exactly
 /// to the active samples, those where D is not zero: x = r - K D x, an LU of their number and one product
-/// with K.
+/// with K. Many of them are solved for by GMRES, which forms no matrix over them.
 class ContactSystem {
  public:
   /// Throws std::invalid_argument when there are neither one law nor one for each contact.

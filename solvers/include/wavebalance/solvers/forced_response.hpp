@@ -29,13 +29,14 @@ struct NewtonResult {
   int iterations = 0;
   double residual = 0.0;                 ///< relative, see NewtonOptions
   std::vector<double> residual_history;  ///< one entry an iteration, the first before any step
-  /// Condition number of the last Newton matrix on the active samples: with LU an estimate in the 1-norm, with
-  /// GMRES a lower bound in the 2-norm from vectors that were multiplied. 0 when no system was solved.
+  /// Condition number of the last Newton matrix on the active samples: with LU an estimate in the 1-norm,
+  /// with GMRES a lower bound in the 2-norm from vectors that were multiplied. 0 when no system was solved.
   double condition = 0.0;
 };
 
 /// Semismooth Newton with line search on ||R||^2 from the displacement samples in `u`, which it improves in
-/// place and leaves at the smallest residual found. O(active^3 + N log N) an iteration.
+/// place and leaves at the smallest residual found. O(active^3 + N log N) an iteration, or with GMRES for
+/// many active samples O(N log N) a product, a few products an iteration.
 NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options);
 
 /// Told after each iteration or homotopy step: what is done, how often, and the current relative residual.
