@@ -4,12 +4,15 @@ namespace wavebalance::solvers {
 namespace {
 
 // Active samples of one contact up to which LU is quicker than GMRES, measured on both cases of JL14 with 4
-// points a function: a point takes 0.22 ms by LU and 0.5 ms by GMRES with 256 points (27 to 80 active
+// points a function: a point takes 0.18 ms by LU and 0.40 ms by GMRES with 256 points (27 to 80 active
 // samples), 0.97 ms and 0.59 ms with 512 (55 to 160).
 constexpr Eigen::Index crossover = 96;
 
-// LU of more is not affordable: 2048 take about a second.
-constexpr Eigen::Index largest_dense = 2048;
+// Of several contacts the preconditioner affords few harmonics each: LU as long as it takes about a second.
+constexpr Eigen::Index crossover_of_several = 2048;
+
+// LU of more is not affordable: 4096 take several seconds.
+constexpr Eigen::Index largest_dense = 4096;
 
 ComplianceOperator compliance_of(CondensedProblem& problem) {
   return {problem.contacts(), problem.points(),
@@ -22,7 +25,7 @@ ComplianceOperator compliance_of(CondensedProblem& problem) {
 
 void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::VectorXd& tangent) {
   active_ = (tangent.array() != 0.0).count();
-  const bool large = active_ > crossover * problem.contacts();
+  const bool large = active_ > (problem.contacts() == 1 ? crossover : crossover_of_several);
   const bool given_up = krylov_failed_ && active_ <= largest_dense;
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
