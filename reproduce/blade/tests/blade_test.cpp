@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "blade_motion.hpp"
+#include "forced_blade.hpp"
 #include "rotating_blade.hpp"
 #include "wavebalance/report/record.hpp"
 #include "wavebalance/reproduce/output.hpp"
@@ -89,6 +90,38 @@ TEST(RotatingBlade, ReducedAtRestHasTheFrequenciesOfTheOneReducedAtSpeed) {
                std::invalid_argument);
 }
 
+TEST(RmsDifference, ComparesCommonTimes) {
+  Eigen::MatrixXd fine(1, 4), coarse(1, 2);
+  fine << 3.0, 100.0, 4.0, -100.0;
+  coarse << 3.0, 9.0;
+  EXPECT_DOUBLE_EQ(rms_difference(coarse, fine), 1.0);  // |0, 5| / |3, 4|
+  EXPECT_EQ(rms_difference(fine, fine), 0.0);
+  EXPECT_THROW(rms_difference(fine, Eigen::MatrixXd(1, 3)), std::invalid_argument);
+  EXPECT_THROW(rms_difference(fine, Eigen::MatrixXd(2, 4)), std::invalid_argument);
+}
+
+TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
+  const std::vector<std::string> overrides{"time.functions=16", "time.quadrature_points=32",
+                                           "analysis.frequency_to=690.0", "analysis.largest_step=20.0"};
+  const auto scene = scene_of("forced_response.toml", overrides);
+  const auto model = reproduce::make_model(scene);
+  const auto up = stepped(scene, model), down = stepped(reversed(scene), model);
+  ASSERT_EQ(up.size(), 9u);
+  ASSERT_EQ(down.size(), 9u);
+  const double gap = scene.contact.gap, tolerance = 1e-6 * gap;
+  for (const auto& response : up) {
+    EXPECT_TRUE(response.converged) << response.frequency;
+    const auto& other = at(down, response.frequency);
+    // Stiffening: upwards the response is never the smaller one, and the force is that of the springs.
+    EXPECT_GE(response.displacement.maxCoeff(), other.displacement.maxCoeff() - tolerance);
+    const Eigen::MatrixXd penetration = (response.displacement.array() - gap).cwiseMax(0.0);
+    EXPECT_LT((response.force - scene.contact.stiffness * penetration).cwiseAbs().maxCoeff(),
+              1e-9 * (1.0 + response.force.maxCoeff()));
+  }
+  EXPECT_GT(at(up, 630.0).displacement.maxCoeff(), 2.0 * at(down, 630.0).displacement.maxCoeff());
+  EXPECT_THROW(at(up, 400.0), std::out_of_range);
+}
+
 class BladeResults : public testing::Test {
  protected:
   BladeResults() {
@@ -98,9 +131,9 @@ class BladeResults : public testing::Test {
   }
   ~BladeResults() override { fs::remove_all(folder_); }
 
-  int run(const std::string& program) const {
+  int run(const std::string& program, const std::string& options = "") const {
     const std::string command =
-        std::string(BLADE_PROGRAMS) + "/blade_" + program + " --output '" + folder_.string() + "'";
+        std::string(BLADE_PROGRAMS) + "/blade_" + program + " --output '" + folder_.string() + "'" + options;
     return WEXITSTATUS(std::system(command.c_str()));
   }
   report::Record record(const std::string& stem) const {
@@ -120,6 +153,28 @@ TEST_F(BladeResults, CampbellDiagramStiffensWithSpeedAndWithEnergy) {
   // Energy 1 is the linear mode at grazing.
   EXPECT_EQ(table.numbers("energy_1"), table.numbers("linear_Hz"));
   EXPECT_NEAR(table.numbers("energy_7").front() / 570.0, 1.1931, 0.003);
+}
+
+/// The program on a coarser scene: half the functions and points, twice the step.
+TEST_F(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
+  std::string text = reproduce::read_file(fs::path(WAVEBALANCE_SCENES) / "blade" / "forced_response.toml");
+  for (const auto& [from, to] : {std::pair{"functions = 64", "functions = 32"},
+                                 {"quadrature_points = 128", "quadrature_points = 64"},
+                                 {"largest_step = 10.0", "largest_step = 30.0"}}) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), std::string(from).size(), to);
+  }
+  ASSERT_NE(text.find("frequency = 600.0"), std::string::npos);
+  text.replace(text.find("frequency = 600.0"), 17, "frequency = 590.0");
+  reproduce::write_file(folder_ / "scenes" / "forced_response.toml", text);
+  ASSERT_EQ(run("forced_response", " --scenes '" + (folder_ / "scenes").string() + "'"), 0);
+  EXPECT_TRUE(record("forced_response").claims.at(0).holds);
+  const auto table = read("forced_response.csv");
+  EXPECT_EQ(table.columns(),
+            (std::vector<std::string>{"frequency_Hz", "fourier_fourier", "daubechies6_daubechies6",
+                                      "haar_fourier", "fourier_fourier_downwards"}));
+  EXPECT_EQ(read("forced_response_histories.csv").rows(), 64u);
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "forced_response.png"));
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+#include "forced_blade.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "wavebalance/solvers/forced_response.hpp"
+
+namespace wavebalance::blade {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Contact-major samples as one row a contact.
+Eigen::MatrixXd rows(const Eigen::VectorXd& samples, int contacts) {
+  return Eigen::Map<const RowMajor>(samples.data(), contacts, samples.size() / contacts);
+}
+
+}  // namespace
+
+std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduce::StructureModel& model) {
+  const auto& analysis = scene.analysis;
+  const double from = analysis.frequency_from, range = analysis.frequency_to - from;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(range) / analysis.largest_step - 1e-9)));
+  auto whole = model;
+  whole.structure.contact_dofs = whole.contact_dofs;
+  auto problem = reproduce::make_problem(scene, whole);
+  const auto laws = reproduce::make_laws(scene);
+  std::vector<BladeResponse> responses;
+  Eigen::VectorXd guess;
+  for (int i = 0; i <= steps; ++i) {
+    const double frequency = from + range * i / steps;
+    problem.set_frequency(frequency);
+    const auto found = solvers::forced_response(problem, laws, {}, guess);
+    guess = found.converged() ? found.displacement : Eigen::VectorXd();
+    responses.push_back({frequency, found.converged(), rows(found.displacement, model.contacts()),
+                         rows(found.contact_force, model.contacts())});
+  }
+  return responses;
+}
+
+reproduce::Scene reversed(reproduce::Scene scene) {
+  std::swap(scene.analysis.frequency_from, scene.analysis.frequency_to);
+  return scene;
+}
+
+const BladeResponse& at(const std::vector<BladeResponse>& responses, double frequency) {
+  const double step = responses.size() > 1 ? std::abs(responses[1].frequency - responses[0].frequency) : 0.0;
+  for (const auto& response : responses)
+    if (std::abs(response.frequency - frequency) <= 0.5 * step) return response;
+  throw std::out_of_range("no response at " + std::to_string(frequency) + " Hz");
+}
+
+std::vector<double> largest_displacements(const std::vector<BladeResponse>& responses) {
+  std::vector<double> largest;
+  for (const auto& response : responses)
+    largest.push_back(response.converged ? response.displacement.maxCoeff()
+                                         : std::numeric_limits<double>::quiet_NaN());
+  return largest;
+}
+
+double rms_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::Index common = std::min(a.cols(), b.cols());
+  if (a.rows() != b.rows() || common == 0 || a.cols() % common != 0 || b.cols() % common != 0)
+    throw std::invalid_argument("rms_difference: " + std::to_string(a.rows()) + " x " +
+                                std::to_string(a.cols()) + " and " + std::to_string(b.rows()) + " x " +
+                                std::to_string(b.cols()) + " samples have no common times");
+  const auto thinned = [common](const Eigen::MatrixXd& samples) -> Eigen::MatrixXd {
+    return samples(Eigen::all, Eigen::seqN(0, common, samples.cols() / common));
+  };
+  return (thinned(a) - thinned(b)).norm() / thinned(b).norm();
+}
+
+}  // namespace wavebalance::blade
