@@ -28,12 +28,15 @@ std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduc
   whole.structure.contact_dofs = whole.contact_dofs;
   auto problem = reproduce::make_problem(scene, whole);
   const auto laws = reproduce::make_laws(scene);
+  solvers::ForcedResponseOptions nearby;
+  nearby.homotopy = false;
   std::vector<BladeResponse> responses;
   Eigen::VectorXd guess;
   for (int i = 0; i <= steps; ++i) {
     const double frequency = from + range * i / steps;
     problem.set_frequency(frequency);
-    const auto found = solvers::forced_response(problem, laws, {}, guess);
+    auto found = solvers::forced_response(problem, laws, nearby, guess);
+    if (!found.converged()) found = solvers::forced_response(problem, laws, {});  // the branch ends here
     guess = found.converged() ? found.displacement : Eigen::VectorXd();
     responses.push_back({frequency, found.converged(), rows(found.displacement, model.contacts()),
                          rows(found.contact_force, model.contacts())});

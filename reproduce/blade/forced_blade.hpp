@@ -16,8 +16,9 @@ struct BladeResponse {
 };
 
 /// The responses at uniform frequencies from analysis.frequency_from to frequency_to, analysis.largest_step
-/// apart, each from the one before: upwards this stays on the branch of large responses, downwards on that of
-/// small ones. model: the scene's structure composed before. O(frequencies) periodic problems.
+/// apart, each from the one before, or where that branch ends from the contact-free response: upwards this
+/// stays on the branch of large responses, downwards on that of small ones. model: the scene's structure
+/// composed before. O(frequencies) periodic problems.
 std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduce::StructureModel& model);
 
 /// The scene with frequencies from frequency_to to frequency_from.
