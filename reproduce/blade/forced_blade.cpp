@@ -24,12 +24,11 @@ std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduc
   const auto& analysis = scene.analysis;
   const double from = analysis.frequency_from, range = analysis.frequency_to - from;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(range) / analysis.largest_step - 1e-9)));
-  auto whole = model;
-  whole.structure.contact_dofs = whole.contact_dofs;
-  auto problem = reproduce::make_problem(scene, whole);
+  auto problem = reproduce::make_problem(scene, model);
   const auto laws = reproduce::make_laws(scene);
   solvers::ForcedResponseOptions nearby;
   nearby.homotopy = false;
+  nearby.newton.max_iterations = 12;  // enough on a branch
   std::vector<BladeResponse> responses;
   Eigen::VectorXd guess;
   for (int i = 0; i <= steps; ++i) {
