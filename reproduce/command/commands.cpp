@@ -68,19 +68,20 @@ std::vector<std::string> stage(OutputFiles& files, const Scene& scene, const Rec
   return names;
 }
 
+std::string shown_value(const Cell& value) { return cell_text(value); }
+
+std::string shown_value(const std::vector<double>& list) {
+  std::string shown;
+  for (const double one : list) shown += (shown.empty() ? "" : ", ") + cell_text(one);
+  return shown;
+}
+
+std::string shown_value(const Table& table) { return std::to_string(table.rows()) + " rows in summary.json"; }
+
 std::string summary_text(const Summary& summary) {
   std::string text;
   for (const auto& [name, value] : summary) {
-    std::string shown;
-    if (const auto* list = std::get_if<std::vector<double>>(&value))
-      for (const double one : *list) shown += (shown.empty() ? "" : ", ") + cell_text(one);
-    else
-      std::visit(
-          [&](const auto& one) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, std::vector<double>>)
-              shown = cell_text(one);
-          },
-          value);
+    const std::string shown = std::visit([](const auto& one) { return shown_value(one); }, value);
     text += name + std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') + shown + "\n";
   }
   return text;

@@ -39,6 +39,28 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   return options;
 }
 
+Table ladder_table(const Refinement& refinement) {
+  Table table({"trial", "weight", "functions", "quadrature_points", "estimated_error", "truncation_error",
+               "quadrature_error", "residual", "iterations", "seconds"});
+  for (const auto& rung : refinement.ladder)
+    table.append_row({refinement.trial, refinement.weight, std::int64_t{rung.functions},
+                      std::int64_t{rung.points}, rung.estimated_error, rung.truncation, rung.quadrature,
+                      rung.residual, std::int64_t{rung.iterations}, rung.seconds});
+  return table;
+}
+
+void append_refinement(Summary& summary, const Refinement& refinement, double tolerance) {
+  const auto& last = refinement.ladder.back();
+  summary.emplace_back("tolerance", tolerance);
+  summary.emplace_back("estimated_error", refinement.estimated_error);
+  summary.emplace_back("trial", refinement.trial);
+  summary.emplace_back("weight", refinement.weight);
+  summary.emplace_back("functions", std::int64_t{last.functions});
+  summary.emplace_back("quadrature_points", std::int64_t{last.points});
+  summary.emplace_back("ladder", ladder_table(refinement));
+  summary.emplace_back("ladder_seconds", refinement.seconds);
+}
+
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
   record.converged = response.converged;
@@ -56,6 +78,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back("complementarity", response.rigid->product);
     record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
   }
+  if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   append_structure(record.summary, model);
   if (response.contacts.points() == 0) return record;
   record.response = response_table(response.samples);

@@ -97,7 +97,14 @@ std::string forcing_line(const Scene& scene) {
          number_text(scene.analysis.frequency_to) + " Hz\n";
 }
 
+std::string chosen_text(const Time& time) {
+  const std::string pair = time.trial.empty() ? "pair" : time.trial + ":" + time.weight;
+  return "time       " + pair + ", functions and quadrature points chosen for a relative error of " +
+         number_text(time.tolerance) + "\n";
+}
+
 std::string time_lines(const Time& time) {
+  if (time.tolerance > 0.0) return chosen_text(time);
   const auto products = effective_inner_products(time);
   std::string text = "time       " + time.trial + ":" + time.weight + ", " + std::to_string(time.functions) +
                      " functions, " + std::to_string(time.quadrature_points) + " quadrature points, " +
@@ -111,6 +118,7 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return "size       " + std::to_string(2 * scene.structure.elements) +
            " states, periods until they differ by " + number_text(scene.analysis.tolerance) + "\n";
+  if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return "size       " + std::to_string(contacts_of(scene.structure) * functions) +
          " unknowns after condensation on the contact (" + std::to_string(size_of(scene) * functions) +

@@ -75,7 +75,13 @@ void add_motion(Figure& figure, const std::string& quantity, const std::string& 
 }  // namespace
 
 Figure response_figure(const Scene& scene, const Response& response) {
-  return motion_figure(scene, response, scene.forcing.frequency);
+  Scene solved = scene;
+  if (response.refinement) {
+    solved.time.trial = response.refinement->trial;
+    solved.time.weight = response.refinement->weight;
+    solved.time.functions = response.refinement->ladder.back().functions;
+  }
+  return motion_figure(solved, response, scene.forcing.frequency);
 }
 
 Figure motion_figure(const Scene& scene, const Response& response, double frequency) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "resampling.hpp"
+#include "tolerance_response.hpp"
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/solvers/periodic_field.hpp"
 #include "wavebalance/solvers/rigid_response.hpp"
@@ -98,6 +99,14 @@ void solve_law(const Scene& scene, const StructureModel& model, solvers::Condens
               options, result);
 }
 
+void solve_ladder(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                  Response& result) {
+  auto found = solve_to_tolerance(scene, model, options, result);
+  note_motion(*found.problem, found.response, model,
+              sample_response(*found.problem, found.response, make_laws(scene), scene.analysis.output_points),
+              options, result);
+}
+
 void solve_rigid(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
                  const ResponseOptions& options, Response& result) {
   solvers::RigidResponseOptions solver;
@@ -136,9 +145,13 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   Response result;
   result.unknowns = model.contacts() * scene.time.functions;
   try {
-    solvers::CondensedProblem problem = make_problem(scene, model);
-    const bool rigid = scene.contact.law == ContactLawType::rigid;
-    (rigid ? solve_rigid : solve_law)(scene, model, problem, options, result);
+    if (scene.time.tolerance > 0.0) {
+      solve_ladder(scene, model, options, result);
+    } else {
+      solvers::CondensedProblem problem = make_problem(scene, model);
+      const bool rigid = scene.contact.law == ContactLawType::rigid;
+      (rigid ? solve_rigid : solve_law)(scene, model, problem, options, result);
+    }
   } catch (const solvers::SingularSystem& error) {
     result.status = std::string("singular: ") + error.what();
     result.residual = std::numeric_limits<double>::quiet_NaN();

@@ -40,14 +40,22 @@ bool Condition::Clause::holds(const Scene& scene) const {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
+Condition Condition::unless(std::string_view key) const {
+  Condition result = *this;
+  result.unless_ = key;
+  return result;
+}
+
 bool Condition::holds(const Scene& scene) const { return broken_by(scene).empty(); }
 
 bool Condition::concerns(std::string_view key) const {
-  return std::any_of(clauses_.begin(), clauses_.end(),
-                     [&](const Clause& clause) { return clause.key == key; });
+  return key == unless_ || std::any_of(clauses_.begin(), clauses_.end(),
+                                       [&](const Clause& clause) { return clause.key == key; });
 }
 
 std::string_view Condition::broken_by(const Scene& scene) const {
+  if (const SceneKey* key = find_scene_key(unless_); key && key->get(scene) != key->get(Scene{}))
+    return unless_;
   const auto broken = std::find_if(clauses_.begin(), clauses_.end(),
                                    [&](const Clause& clause) { return !clause.holds(scene); });
   return broken == clauses_.end() ? std::string_view{} : broken->key;

@@ -98,7 +98,18 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
 
 void add_time_keys(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::time;
-  const Condition weighted_residual{"analysis.type", {"forced_response", "frequency_sweep"}};
+  const Condition weighted_residual =
+      analysis_is({"forced_response", "frequency_sweep"}).unless("time.tolerance");
+  keys.push_back(belonging(
+      derived(
+          bounded(key<s, &Time::tolerance>(
+                      "time", "tolerance", "",
+                      "relative rms error of the contact displacement over the period to be met, in place of "
+                      "functions and quadrature_points, which the program then chooses, and, where trial "
+                      "and weight are left out, of these too"),
+                  {0, 1}),
+          "none", [](const Scene&) -> SceneValue { return 0.0; }),
+      analysis_is({"forced_response"})));
   keys.push_back(needed(basis(key<s, &Time::trial>("time", "trial", "", "basis of the displacement in time")),
                         weighted_residual));
   keys.push_back(

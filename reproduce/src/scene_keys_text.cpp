@@ -113,7 +113,7 @@ std::string Condition::text() const {
   std::string text;
   for (const Clause& clause : clauses_)
     text += (text.empty() ? "" : " and ") + std::string(clause.key) + " = " + alternatives(clause.values);
-  return text;
+  return unless_.empty() ? text : text + " unless " + std::string(unless_) + " is given";
 }
 
 std::string SceneKey::expected() const {

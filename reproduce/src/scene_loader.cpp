@@ -210,10 +210,13 @@ Scene parse_scene(std::string_view text, const std::string& name, std::span<cons
   apply_overrides(document, overrides);
   reject_unknown(document);
   Scene scene;
-  for (const SceneKey& key : scene_keys())
-    if (governs(key)) read_key(document, key, scene);
-  for (const SceneKey& key : scene_keys())
-    if (!governs(key)) read_key(document, key, scene);
+  const auto read = [&](const auto& wanted) {
+    for (const SceneKey& key : scene_keys())
+      if (wanted(key)) read_key(document, key, scene);
+  };
+  read([](const SceneKey& key) { return governs(key) && key.belongs.empty(); });
+  read([](const SceneKey& key) { return governs(key) && !key.belongs.empty(); });
+  read([](const SceneKey& key) { return !governs(key); });
   check_scene_rules(document, scene);
   return scene;
 }

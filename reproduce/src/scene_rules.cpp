@@ -31,18 +31,46 @@ void check_wavelet_sizes(const Document& document, const Scene& scene) {
     fail_rule(document, {"analysis.motion_points"}, "expected 0 or a power of two for " + basis);
 }
 
+void check_pair(const Document& document, const Time& time) {
+  const auto pair = pair_admissibility(time);
+  if (!pair.admissible)
+    fail_rule(document, {"time.trial", "time.weight"},
+              "not an admissible trial basis for weight = \"" + time.weight + "\": " + pair.reason);
+}
+
+/// What a tolerance chooses must not be given too.
+void check_tolerance(const Document& document, const Scene& scene) {
+  Time time = scene.time;
+  if (time.functions != 0 || time.quadrature_points != 0)
+    fail_rule(document, {"time.functions", "time.quadrature_points"},
+              "not beside time.tolerance, which chooses it; expected one or the other");
+  if (time.trial.empty() != time.weight.empty())
+    fail_rule(document, {"time.trial", "time.weight"},
+              "beside time.tolerance expected both time.trial and time.weight, or none of them");
+  if (scene.contact.law == ContactLawType::rigid)
+    fail_rule(
+        document, {"time.tolerance"},
+        "not with contact.law = \"rigid\", whose force does not converge at its points; expected trial, "
+        "weight and functions");
+  if (time.trial.empty()) return;
+  time.functions = 16;  // no matter how many: exponents and derivatives decide
+  time.quadrature_points = 4 * time.functions;
+  check_pair(document, time);
+  if (is_wavelet(time.trial) && !is_power_of_two(scene.analysis.output_points))
+    fail_rule(document, {"analysis.output_points"},
+              "expected a power of two for the wavelet basis \"" + time.trial + "\"");
+}
+
 void check_time(const Document& document, const Scene& scene) {
   const Time& time = scene.time;
+  if (time.tolerance > 0.0) return check_tolerance(document, scene);
   const std::string functions = std::to_string(time.functions);
   if (time.quadrature_points < time.functions)
     fail_rule(
         document, {"time.quadrature_points", "time.functions"},
         "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
   check_wavelet_sizes(document, scene);
-  const auto pair = pair_admissibility(time);
-  if (!pair.admissible)
-    fail_rule(document, {"time.trial", "time.weight"},
-              "not an admissible trial basis for weight = \"" + time.weight + "\": " + pair.reason);
+  check_pair(document, time);
 }
 
 void check_sweep(const Document& document, const Analysis& analysis) {

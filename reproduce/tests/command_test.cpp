@@ -83,6 +83,28 @@ TEST(CommandRun, QuietSaysNothing) {
   EXPECT_EQ(outcome.output + outcome.errors, "");
 }
 
+TEST(CommandRun, ToleranceChoosesTheSizesAndSaysHow) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run(folder, {"run", folder.write("case.toml", tolerance_scene("1e-3")), "--output", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("estimated_error"), std::string::npos);
+  const std::string summary = read_file(folder / "out" / "summary.json");
+  for (const char* part :
+       {"\"converged\": true", "\"tolerance\": 0.001", "\"estimated_error\": ", "\"ladder\": [",
+        "\"trial\": \"fourier\"", "\"functions\": ", "\"quadrature_points\": ", "\"seconds\": "})
+    EXPECT_NE(summary.find(part), std::string::npos) << part;
+}
+
+TEST(CommandRun, ToleranceOutOfReachIsThree) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"run", folder.write("case.toml", tolerance_scene("1e-15")), "--output",
+                                       folder / "out", "--set", "contact.gap=-5e-3"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("stagnated"), std::string::npos) << outcome.errors;
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"converged\": false"), std::string::npos);
+}
+
 TEST(CommandRun, OverridesAreInTheResults) {
   const TemporaryFolder folder;
   const Outcome outcome =
@@ -265,6 +287,13 @@ TEST(CommandCheck, SaysWhatAModeWouldBe) {
   for (const char* part : {"rigid obstacle", "10 harmonics", "200 points", "20 contact forces", "1297 Hz"})
     EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " is not in\n" << outcome.output;
   EXPECT_EQ(outcome.output.find("forcing"), std::string::npos);
+}
+
+TEST(CommandCheck, SaysThatSizesAreChosen) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"check", folder.write("case.toml", tolerance_scene("1e-3"))});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("chosen for a relative error of 0.001"), std::string::npos) << outcome.output;
 }
 
 TEST(CommandCheck, InadmissiblePairIsTwo) {

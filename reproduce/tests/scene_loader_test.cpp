@@ -74,6 +74,43 @@ TEST(SceneLoader, MessageHoldsFileLineKeyValueAndWhatIsAllowed) {
             "case.toml:13: contact.gap = \"big\": expected a number in m");
 }
 
+TEST(SceneLoader, ToleranceStandsInPlaceOfPairFunctionsAndPoints) {
+  const Scene scene = parse_scene(tolerance_scene("1e-4"), "case.toml");
+  EXPECT_EQ(scene.time.tolerance, 1e-4);
+  EXPECT_EQ(scene.time.trial + scene.time.weight, "");
+  EXPECT_EQ(scene.time.functions + scene.time.quadrature_points, 0);
+  EXPECT_EQ(parse_scene(write_scene(scene), "written"), scene);
+  EXPECT_EQ(write_scene(parse_scene(bar_scene, "case.toml")).find("tolerance"), std::string::npos);
+}
+
+TEST(SceneLoader, ToleranceMayStandBesideAPair) {
+  const Scene scene =
+      parse_scene(tolerance_scene("1e-4\ntrial = \"haar\"\nweight = \"fourier\""), "case.toml");
+  EXPECT_EQ(scene.time.trial, "haar");
+  EXPECT_EQ(parse_scene(write_scene(scene), "written"), scene);
+}
+
+TEST(SceneLoader, ToleranceBesideWhatItChoosesIsAnError) {
+  expect_error(tolerance_scene("1e-4\nfunctions = 64"), 19, "time.functions", "64",
+               "not beside time.tolerance");
+  expect_error(tolerance_scene("1e-4\nquadrature_points = 64"), 19, "time.quadrature_points", "64",
+               "not beside time.tolerance");
+  expect_error(tolerance_scene("1e-4\ntrial = \"haar\""), 19, "time.trial", "\"haar\"",
+               "both time.trial and time.weight");
+  expect_error(tolerance_scene("1e-4\ntrial = \"haar\"\nweight = \"haar\""), 19, "time.trial", "\"haar\"",
+               "not an admissible");
+  expect_error(tolerance_scene("2.0"), 18, "time.tolerance", "2.0", "out of range");
+  expect_error(tolerance_scene("0.0"), 17, "time.trial", "", "missing");
+}
+
+TEST(SceneLoader, ToleranceIsForForcedResponsesToALaw) {
+  const std::string stepping = with(tolerance_scene("1e-4"), "forced_response", "time_stepping");
+  expect_error(stepping, 18, "time.tolerance", "1e-4", "only with analysis.type = \"forced_response\"");
+  std::string rigid = with(tolerance_scene("1e-4"), "\"exponential\"", "\"rigid\"");
+  rigid = with(with(rigid, "constant = 1e8", ""), "exponent = 50.0", "");
+  expect_error(rigid, 18, "time.tolerance", "1e-4", "not with contact.law = \"rigid\"");
+}
+
 TEST(SceneLoader, WrongTypesAreErrors) {
   expect_error(with(bar_scene, "area = 25e-4", "area = true"), 5, "structure.area", "true",
                "a number in m^2, > 0");

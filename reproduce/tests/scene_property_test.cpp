@@ -105,6 +105,12 @@ Scene any_scene() {
   if (*rc::gen::inRange(0, 4) == 0) return any_mode_scene();
   Scene scene{any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
   if (scene.analysis.type == AnalysisType::time_stepping) return scene;
+  if (scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0) {
+    scene.time.functions = scene.time.quadrature_points = 0;
+    scene.time.tolerance = *rc::gen::inRange(1, 1000) / 1e6;
+    if (*rc::gen::arbitrary<bool>()) scene.time.trial = scene.time.weight = "";
+    return scene;
+  }
   if (scene.structure.elements > 1) scene.structure.massless_tip = *rc::gen::arbitrary<bool>();
   if (*rc::gen::arbitrary<bool>()) scene.contact = {.law = ContactLawType::rigid, .gap = positive()};
   return scene;

@@ -44,6 +44,13 @@ type = "nonlinear_mode"         # 13
 points = 200                    # 14
 )";
 
+/// bar_scene with a tolerance in place of pair, functions and points.
+inline std::string tolerance_scene(const std::string& tolerance) {
+  const auto begin = bar_scene.find("trial = ");
+  std::string text = bar_scene;
+  return text.replace(begin, text.find("[analysis]") - begin, "tolerance = " + tolerance + "\n");
+}
+
 /// `text` with its one occurrence of `from` replaced.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {
   const auto place = text.find(from);

@@ -2,24 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
-#include "spans.hpp"
 #include "wavebalance/solvers/translate_spectrum.hpp"
-#include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
-
-// (2 pi i n)^derivative for derivative = 0, 1, 2.
-Complex derivative_factor(int harmonic, int derivative) {
-  const double omega = 2.0 * std::numbers::pi * harmonic;
-  if (derivative == 0) return 1.0;
-  return derivative == 1 ? Complex(0.0, omega) : Complex(-omega * omega, 0.0);
-}
 
 // How many of the `derivative` derivatives stand on the trial function; the others, with a sign each, on the
 // weight.
@@ -33,14 +23,6 @@ int trial_order(Formulation formulation, int derivative) {
       return 0;
   }
   return derivative;
-}
-
-Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative) {
-  spectral::RealFft fft(points);
-  Eigen::VectorXcd spectrum(fft.harmonics());
-  const Eigen::VectorXd samples = basis.samples(points, derivative);
-  fft.forward(span_of(samples), span_of(spectrum));
-  return spectrum;
 }
 
 std::string derivative_reason(const char* side, int needed, int available) {
@@ -110,8 +92,11 @@ Eigen::VectorXcd TimePair::sampled_symbol(int derivative) const {
   const int on_trial = trial_order(options_.formulation, derivative);
   const int on_weight = derivative - on_trial;
   Eigen::VectorXcd symbol;
-  TranslateIndex{functions_, points_}.fold(sampled_spectrum(weight_, points_, on_weight),
-                                           sampled_spectrum(trial_, points_, on_trial), symbol);
+  const auto spectrum = [&](const AnyTimeBasis& basis, const Eigen::VectorXcd& values, int order) {
+    return order == 0 ? values : sampled_spectrum(basis, points_, order);
+  };
+  TranslateIndex{functions_, points_}.fold(spectrum(weight_, weight_spectrum_, on_weight),
+                                           spectrum(trial_, trial_spectrum_, on_trial), symbol);
   const double sign = on_weight % 2 == 0 ? 1.0 : -1.0;
   return symbol * (sign * functions_ / points_ / points_);
 }

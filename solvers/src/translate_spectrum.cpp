@@ -1,6 +1,8 @@
 #include "wavebalance/solvers/translate_spectrum.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -53,16 +55,33 @@ void TranslateIndex::fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd
   }
 }
 
+std::complex<double> derivative_factor(int harmonic, int derivative) {
+  const double omega = 2.0 * std::numbers::pi * harmonic;
+  const double magnitude = derivative == 0 ? 1.0 : std::pow(omega, derivative);
+  constexpr std::complex<double> turns[] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
+  return turns[derivative % 4] * magnitude;
+}
+
+Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative) {
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(points / 2 + 1);
+  if (basis.band_limited() && basis.functions() < points) {
+    for (int n = 0; n <= basis.functions() / 2; ++n)
+      spectrum[n] = double(points) * basis.fourier_coefficient(n) * derivative_factor(n, derivative);
+    return spectrum;
+  }
+  spectral::RealFft fft(points);
+  const Eigen::VectorXd samples = basis.samples(points, derivative);
+  fft.forward(span_of(samples), span_of(spectrum));
+  return spectrum;
+}
+
 TrialEvaluator::TrialEvaluator(const AnyTimeBasis& basis, int points, int derivative)
     : index_{basis.functions(), fine_points(basis, points)},
       points_(points),
       stride_(index_.points / points),
-      generator_(index_.points / 2 + 1),
+      generator_(sampled_spectrum(basis, index_.points, derivative)),
       values_(index_.points),
-      fft_(std::make_unique<spectral::RealFft>(index_.points)) {
-  const Eigen::VectorXd samples = basis.samples(index_.points, derivative);
-  fft_->forward(span_of(samples), span_of(generator_));
-}
+      fft_(std::make_unique<spectral::RealFft>(index_.points)) {}
 
 TrialEvaluator::TrialEvaluator(TrialEvaluator&&) noexcept = default;
 TrialEvaluator& TrialEvaluator::operator=(TrialEvaluator&&) noexcept = default;

@@ -36,7 +36,8 @@ Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {})
 /// The same for the scene's structure composed before.
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer = {});
 
-using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
+/// A Table is written as an array of objects, one a row.
+using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>, Table>;
 using Summary = std::vector<std::pair<std::string, SummaryValue>>;
 
 /// A further file of a record, ready to be written.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "wavebalance/reproduce/contact_motion.hpp"
 #include "wavebalance/reproduce/scene.hpp"
@@ -11,6 +12,7 @@
 #include "wavebalance/solvers/condensed_problem.hpp"
 #include "wavebalance/solvers/forced_response.hpp"
 #include "wavebalance/solvers/period_samples.hpp"
+#include "wavebalance/solvers/resolution_ladder.hpp"
 
 namespace wavebalance::reproduce {
 
@@ -32,6 +34,14 @@ struct RigidContact {
   double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
 };
 
+/// How a scene with time.tolerance was resolved.
+struct Refinement {
+  std::string trial, weight;     ///< the pair, of all rungs
+  double estimated_error = 0.0;  ///< relative rms of the last rung, see solvers::response_to_tolerance
+  double seconds = 0.0;          ///< wall time of all rungs
+  std::vector<solvers::LadderRung> ladder;  ///< in the order climbed
+};
+
 /// A periodic response of a scene's contacts, or an honest failure to find one.
 struct Response {
   bool converged = false;
@@ -41,18 +51,20 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
   bool used_homotopy = false;
-  double wall_seconds = 0.0;          ///< composition, solution and samples
-  std::optional<RigidContact> rigid;  ///< of scenes with rigid contact
-  ContactMotion contacts;             ///< analysis.output_points samples; empty if there is nothing at all
-  int contact = 0;                    ///< the leading one, see ContactMotion::leading()
-  solvers::PeriodSamples samples;     ///< of that one; the full history is of the structure as solvers see it
-  Eigen::MatrixXd motion;  ///< that structure's displacements, size x ResponseOptions::motion_points
+  double wall_seconds = 0.0;             ///< composition, solution and samples
+  std::optional<RigidContact> rigid;     ///< of scenes with rigid contact
+  std::optional<Refinement> refinement;  ///< of scenes with time.tolerance
+  ContactMotion contacts;                ///< analysis.output_points samples; empty if there is nothing at all
+  int contact = 0;                       ///< the leading one, see ContactMotion::leading()
+  solvers::PeriodSamples samples;  ///< of that one; the full history is of the structure as solvers see it
+  Eigen::MatrixXd motion;          ///< that structure's displacements, size x ResponseOptions::motion_points
 };
 
 struct ResponseOptions {
   bool full_history = false;  ///< also displacement and velocity of every degree of freedom
   int motion_points = 0;      ///< uniform instants of Response::motion; not of time stepping
-  Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response
+  Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response.
+                              ///< Not used with time.tolerance
   ProgressObserver observer;
 };
 
@@ -63,6 +75,9 @@ struct ResponseOptions {
 /// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature
 /// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is
 /// known at these points only: the samples hold that of the nearest one.
+///
+/// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
+/// converged when the estimated error meets the tolerance.
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
 /// The same for the scene's structure composed before.
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,

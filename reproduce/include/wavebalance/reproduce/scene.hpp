@@ -108,7 +108,8 @@ struct Forcing {
 };
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
-/// 2>". Time stepping and nonlinear modes do not use it.
+/// 2>". Time stepping and nonlinear modes do not use it. A tolerance stands in place of functions and
+/// quadrature_points, which are then chosen, and where it stands without trial and weight these are too.
 struct Time {
   std::string trial;
   std::string weight;
@@ -116,6 +117,7 @@ struct Time {
   Formulation formulation = Formulation::distributional;
   int quadrature_points = 0;  ///< uniform points of one period, >= functions
   InnerProducts inner_products = InnerProducts::quadrature;
+  double tolerance = 0.0;  ///< > 0: relative rms error of the tip displacement to be met; 0: none
 
   bool operator==(const Time&) const = default;
 };

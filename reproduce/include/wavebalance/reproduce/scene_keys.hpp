@@ -26,13 +26,17 @@ struct Bounds {
   std::string text() const;
 };
 
-/// Scenes in which each of several keys has one of its values; every scene when there is no such clause.
+/// Scenes in which each of several keys has one of its values, every scene when there is no such clause; but
+/// none in which the key of unless() is given.
 class Condition {
  public:
   Condition() = default;
   /// The key called `key` ("section.name") has one of `values`.
   Condition(std::string_view key, std::vector<std::string_view> values)
       : clauses_{{key, std::move(values)}} {}
+
+  /// The same, except in scenes that hold the key called `key`.
+  Condition unless(std::string_view key) const;
 
   bool empty() const { return clauses_.empty(); }
   bool holds(const Scene& scene) const;
@@ -52,6 +56,7 @@ class Condition {
     bool holds(const Scene& scene) const;
   };
   std::vector<Clause> clauses_;
+  std::string_view unless_;
 };
 
 /// One key of a scene file: all that the loader, the writer and the help know about it.

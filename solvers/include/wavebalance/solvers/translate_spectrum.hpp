@@ -24,6 +24,14 @@ struct TranslateIndex {
   void fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples, Eigen::VectorXcd& out) const;
 };
 
+/// (2 pi i n)^derivative: what differentiation makes of harmonic n, time scaled to the period.
+std::complex<double> derivative_factor(int harmonic, int derivative);
+
+/// DFT of a generator's samples, sum_l g^(d)(l/points) exp(-2 pi i n l / points), n = 0..points/2. Of a
+/// band-limited basis with fewer functions than points its Fourier coefficients say it without a transform:
+/// O(points), otherwise O(points log points).
+Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative);
+
 /// Evaluates sum_j a_j g^(d)(t - j/M) at uniform points again and again. Owns an FFT plan and buffers: one
 /// object a thread.
 class TrialEvaluator {

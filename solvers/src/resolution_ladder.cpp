@@ -1,0 +1,229 @@
+#include "wavebalance/solvers/resolution_ladder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "option_checks.hpp"
+#include "rung_distance.hpp"
+#include "wavebalance/solvers/translate_spectrum.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Size {
+  int functions = 0;
+  int points = 0;
+
+  bool operator==(const Size&) const = default;
+};
+
+/// The error of the finer of two rungs whose sizes differ by `factor`, over their distance.
+double remainder_over_distance(double factor, double order) {
+  constexpr double caution = 1.5;
+  return caution / (std::pow(factor, order) - 1.0);
+}
+
+/// The power of two in 1..4 by which a size grows so that an error of `excess` times what is wanted, falling
+/// with `order`, is met.
+int growth(double excess, double order) {
+  if (!(excess > 1.0)) return 1;
+  return 1 << std::clamp(static_cast<int>(std::ceil(std::log2(excess) / order)), 1, 2);
+}
+
+class Ladder {
+ public:
+  Ladder(const ProblemFactory& make_problem, const ContactLaws& laws, const LadderOptions& options)
+      : make_problem_(make_problem),
+        laws_(laws),
+        options_(options),
+        size_{options.first_functions, options.first_points},
+        odd_(options.first_functions % 2 == 1) {}
+
+  LadderResponse climb() {
+    const auto start = Clock::now();
+    while (!step()) {
+    }
+    result_.estimated_error = result_.ladder.back().estimated_error;
+    result_.seconds = seconds_since(start);
+    return std::move(result_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  bool first() const { return result_.ladder.empty(); }
+  bool fourier() const {
+    const TimePair& pair = result_.problem->pair();
+    return pair.trial().band_limited() && pair.weight().band_limited();
+  }
+  double function_order() const {
+    return std::clamp(result_.problem->pair().trial().sobolev_exponent() + 0.5, 1.0, 3.0);
+  }
+
+  /// Solves one rung; true when it is the last.
+  bool step() {
+    const auto start = Clock::now();
+    LadderRung rung{size_.functions, size_.points, unknown, unknown, unknown, unknown};
+    CondensedProblem problem = make_problem_(size_.functions, size_.points);
+    PeriodicResponse response = find(problem, rung);
+    rung.residual = response.residual;
+    if (response.converged() && !first()) estimate(rung, problem, response);
+    result_.problem = std::move(problem);
+    result_.response = std::move(response);
+    rung.seconds = seconds_since(start);
+    result_.ladder.push_back(rung);
+    const bool told_to_stop = options_.observer && !options_.observer(rung);
+    const std::optional<LadderStatus> end = ending(told_to_stop);
+    if (end) result_.status = *end;
+    return end.has_value();
+  }
+
+  /// The last rung's displacement at `points` points, contact-major.
+  Eigen::VectorXd prolonged(int points) const {
+    const Eigen::MatrixXcd& coefficients = result_.response.coefficients;
+    TrialEvaluator at_points(result_.problem->pair().trial(), points, 0);
+    Eigen::VectorXd u(points * coefficients.cols());
+    for (Eigen::Index contact = 0; contact < coefficients.cols(); ++contact)
+      u.segment(contact * points, points) = at_points(coefficients.col(contact));
+    return u;
+  }
+
+  PeriodicResponse find(CondensedProblem& problem, LadderRung& rung) {
+    if (first()) {
+      PeriodicResponse response = forced_response(problem, laws_, options_.solver);
+      rung.iterations = response.iterations;
+      return response;
+    }
+    const Eigen::VectorXd guess = prolonged(problem.points());
+    PeriodicResponse warm = forced_response(problem, laws_, options_.solver, guess);
+    rung.iterations = warm.iterations;
+    const auto moved = [&](const PeriodicResponse& response) {
+      return response.converged() ? (response.displacement - guess).norm() / guess.norm()
+                                  : std::numeric_limits<double>::infinity();
+    };
+    const double warm_change = moved(warm);
+    if (!(warm_change > result_.ladder.back().change) && warm.converged()) return warm;
+    PeriodicResponse cold = forced_response(problem, laws_, options_.solver);
+    rung.iterations += cold.iterations;
+    if (!(moved(cold) < warm_change)) return warm;
+    rung.restarted = true;
+    return cold;
+  }
+
+  void estimate(LadderRung& rung, CondensedProblem& problem, const PeriodicResponse& response) {
+    const LadderRung& before = result_.ladder.back();
+    const RungDistance distance = rung_distance(*result_.problem, result_.response, problem, response);
+    rung.change = distance.whole();
+    const double functions = double(rung.functions) / before.functions;
+    const double points = double(rung.points) / before.points;
+    constexpr double point_order = 1.5;
+    rung.truncation = before.truncation;
+    rung.quadrature = before.quadrature;
+    if (!fourier()) {
+      rung.quadrature = 0.0;
+      rung.truncation =
+          distance.whole() * remainder_over_distance(functions, std::min(function_order(), point_order));
+    } else if (points == 1.0) {
+      rung.truncation = distance.whole() * remainder_over_distance(functions, function_order());
+    } else {
+      const double of_points =
+          functions > 1.0 ? std::min(distance.within, halved_quadrature(problem, response)) : distance.within;
+      const double of_functions = std::sqrt(distance.within * distance.within - of_points * of_points);
+      const double slow = remainder_over_distance(points, point_order);
+      rung.quadrature = of_points * slow;
+      if (functions > 1.0)
+        rung.truncation = std::hypot(distance.beyond * remainder_over_distance(functions, function_order()),
+                                     of_functions * slow);
+    }
+    rung.quadrature += missed_contacts(problem, response, laws_);
+    rung.estimated_error = std::hypot(rung.truncation, rung.quadrature);
+  }
+
+  /// How the ladder ends with its last rung; nothing when it goes on, with the size of the next.
+  std::optional<LadderStatus> ending(bool told_to_stop) {
+    const LadderRung& rung = result_.ladder.back();
+    if (!result_.response.converged()) return LadderStatus::not_converged;
+    if (rung.estimated_error <= options_.tolerance) return LadderStatus::converged;
+    if (told_to_stop) return LadderStatus::cancelled;
+    if (has_stagnated()) return LadderStatus::stagnated;
+    const Size next = next_size();
+    if (next.functions > options_.max_functions || next.points > options_.max_points)
+      return LadderStatus::size_limit;
+    size_ = next;
+    return std::nullopt;
+  }
+
+  Size next_size() const {
+    const LadderRung& rung = result_.ladder.back();
+    constexpr double asymptotic = 0.03, point_order = 2.0;
+    int functions = 2, points = 2;
+    if (fourier() && rung.estimated_error < asymptotic) {
+      const double wanted = 0.5 * options_.tolerance;
+      functions = growth(rung.truncation / wanted, function_order());
+      points = growth(rung.quadrature / wanted, point_order);
+    }
+    Size next{odd_ ? functions * (size_.functions + 1) - 1 : functions * size_.functions,
+              points * size_.points};
+    while (next.points < next.functions) next.points *= 2;
+    return next;
+  }
+
+  /// Distances near the residual that Newton stops at do not fall any more.
+  bool has_stagnated() const {
+    const auto& ladder = result_.ladder;
+    constexpr double above_residual = 100.0;
+    const double floor = above_residual * options_.solver.newton.tolerance;
+    if (ladder.size() < 3 || ladder.back().change > floor) return false;
+    return ladder.back().change > 0.5 * ladder[ladder.size() - 2].change;
+  }
+
+  const ProblemFactory& make_problem_;
+  const ContactLaws& laws_;
+  const LadderOptions& options_;
+  Size size_;
+  bool odd_;
+  LadderResponse result_;
+};
+
+void require_options(const LadderOptions& options) {
+  constexpr const char* who = "response_to_tolerance";
+  detail::require_positive(who, "tolerance", options.tolerance);
+  detail::require_at_least(who, "first_functions", options.first_functions, 1);
+  detail::require_at_least(who, "first_points", options.first_points, options.first_functions);
+  detail::require_at_least(who, "max_functions", options.max_functions, options.first_functions);
+  detail::require_at_least(who, "max_points", options.max_points, options.first_points);
+}
+
+}  // namespace
+
+std::string to_string(LadderStatus status) {
+  switch (status) {
+    case LadderStatus::converged:
+      return "converged";
+    case LadderStatus::size_limit:
+      return "size_limit";
+    case LadderStatus::not_converged:
+      return "not_converged";
+    case LadderStatus::stagnated:
+      return "stagnated";
+    case LadderStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+LadderResponse response_to_tolerance(const ProblemFactory& make_problem, const ContactLaws& laws,
+                                     const LadderOptions& options) {
+  require_options(options);
+  return Ladder(make_problem, laws, options).climb();
+}
+
+}  // namespace wavebalance::solvers

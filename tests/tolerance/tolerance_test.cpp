@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include "tolerance_scenes.hpp"
+#include "wavebalance/reproduce/measures.hpp"
+
+namespace wavebalance::tolerance {
+namespace {
+
+class Tolerance : public testing::TestWithParam<Motion> {};
+
+// The finer tolerances are for `make bench`, where the cost is measured too.
+TEST_P(Tolerance, IsMetWithinThreefoldByTheTrueError) {
+  const Motion& motion = GetParam();
+  const Eigen::VectorXd exact = reference(scene(motion, WAVEBALANCE_SCENES, 1.0, 2048), 511);
+  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
+    const reproduce::Response response =
+        reproduce::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
+    ASSERT_TRUE(response.refinement.has_value());
+    ASSERT_TRUE(response.converged) << response.status << " at " << tolerance;
+    EXPECT_LE(response.refinement->estimated_error, tolerance);
+    const double error = reproduce::relative_rms_error(response.samples.displacement, exact);
+    EXPECT_LE(error, 3.0 * tolerance) << "estimated " << response.refinement->estimated_error;
+    // The reference of the motion without shooting is good to 4e-6.
+    EXPECT_LE(error, 3.0 * response.refinement->estimated_error + 5e-6) << "at tolerance " << tolerance;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Motions, Tolerance, testing::ValuesIn(motions()),
+                         [](const testing::TestParamInfo<Motion>& one) {
+                           return std::string(one.param.name);
+                         });
+
+TEST(Tolerance, IsMetWithPairsOfTheUsersOwn) {
+  Motion motion = motions().front();
+  const Eigen::VectorXd exact = reference(scene(motion, WAVEBALANCE_SCENES, 1.0, 2048), 511);
+  for (const auto& [trial, weight, tolerance] : {std::tuple{"bspline", "bspline", 1e-4},
+                                                 {"daubechies6", "daubechies6", 1e-3},
+                                                 {"haar", "fourier", 3e-2}}) {
+    motion.changes = {std::string("time.trial=") + trial, std::string("time.weight=") + weight};
+    const reproduce::Response response =
+        reproduce::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
+    ASSERT_TRUE(response.converged) << trial << ":" << weight << " " << response.status;
+    EXPECT_EQ(response.refinement->trial, trial);
+    const double error = reproduce::relative_rms_error(response.samples.displacement, exact);
+    EXPECT_LE(error, 3.0 * tolerance) << trial << ":" << weight;
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::tolerance
