@@ -16,7 +16,7 @@
 namespace wavebalance::bench {
 namespace {
 
-constexpr double patience = 5.0;  // s; beyond it a ladder is not climbed
+constexpr double longest = 4.0;  // s; what is expected to take longer is not run
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// One ladder: a scene over functions or elements.
@@ -50,6 +50,11 @@ Measured measure(const reproduce::Scene& scene) {
   Measured measured;
   measured.run = true;
   const solvers::AnyContactLaw law = reproduce::make_law(scene.contact);
+  measured.bytes = peak_bytes([&] {
+    solvers::CondensedProblem own = condensed_problem(scene);
+    own.set_frequency(scene.forcing.frequency);
+    solvers::forced_response(own, law, newton_only());
+  });
   measured.construction_seconds = least_seconds([&] { condensed_problem(scene); });
   solvers::CondensedProblem problem = condensed_problem(scene);
   measured.condensation_seconds = least_seconds([&] { problem.set_frequency(scene.forcing.frequency); });
@@ -63,11 +68,6 @@ Measured measure(const reproduce::Scene& scene) {
   measured.converged = response.converged();
   measured.iterations = response.iterations;
   measured.active_samples = static_cast<int>((response.contact_force.array() != 0.0).count());
-  measured.bytes = peak_bytes([&] {
-    solvers::CondensedProblem own = condensed_problem(scene);
-    own.set_frequency(scene.forcing.frequency);
-    solvers::forced_response(own, law, newton_only());
-  });
   return measured;
 }
 
@@ -158,14 +158,17 @@ void fit(Results& results, const Ladder& one) {
 
 void climb(Results& results, const Ladder& one) {
   Measured last;
-  for (const int size : one.sizes) {
-    const reproduce::Scene scene = sized(one, size);
-    if (!(last.seconds > patience)) {
-      last = measure(scene);
-      append(results, one, scene, last);
-    } else {
+  Patience patience(longest);
+  for (std::size_t i = 0; i < one.sizes.size(); ++i) {
+    const reproduce::Scene scene = sized(one, one.sizes[i]);
+    const double growth = i == 0 ? 1.0 : double(one.sizes[i]) / one.sizes[i - 1];
+    if (!patience.allows(growth)) {
       append(results, one, scene, {});
+      continue;
     }
+    last = measure(scene);
+    patience.took(last.seconds);
+    append(results, one, scene, last);
   }
   fit(results, one);
   std::printf("%-20s up to %6d %s: %.3g s, %.3g MB\n", one.name.c_str(), one.sizes.back(),
@@ -178,7 +181,7 @@ void draw(reproduce::Panel& panel, const std::vector<Ladder>& all, const Results
   panel.x.label = variable == "functions" ? "Functions M, 4M points" : "Elements, 63 functions, 256 points";
   panel.y.label = label;
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = reproduce::Legend::top_left;
+  panel.legend = quantity == "seconds" ? reproduce::Legend::top_left : reproduce::Legend::bottom_right;
   for (const Ladder& one : all) {
     if (one.variable != variable) continue;
     const auto rows = results.points.where("ladder", one.name).where("converged", "true");

@@ -16,9 +16,7 @@ double largest_resident_bytes() {
   return 1024.0 * double(usage.ru_maxrss);
 }
 
-// What earlier work left in the heap of the parent would hide what the child takes from it.
 [[noreturn]] void report(const std::function<void()>& work, int pipe_end) {
-  malloc_trim(0);
   double bytes = std::numeric_limits<double>::quiet_NaN();
   const double before = largest_resident_bytes();
   try {
@@ -36,6 +34,7 @@ double peak_bytes(const std::function<void()>& work) {
   double bytes = std::numeric_limits<double>::quiet_NaN();
   int ends[2];
   if (pipe(ends) != 0) return bytes;
+  malloc_trim(0);  // what earlier work left in the heap would hide what the child takes from it
   const pid_t child = fork();
   if (child == 0) report(work, ends[1]);
   close(ends[1]);

@@ -26,4 +26,14 @@ double least_seconds(const std::function<void()>& work, const Repetition& repeti
   return least;
 }
 
+void Patience::took(double seconds) {
+  before_ = last_;
+  last_ = seconds;
+}
+
+bool Patience::allows(double growth) const {
+  const double ratio = before_ > 0.0 ? last_ / before_ : growth;
+  return last_ * std::clamp(ratio, growth, growth * growth * growth) <= limit_;
+}
+
 }  // namespace wavebalance::bench

@@ -16,4 +16,18 @@ struct Repetition {
 /// The least processor seconds of one call of `work` among those that fit into the budget.
 double least_seconds(const std::function<void()>& work, const Repetition& repetition = {});
 
+/// Decides whether a ladder over doubling sizes is climbed on, by what its points took so far.
+class Patience {
+ public:
+  explicit Patience(double limit) : limit_(limit) {}
+  void took(double seconds);
+  /// Whether a size `growth` times the last is expected to stay within the limit: from the last two points,
+  /// as something between proportional to the size and its third power.
+  bool allows(double growth = 2.0) const;
+
+ private:
+  double limit_;
+  double last_ = 0.0, before_ = 0.0;
+};
+
 }  // namespace wavebalance::bench

@@ -1,6 +1,5 @@
 #include "ladder.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "stopwatch.hpp"
@@ -78,27 +77,16 @@ Point measure(const Study& study, const Pair& pair, const reproduce::Scene& scen
   return point;
 }
 
-// What twice the functions will take, from the last two points: no less than twice, no more than eight times
-// as long.
-double expected_seconds(const std::vector<double>& seconds) {
-  if (seconds.empty()) return 0.0;
-  const double last = seconds.back();
-  const double growth = seconds.size() < 2 ? 2.0 : last / seconds[seconds.size() - 2];
-  return last * std::clamp(growth, 2.0, 8.0);
-}
-
 void climb(const Study& study, const Pair& pair, const LadderOptions& options, int points_per_function,
            int change, std::vector<Point>& points) {
-  std::vector<double> seconds;
+  Patience patience(options.patience);
   for (const int functions : options.functions) {
     const int number = functions + change;
     const reproduce::Scene scene =
         discretised(study, pair, number, std::max(number, functions) * points_per_function);
-    const bool run = (seconds.empty() || seconds.back() <= options.patience) &&
-                     expected_seconds(seconds) <= options.patience;
-    if (run) {
+    if (patience.allows()) {
       points.push_back(measure(study, pair, scene, options.patience));
-      seconds.push_back(points.back().seconds);
+      if (points.back().status != "singular") patience.took(points.back().seconds);
     } else {
       points.push_back(blank(pair, scene.time));
       points.back().status = "not_run";
@@ -116,24 +104,6 @@ std::vector<Point> weighted_residual_points(const Study& study, const LadderOpti
       // An odd number of Fourier functions has no Nyquist coefficient.
       if (pair.trial == "fourier") climb(study, pair, options, points_per_function, -1, points);
     }
-  return points;
-}
-
-void mark_front(std::vector<Point>& points) {
-  for (Point& point : points) {
-    const auto beats = [&point](const Point& other) {
-      return other.converged && other.seconds <= point.seconds && other.error <= point.error &&
-             (other.seconds < point.seconds || other.error < point.error);
-    };
-    point.on_front = point.converged && std::none_of(points.begin(), points.end(), beats);
-  }
-}
-
-std::vector<Point> envelope(std::vector<Point> points) {
-  mark_front(points);
-  std::erase_if(points, [](const Point& point) { return !point.on_front; });
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.seconds < b.seconds; });
   return points;
 }
 

@@ -25,7 +25,7 @@ struct Point {
 struct LadderOptions {
   std::vector<int> functions;            ///< rising powers of two
   std::vector<int> points_per_function;  ///< rising
-  double patience = 2.0;  ///< s: beyond a point that takes longer, or is expected to, a ladder is not climbed
+  double patience = 1.0;  ///< s: what is expected to take longer is not run, and a homotopy ends there
 };
 
 /// Every pair over functions and points.

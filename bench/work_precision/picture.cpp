@@ -28,7 +28,7 @@ std::vector<Point> chosen(const std::vector<Point>& points, const Predicate& pre
 Series front(const std::vector<Point>& points) {
   Series one = series("Pareto front", envelope(points), SeriesStyle::steps);
   one.colour = reproduce::Colour::grey;
-  one.width = 7.0;
+  one.width = 5.0;
   return one;
 }
 

@@ -34,8 +34,8 @@ struct Study {
 
 /// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle: law by law against shooting.
 std::vector<Study> penalty_studies();
-/// Both cases against a rigid obstacle with the tip's mass at its neighbour. `functions` is the size of the
-/// reference, a power of two.
-std::vector<Study> rigid_studies(int functions);
+/// Both cases against a rigid obstacle with the tip's mass at its neighbour, against the exact alternation of
+/// free and closed motion.
+std::vector<Study> rigid_studies();
 
 }  // namespace wavebalance::bench

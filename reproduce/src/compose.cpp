@@ -101,11 +101,16 @@ solvers::TimePair make_pair(const Time& time) {
   options.formulation = solver_value(time.formulation);
   options.inner_products = solver_value(effective_inner_products(time));
   options.quadrature_points = time.quadrature_points;
-  if (is_wavelet(time.trial) && is_wavelet(time.weight))
-    options.exact_column = [time](int derivative) {
-      return wavelets::periodic_inner_products(wavelet_basis(time.trial, time.functions),
-                                               wavelet_basis(time.weight, time.functions), derivative);
+  if (is_wavelet(time.trial) && is_wavelet(time.weight)) {
+    // A filter takes longer to compute than a pair of small bases: one for all.
+    const wavelets::PeriodicBasis trial = wavelet_basis(time.trial, time.functions);
+    const wavelets::PeriodicBasis weight =
+        time.weight == time.trial ? trial : wavelet_basis(time.weight, time.functions);
+    options.exact_column = [trial, weight](int derivative) {
+      return wavelets::periodic_inner_products(trial, weight, derivative);
     };
+    return {trial, weight, std::move(options)};
+  }
   return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
           std::move(options)};
 }

@@ -45,8 +45,13 @@ fftw_complex* as_fftw(std::complex<double>* values) { return reinterpret_cast<ff
 
 }  // namespace
 
+// Planning takes longer than a transform, and many objects transform in one direction only: each plan is made
+// by the first transform that needs it.
 struct RealFft::Plan {
-  explicit Plan(int size);
+  explicit Plan(int points)
+      : size(points),
+        real(make_buffer<double>(points)),
+        complex(make_buffer<std::complex<double>>(points / 2 + 1)) {}
   ~Plan();
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
@@ -58,30 +63,43 @@ struct RealFft::Plan {
   bool fits(const std::complex<double>* values) const {
     return fits(reinterpret_cast<const double*>(values));
   }
+  fftw_plan forward();
+  fftw_plan inverse();
 
+  int size;
   std::unique_ptr<double[], FreeBuffer> real;
   std::unique_ptr<std::complex<double>[], FreeBuffer> complex;
-  fftw_plan forward = nullptr;
-  fftw_plan inverse = nullptr;
+
+ private:
+  fftw_plan require(fftw_plan plan) const {
+    if (plan != nullptr) return plan;
+    throw std::runtime_error("RealFft: FFTW has no plan for size " + std::to_string(size));
+  }
+
+  fftw_plan forward_ = nullptr;
+  fftw_plan inverse_ = nullptr;
 };
 
-RealFft::Plan::Plan(int size)
-    : real(make_buffer<double>(size)), complex(make_buffer<std::complex<double>>(size / 2 + 1)) {
+fftw_plan RealFft::Plan::forward() {
+  if (forward_ != nullptr) return forward_;
   const std::lock_guard lock(planner_mutex());
-  forward =
+  forward_ =
       fftw_plan_dft_r2c_1d(size, real.get(), as_fftw(complex.get()), FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-  inverse =
+  return require(forward_);
+}
+
+fftw_plan RealFft::Plan::inverse() {
+  if (inverse_ != nullptr) return inverse_;
+  const std::lock_guard lock(planner_mutex());
+  inverse_ =
       fftw_plan_dft_c2r_1d(size, as_fftw(complex.get()), real.get(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-  if (forward != nullptr && inverse != nullptr) return;
-  fftw_destroy_plan(forward);
-  fftw_destroy_plan(inverse);
-  throw std::runtime_error("RealFft: FFTW has no plan for size " + std::to_string(size));
+  return require(inverse_);
 }
 
 RealFft::Plan::~Plan() {
   const std::lock_guard lock(planner_mutex());
-  fftw_destroy_plan(forward);
-  fftw_destroy_plan(inverse);
+  fftw_destroy_plan(forward_);
+  fftw_destroy_plan(inverse_);
 }
 
 RealFft::RealFft(int size) : size_(require_positive(size)), plan_(std::make_unique<Plan>(size)) {}
@@ -98,7 +116,7 @@ void RealFft::forward(std::span<const double> in, std::span<std::complex<double>
   if (!plan_->fits(in.data())) source = std::copy(in.begin(), in.end(), plan_->real.get()) - size_;
   const bool direct = plan_->fits(out.data());
   std::complex<double>* target = direct ? out.data() : plan_->complex.get();
-  fftw_execute_dft_r2c(plan_->forward, source, as_fftw(target));
+  fftw_execute_dft_r2c(plan_->forward(), source, as_fftw(target));
   if (!direct) std::copy_n(target, harmonics(), out.begin());
 }
 
@@ -111,7 +129,7 @@ void RealFft::inverse(std::span<const std::complex<double>> in, std::span<double
   if (size_ % 2 == 0) source[size_ / 2] = source[size_ / 2].real();
   const bool direct = plan_->fits(out.data());
   double* target = direct ? out.data() : plan_->real.get();
-  fftw_execute_dft_c2r(plan_->inverse, as_fftw(source), target);
+  fftw_execute_dft_c2r(plan_->inverse(), as_fftw(source), target);
   if (!direct) std::copy_n(target, size_, out.begin());
 }
 

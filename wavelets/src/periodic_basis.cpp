@@ -1,6 +1,7 @@
 #include "wavebalance/wavelets/periodic_basis.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,19 +40,21 @@ Eigen::VectorXd PeriodicBasis::samples(int points, int derivative) const {
 }
 
 // g(l/points) = sum_j c~[i - j mod M] B(x - i + j) with x = M l/points, i = floor(x), c~ the wrapped
-// coefficients.
+// coefficients. x - i takes points / gcd(points, M) values only.
 Eigen::VectorXd PeriodicBasis::spline_samples(int points, int derivative) const {
   const Eigen::Index period = functions();
   const int degree = *scaling_function_.spline_degree();
   const Eigen::VectorXd wrapped = wrapped_coefficients(scaling_function_, functions());
+  Eigen::VectorXd preceded(period + degree);  // c~ with the degree values before its first
+  for (Eigen::Index i = 0; i < preceded.size(); ++i) preceded[i] = wrapped[modulo(i - degree, period)];
+  const Eigen::Index common = std::gcd(period, Eigen::Index{points});
+  Eigen::MatrixXd values(degree + 1, points / common);  // B(x - i + j), j falling
+  for (Eigen::Index f = 0; f < values.cols(); ++f)
+    values.col(f) = bspline_values(degree, static_cast<double>(f * common) / points, derivative).reverse();
   Eigen::VectorXd result(points);
   for (Eigen::Index l = 0; l < points; ++l) {
     const Eigen::Index cell = l * period / points;
-    const double fraction = static_cast<double>(l * period % points) / points;
-    const Eigen::VectorXd values = bspline_values(degree, fraction, derivative);
-    double sum = 0.0;
-    for (int j = 0; j <= degree; ++j) sum += wrapped[modulo(cell - j, period)] * values[j];
-    result[l] = sum;
+    result[l] = preceded.segment(cell, degree + 1).dot(values.col(l * period % points / common));
   }
   return result;
 }

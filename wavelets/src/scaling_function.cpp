@@ -90,7 +90,7 @@ ScalingFunction ScalingFunction::haar() {
 
 ScalingFunction ScalingFunction::orthonormal_bspline() {
   constexpr int largest = 50;
-  const Eigen::VectorXd half = orthonormal_cubic_coefficients(largest);
+  static const Eigen::VectorXd half = orthonormal_cubic_coefficients(largest);  // the same for all
   ScalingFunction result;
   result.filter_ = bspline_filter(3);
   result.name_ = "bspline";

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "ladder.hpp"
+#include "stopwatch.hpp"
+
+namespace wavebalance::bench {
+namespace {
+
+Point point(double seconds, double error, bool converged = true) {
+  Point one;
+  one.seconds = seconds;
+  one.error = error;
+  one.converged = converged;
+  return one;
+}
+
+TEST(ParetoFront, holds_the_points_that_no_other_beats_in_both_and_never_one_that_has_not_converged) {
+  std::vector<Point> points{point(1.0, 1e-1), point(2.0, 1e-2),        point(3.0, 2e-2),
+                            point(4.0, 1e-3), point(0.5, 1e-9, false), point(4.0, 2e-3)};
+  mark_front(points);
+  std::vector<bool> front;
+  for (const Point& one : points) front.push_back(one.on_front);
+  EXPECT_EQ(front, (std::vector<bool>{true, true, false, true, false, false}));
+}
+
+TEST(ParetoFront, keeps_equal_points_both) {
+  std::vector<Point> points{point(1.0, 1e-3), point(1.0, 1e-3)};
+  mark_front(points);
+  EXPECT_TRUE(points[0].on_front && points[1].on_front);
+}
+
+TEST(ParetoFront, is_an_envelope_by_rising_time_with_falling_error) {
+  const auto front = envelope({point(4.0, 1e-3), point(1.0, 1e-1), point(3.0, 2e-2), point(2.0, 1e-2)});
+  ASSERT_EQ(front.size(), 3u);
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    EXPECT_GT(front[i].seconds, front[i - 1].seconds);
+    EXPECT_LT(front[i].error, front[i - 1].error);
+  }
+}
+
+TEST(Patience, climbs_while_the_next_size_is_expected_within_the_limit) {
+  Patience patience(1.0);
+  EXPECT_TRUE(patience.allows());
+  patience.took(0.01);
+  EXPECT_TRUE(patience.allows());
+  patience.took(0.08);  // cubic: 0.64 s next
+  EXPECT_TRUE(patience.allows());
+  patience.took(0.64);
+  EXPECT_FALSE(patience.allows());
+}
+
+TEST(Patience, expects_proportional_growth_at_least_and_cubic_growth_at_most) {
+  Patience shrinking(1.0), jumping(1.0);
+  shrinking.took(5.0);
+  shrinking.took(0.6);
+  EXPECT_FALSE(shrinking.allows());
+  jumping.took(1e-6);
+  jumping.took(0.1);
+  EXPECT_TRUE(jumping.allows());
+}
+
+TEST(LeastSeconds, calls_as_often_as_asked_unless_the_first_call_takes_too_long) {
+  int calls = 0;
+  EXPECT_GE(least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .patience = 1.0}), 0.0);
+  EXPECT_EQ(calls, 3);
+  calls = 0;
+  least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .patience = 0.0});
+  EXPECT_EQ(calls, 1);
+}
+
+}  // namespace
+}  // namespace wavebalance::bench
