@@ -16,10 +16,12 @@ double largest_resident_bytes() {
   return 1024.0 * double(usage.ru_maxrss);
 }
 
-[[noreturn]] void report(const std::function<void()>& work, int pipe_end) {
+[[noreturn]] void report(const std::function<void()>& warm_up, const std::function<void()>& work,
+                         int pipe_end) {
   double bytes = std::numeric_limits<double>::quiet_NaN();
-  const double before = largest_resident_bytes();
   try {
+    warm_up();
+    const double before = largest_resident_bytes();
     work();
     bytes = largest_resident_bytes() - before;
   } catch (...) {
@@ -30,13 +32,13 @@ double largest_resident_bytes() {
 
 }  // namespace
 
-double peak_bytes(const std::function<void()>& work) {
+double peak_bytes(const std::function<void()>& warm_up, const std::function<void()>& work) {
   double bytes = std::numeric_limits<double>::quiet_NaN();
   int ends[2];
   if (pipe(ends) != 0) return bytes;
   malloc_trim(0);  // what earlier work left in the heap would hide what the child takes from it
   const pid_t child = fork();
-  if (child == 0) report(work, ends[1]);
+  if (child == 0) report(warm_up, work, ends[1]);
   close(ends[1]);
   if (child > 0) {
     if (read(ends[0], &bytes, sizeof bytes) != sizeof bytes) bytes = std::numeric_limits<double>::quiet_NaN();

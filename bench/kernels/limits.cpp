@@ -86,9 +86,9 @@ reproduce::Figure ratio_figure(const reproduce::Table& table) {
   figure.panel_height = 80 + 22 * static_cast<int>(rows.size());
   reproduce::Panel& panel =
       figure.add_panel("Time of the kernels over their limit (kernel, size: time over limit)");
-  constexpr double names = 0.02, bars = 0.2;
-  panel.x = {
-      "Measured time over limit", names, 3.0 * *std::max_element(ratios.begin(), ratios.end()), true, {}, {}};
+  constexpr double names = 0.012, bars = 0.2;
+  const double largest = *std::max_element(ratios.begin(), ratios.end());
+  panel.x = {"Measured time over limit", names, 3.0 * largest, true, {1.0, 10.0, 100.0, 1000.0}, {}};
   panel.y = {"", 0.0, double(rows.size()) + 1.0, false, {-1.0}, {}};  // no tick in sight
   panel.mark_x(1.0);
   for (std::size_t j = 0; j < rows.size(); ++j) {
