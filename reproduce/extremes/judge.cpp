@@ -41,7 +41,13 @@ Eigen::MatrixXcd coefficients(const solvers::TimePair& pair, const Eigen::Matrix
   return result;
 }
 
-double motion_residual(const Scene& scene, const solvers::PeriodSamples& samples) {
+double largest(const Eigen::SparseMatrix<double>& matrix) {
+  return matrix.nonZeros() == 0
+             ? 0.0
+             : Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).cwiseAbs().maxCoeff();
+}
+
+void measure_motion(const Scene& scene, const solvers::PeriodSamples& samples, Residuals& result) {
   const solvers::LinearStructure structure = reproduce::make_model(scene).structure;
   const solvers::TimePair pair = reproduce::make_pair(scene.time);
   const Eigen::MatrixXcd a = coefficients(pair, samples.displacements);
@@ -52,7 +58,10 @@ double motion_residual(const Scene& scene, const solvers::PeriodSamples& samples
   const Eigen::VectorXcd load = pair.load(harmonics);
   const double f = scene.forcing.frequency;
   const Eigen::Index tip = structure.size() - 1;
-  double worst = 0.0, scale = 0.0;
+  const double mass = largest(structure.mass), damping = largest(structure.damping),
+               stiffness = largest(structure.stiffness);
+  const double sample = std::numeric_limits<double>::epsilon() * samples.displacements.cwiseAbs().maxCoeff();
+  double worst = 0.0, scale = 0.0, rounding = 0.0;
   for (Eigen::Index k = 0; k < a.cols(); ++k) {
     const std::array<Eigen::VectorXcd, 3> terms{structure.mass * (pair.symbol(2)[k] * f * f * a.col(k)),
                                                 structure.damping * (pair.symbol(1)[k] * f * a.col(k)),
@@ -62,23 +71,32 @@ double motion_residual(const Scene& scene, const solvers::PeriodSamples& samples
     double size = std::abs(contact[k]) + structure.load.cwiseAbs().maxCoeff() * std::abs(load[k]);
     for (const auto& term : terms) size += term.cwiseAbs().maxCoeff();
     worst = std::max(worst, residual.cwiseAbs().maxCoeff());
+    if (std::isnan(residual.cwiseAbs().sum())) worst = std::numeric_limits<double>::infinity();
     scale = std::max(scale, size);
-    if (std::isnan(residual.cwiseAbs().sum())) return missing;
+    rounding = std::max(rounding, sample * (std::abs(pair.symbol(2)[k]) * f * f * mass +
+                                            std::abs(pair.symbol(1)[k]) * f * damping +
+                                            std::abs(pair.symbol(0)[k]) * stiffness));
   }
-  return scale > 0.0 ? worst / scale : worst;
+  result.motion = scale > 0.0 ? worst / scale : worst;
+  result.motion_rounding = scale > 0.0 ? rounding / scale : rounding;
 }
 
 double complementarity(const Scene& scene, const solvers::PeriodSamples& samples) {
   const Eigen::ArrayXd force = samples.contact_force.array();
   const Eigen::ArrayXd opening = scene.contact.gap - samples.displacement.array();
   const double largest = force.abs().maxCoeff();
-  const double span = samples.displacement.cwiseAbs().maxCoeff();
+  double span = samples.displacement.cwiseAbs().maxCoeff();
   double worst = 0.0;
   if (largest > 0.0)
     worst = std::max(
         {0.0, -force.minCoeff() / largest, (force * (opening > 0.0).cast<double>()).maxCoeff() / largest});
   if (scene.contact.law != ContactLawType::rigid) return worst;
-  // On the obstacle to rounding or to the solver's promise, the force presses or not.
+  // On the obstacle to rounding or to the solver's promise, which is relative to the response without
+  // contact.
+  Scene free = scene;
+  free.contact = {};
+  if (const auto motion = solve(free).samples.displacement; motion.size() > 0)
+    span = std::max(span, motion.cwiseAbs().maxCoeff());
   worst = std::max(0.0, -force.minCoeff()) / (largest > 0.0 ? largest : 1.0);
   if (span > 0.0) worst = std::max(worst, -opening.minCoeff() / span);
   if (largest > 0.0 && span > 0.0)
@@ -124,7 +142,8 @@ bool all_finite(const solvers::PeriodSamples& samples) {
 std::string objection(const reproduce::Response& response, const Residuals& found) {
   if (!all_finite(response.samples)) return "converged with samples that are not finite";
   if (!(response.residual >= 0.0)) return "converged with a residual that is no number";
-  if (!(found.motion <= largest_motion_residual)) return "converged, the equation of motion does not hold";
+  if (!(found.motion <= largest_motion_residual + found.motion_rounding))
+    return "converged, the equation of motion does not hold";
   if (!(found.complementarity <= largest_complementarity)) return "converged, complementarity does not hold";
   return "";
 }
@@ -135,6 +154,10 @@ Verdict solved_or_not(const Scene& scene, int stepped_elements = 30) {
   if (!response.converged) {
     verdict.outcome = Outcome::not_converged;
     verdict.text = response.status;
+    return verdict;
+  }
+  if (response.samples.displacements.size() == 0) {
+    verdict.text = "converged without a motion";
     return verdict;
   }
   verdict.residuals = residuals(scene, response, stepped_elements);
@@ -188,7 +211,7 @@ reproduce::Response solve(Scene scene) {
 
 Residuals residuals(const Scene& scene, const reproduce::Response& response, int stepped_elements) {
   Residuals result;
-  result.motion = motion_residual(scene, response.samples);
+  measure_motion(scene, response.samples, result);
   result.complementarity = complementarity(scene, response.samples);
   if (can_be_stepped(scene, stepped_elements)) result.periodicity = periodicity(scene, response.samples);
   return result;

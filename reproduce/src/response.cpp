@@ -153,6 +153,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
       (rigid ? solve_rigid : solve_law)(scene, model, problem, options, result);
     }
   } catch (const solvers::SingularSystem& error) {
+    result.converged = false;  // also when only the field of the whole structure cannot be had
     result.status = std::string("singular: ") + error.what();
     result.residual = std::numeric_limits<double>::quiet_NaN();
   }

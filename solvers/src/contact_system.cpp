@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "jacobian_solver.hpp"
+#include "safe_norm.hpp"
 
 namespace wavebalance::solvers {
 
@@ -33,8 +34,8 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
     problem_->apply(force_, product_);
   }
   residual_ = displacement - free + product_;
-  const double scale = free.norm() + product_.norm();
-  relative_residual_ = scale > 0.0 ? residual_.norm() / scale : residual_.norm();
+  const double scale = safe_norm(free) + safe_norm(product_);
+  relative_residual_ = scale > 0.0 ? safe_norm(residual_) / scale : safe_norm(residual_);
   if (!std::isfinite(relative_residual_)) relative_residual_ = std::numeric_limits<double>::infinity();
   return relative_residual_;
 }

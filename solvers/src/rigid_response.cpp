@@ -103,6 +103,7 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   std::vector<int> active;
   for (int l = 0; l < start.size(); ++l)
     if (start[l] > 0.0) active.push_back(l);
+  if (active.empty()) return std::nullopt;
   const auto count = static_cast<Eigen::Index>(active.size());
   Eigen::MatrixXd matrix(count, count);
   fill_active_compliance(problem, active, matrix);
@@ -113,7 +114,7 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   Eigen::VectorXd product(start.size());
   problem.apply(force, product);
   const double excess = (problem.free_response() - product - gap).maxCoeff();
-  if (!force.allFinite() || (count > 0 && values.minCoeff() < 0.0) || excess > tolerance) return std::nullopt;
+  if (!force.allFinite() || values.minCoeff() < 0.0 || excess > tolerance) return std::nullopt;
   return force;
 }
 

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "judge.hpp"
+#include "random_scenes.hpp"
+#include "wavebalance/reproduce/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance;
+
+/// Nothing converges with a number that is none, or with an equation that does not hold.
+RC_GTEST_PROP(RandomScenes, ConvergeToWhatHoldsOrSayWhyNot, ()) {
+  reproduce::Scene scene =
+      random_scene(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint64_t>()));
+  try {
+    scene = reproduce::complete_scene(scene);
+  } catch (const reproduce::SceneError& error) {
+    RC_TAG("refused");
+    return;
+  }
+  RC_LOG() << reproduce::write_scene(scene);
+  const extremes::Verdict verdict = extremes::judge(scene, 0);
+  RC_LOG() << to_string(verdict.outcome) << ": " << verdict.text << "\nmotion " << verdict.residuals.motion
+           << "\ncomplementarity " << verdict.residuals.complementarity << "\nseconds " << verdict.seconds
+           << "\n";
+  RC_ASSERT(verdict.outcome != extremes::Outcome::wrong);
+  RC_ASSERT(verdict.outcome == extremes::Outcome::solved || !verdict.text.empty());
+  RC_TAG(to_string(verdict.outcome));
+}
+
+}  // namespace
