@@ -59,7 +59,6 @@ class Ladder {
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
 
-  bool first() const { return result_.ladder.empty(); }
   bool fourier() const {
     const TimePair& pair = result_.problem->pair();
     return pair.trial().band_limited() && pair.weight().band_limited();
@@ -75,10 +74,15 @@ class Ladder {
     CondensedProblem problem = make_problem_(size_.functions, size_.points);
     PeriodicResponse response = find(problem, rung);
     rung.residual = response.residual;
-    if (response.converged() && !first()) estimate(rung, problem, response);
-    result_.problem = std::move(problem);
-    result_.response = std::move(response);
+    const bool found = response.converged();
+    if (found && solved_) estimate(rung, problem, response);
+    if (found || !solved_) {
+      result_.problem = std::move(problem);
+      result_.response = std::move(response);
+    }
     rung.seconds = seconds_since(start);
+    failures_ = found ? 0 : failures_ + 1;
+    if (found) solved_ = rung;
     result_.ladder.push_back(rung);
     const bool told_to_stop = options_.observer && !options_.observer(rung);
     const std::optional<LadderStatus> end = ending(told_to_stop);
@@ -86,7 +90,7 @@ class Ladder {
     return end.has_value();
   }
 
-  /// The last rung's displacement at `points` points, contact-major.
+  /// The last response's displacement at `points` points, contact-major.
   Eigen::VectorXd prolonged(int points) const {
     const Eigen::MatrixXcd& coefficients = result_.response.coefficients;
     TrialEvaluator at_points(result_.problem->pair().trial(), points, 0);
@@ -97,7 +101,7 @@ class Ladder {
   }
 
   PeriodicResponse find(CondensedProblem& problem, LadderRung& rung) {
-    if (first()) {
+    if (!solved_) {
       PeriodicResponse response = forced_response(problem, laws_, options_.solver);
       rung.iterations = response.iterations;
       return response;
@@ -110,7 +114,7 @@ class Ladder {
                                   : std::numeric_limits<double>::infinity();
     };
     const double warm_change = moved(warm);
-    if (!(warm_change > result_.ladder.back().change) && warm.converged()) return warm;
+    if (!(warm_change > solved_->change) && warm.converged()) return warm;
     PeriodicResponse cold = forced_response(problem, laws_, options_.solver);
     rung.iterations += cold.iterations;
     if (!(moved(cold) < warm_change)) return warm;
@@ -119,7 +123,7 @@ class Ladder {
   }
 
   void estimate(LadderRung& rung, CondensedProblem& problem, const PeriodicResponse& response) {
-    const LadderRung& before = result_.ladder.back();
+    const LadderRung& before = *solved_;
     const RungDistance distance = rung_distance(*result_.problem, result_.response, problem, response);
     rung.change = distance.whole();
     const double functions = double(rung.functions) / before.functions;
@@ -131,17 +135,18 @@ class Ladder {
       rung.quadrature = 0.0;
       rung.truncation =
           distance.whole() * remainder_over_distance(functions, std::min(function_order(), point_order));
-    } else if (points == 1.0) {
-      rung.truncation = distance.whole() * remainder_over_distance(functions, function_order());
     } else {
-      const double of_points =
-          functions > 1.0 ? std::min(distance.within, halved_quadrature(problem, response)) : distance.within;
-      const double of_functions = std::sqrt(distance.within * distance.within - of_points * of_points);
-      const double slow = remainder_over_distance(points, point_order);
-      rung.quadrature = of_points * slow;
+      // Lower harmonics follow the truncated ones slowly where contact is stiff: what they moved by when both
+      // sizes grew may be either's share.
       if (functions > 1.0)
         rung.truncation = std::hypot(distance.beyond * remainder_over_distance(functions, function_order()),
-                                     of_functions * slow);
+                                     distance.within * remainder_over_distance(functions, point_order));
+      if (points > 1.0) {
+        const double of_points = functions > 1.0
+                                     ? std::min(distance.within, halved_quadrature(problem, response))
+                                     : distance.within;
+        rung.quadrature = of_points * remainder_over_distance(points, point_order);
+      }
     }
     rung.quadrature += missed_contacts(problem, response, laws_);
     rung.estimated_error = std::hypot(rung.truncation, rung.quadrature);
@@ -150,13 +155,14 @@ class Ladder {
   /// How the ladder ends with its last rung; nothing when it goes on, with the size of the next.
   std::optional<LadderStatus> ending(bool told_to_stop) {
     const LadderRung& rung = result_.ladder.back();
-    if (!result_.response.converged()) return LadderStatus::not_converged;
+    constexpr int patience = 2;  // a small problem may have no solution although the motion exists
+    if (failures_ == patience) return LadderStatus::not_converged;
     if (rung.estimated_error <= options_.tolerance) return LadderStatus::converged;
     if (told_to_stop) return LadderStatus::cancelled;
     if (has_stagnated()) return LadderStatus::stagnated;
     const Size next = next_size();
     if (next.functions > options_.max_functions || next.points > options_.max_points)
-      return LadderStatus::size_limit;
+      return failures_ > 0 ? LadderStatus::not_converged : LadderStatus::size_limit;
     size_ = next;
     return std::nullopt;
   }
@@ -191,6 +197,8 @@ class Ladder {
   Size size_;
   bool odd_;
   LadderResponse result_;
+  std::optional<LadderRung> solved_;  // the last with a response, which is that of result_
+  int failures_ = 0;                  // rungs without one since
 };
 
 void require_options(const LadderOptions& options) {

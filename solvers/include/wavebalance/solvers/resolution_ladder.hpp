@@ -12,7 +12,8 @@ namespace wavebalance::solvers {
 enum class LadderStatus {
   converged,      ///< the estimated error meets the tolerance
   size_limit,     ///< the next rung would have more functions or points than allowed
-  not_converged,  ///< no response was found on the last rung, neither from the rung before nor from afar
+  not_converged,  ///< no response was found on two rungs in a row, neither from the one before nor from
+                  ///< afar
   stagnated,      ///< rungs do not come closer any more: rounding, or Newton's tolerance
   cancelled       ///< the observer asked to stop
 };
@@ -54,8 +55,8 @@ struct LadderResponse {
   LadderStatus status = LadderStatus::not_converged;
   double estimated_error = 0.0;             ///< relative rms, of the last rung
   std::vector<LadderRung> ladder;           ///< in the order climbed
-  PeriodicResponse response;                ///< of the last rung
-  std::optional<CondensedProblem> problem;  ///< of the last rung
+  PeriodicResponse response;                ///< of the last rung that has one
+  std::optional<CondensedProblem> problem;  ///< of that rung
   double seconds = 0.0;                     ///< wall time of the whole ladder
 
   bool converged() const { return status == LadderStatus::converged; }

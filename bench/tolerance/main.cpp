@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "program.hpp"
+#include "study.hpp"
+#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/reproduce/table.hpp"
+
+// What a tolerance asked for gives and costs, beside the cheapest fixed choice of the same error:
+// tolerance.csv and its picture.
+namespace wavebalance::bench {
+namespace {
+
+using reproduce::Series;
+using reproduce::SeriesStyle;
+
+constexpr double allowed = 3.0;  // true error over tolerance, and cost over the cheapest fixed choice
+// Errors of the reference and of rounding: below it one error is as good as another.
+constexpr double reference_error = 1e-10;
+
+reproduce::Table empty_table() {
+  return reproduce::Table({"motion", "tolerance", "status", "estimated_error", "true_error",
+                           "error_over_tolerance", "functions", "quadrature_points", "rungs", "seconds",
+                           "fixed_trial", "fixed_weight", "fixed_functions", "fixed_points", "fixed_error",
+                           "fixed_seconds", "cost_ratio"});
+}
+
+void append(reproduce::Table& table, const std::string& motion, const Asked& asked,
+            const std::vector<FixedChoice>& choices) {
+  const FixedChoice* fixed = cheapest(choices, std::max(asked.error, reference_error));
+  const FixedChoice none{"none", "none", 0, 0, std::nan(""), std::nan("")};
+  const FixedChoice& beside = fixed == nullptr ? none : *fixed;
+  table.append_row({motion, asked.tolerance, asked.status, asked.estimated_error, asked.error,
+                    asked.error / asked.tolerance, std::int64_t{asked.functions}, std::int64_t{asked.points},
+                    std::int64_t{asked.rungs}, asked.seconds, beside.trial, beside.weight,
+                    std::int64_t{beside.functions}, std::int64_t{beside.points}, beside.error, beside.seconds,
+                    asked.seconds / beside.seconds});
+}
+
+reproduce::Panel& add_panel(reproduce::Figure& figure, const std::string& title, const std::string& label) {
+  reproduce::Panel& panel = figure.add_panel(title);
+  panel.x = {.label = "Tolerance",
+             .lower = 3e-9,
+             .upper = 0.3,
+             .logarithmic = true,
+             .ticks = {},
+             .tick_format = "10^{%L}"};
+  panel.y.label = label;
+  panel.y.logarithmic = true;
+  return panel;
+}
+
+Series line(const std::string& label, double at_least, double at_most, bool proportional, double factor) {
+  const std::vector<double> x{at_least, at_most};
+  const std::vector<double> y{factor * (proportional ? at_least : 1.0),
+                              factor * (proportional ? at_most : 1.0)};
+  Series one(label, x, y);
+  one.colour = reproduce::Colour::grey;
+  one.dash = factor == 1.0 ? reproduce::Dash::solid : reproduce::Dash::dashed;
+  return one;
+}
+
+Series marks(const std::string& label, const reproduce::Table& rows, const std::string& column,
+             reproduce::Colour colour, int marker) {
+  Series one(label, rows, "tolerance", column, SeriesStyle::points);
+  one.colour = colour;
+  one.marker = marker;
+  return one;
+}
+
+reproduce::Figure picture(const reproduce::Table& table) {
+  const reproduce::Table met = table.where("status", "converged");
+  reproduce::Figure figure;
+  figure.columns = 2;
+  figure.title = "Scenes with a tolerance: " + std::to_string(table.rows()) + " runs";
+  reproduce::Panel& errors = add_panel(figure, "True error", "Relative rms error of the tip displacement");
+  errors.y.tick_format = "10^{%L}";
+  errors.y.lower = 1e-12;
+  errors.legend = reproduce::Legend::bottom_right;
+  errors.add(line("three times the tolerance", 1e-8, 1e-1, true, allowed));
+  errors.add(line("tolerance", 1e-8, 1e-1, true, 1.0));
+  errors.add(marks("true", met, "true_error", reproduce::Colour::blue, 1));
+  reproduce::Panel& costs =
+      add_panel(figure, "Cost", "Processor time over that of the cheapest fixed choice");
+  costs.legend = reproduce::Legend::none;
+  costs.add(line("", 1e-8, 1e-1, false, allowed));
+  costs.add(line("", 1e-8, 1e-1, false, 1.0));
+  costs.add(marks("", met, "cost_ratio", reproduce::Colour::vermillion, 1));
+  return figure;
+}
+
+double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end(),
+                           [](double a, double b) { return a < b || std::isnan(a); });
+}
+
+double median(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return std::nan("");
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void report(const reproduce::Table& table) {
+  std::printf("%-10s %9s %9s %22s %12s %12s\n", "tolerance", "runs", "met", "largest error/tolerance",
+              "median cost", "largest cost");
+  std::vector<std::string> seen;
+  for (const std::string& tolerance : table.texts("tolerance")) {
+    if (std::find(seen.begin(), seen.end(), tolerance) != seen.end()) continue;
+    seen.push_back(tolerance);
+    const reproduce::Table rows = table.where("tolerance", tolerance);
+    const reproduce::Table met = rows.where("status", "converged");
+    if (met.empty()) continue;
+    const auto costs = met.numbers("cost_ratio");
+    std::printf("%-10s %9zu %9zu %22.3g %12.3g %12.3g\n", tolerance.c_str(), rows.rows(), met.rows(),
+                largest(met.numbers("error_over_tolerance")), median(costs), largest(costs));
+  }
+}
+
+void run(const Program& program) {
+  StudySizes sizes;
+  std::vector<double> tolerances{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+  auto motions = tolerance::motions();
+  if (program.quick) {
+    sizes = {64, 256, 0.05};
+    tolerances = {1e-1, 1e-2};
+    motions.resize(2);
+  }
+  reproduce::Table table = empty_table();
+  for (const auto& motion : motions) {
+    const ToleranceStudy study(motion, WAVEBALANCE_SCENES, sizes);
+    const auto choices = study.fixed_choices();
+    for (const double tolerance : tolerances) append(table, motion.name, study.ask(tolerance), choices);
+    std::printf("%s: %zu fixed choices\n", motion.name, choices.size());
+    std::fflush(stdout);
+  }
+  reproduce::write_csv(program.output / "tolerance.csv", table,
+                       {"Scenes with a tolerance beside the cheapest fixed choice of the same true error",
+                        "s of processor time; errors are relative rms of the contact displacement",
+                        "reproduce/scenes/tolerance",
+                        {"Composition of the problem is part of every time."}});
+  reproduce::write_pictures(program.output / "tolerance", picture(table));
+  report(table);
+}
+
+}  // namespace
+}  // namespace wavebalance::bench
+
+int main(int argc, char** argv) {
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+}

@@ -1,0 +1,63 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "tolerance_scenes.hpp"
+#include "wavebalance/reproduce/structure_model.hpp"
+
+namespace wavebalance::bench {
+
+/// A choice of pair, functions and points that a user could have made.
+struct FixedChoice {
+  std::string trial, weight;
+  int functions = 0;
+  int points = 0;
+  double error = 0.0;    ///< relative rms of the contact displacement
+  double seconds = 0.0;  ///< processor seconds of composition and solution
+};
+
+/// What a scene with a tolerance gives.
+struct Asked {
+  double tolerance = 0.0;
+  std::string status;
+  double estimated_error = 0.0;
+  double error = 0.0;  ///< relative rms of the contact displacement
+  int functions = 0, points = 0, rungs = 0;
+  double seconds = 0.0;  ///< processor seconds of the whole ladder
+};
+
+struct StudySizes {
+  int largest_functions = 1 << 13;
+  int largest_points = 1 << 16;
+  double patience = 0.1;  ///< s: a pair's or a row's larger sizes are left out beyond it
+};
+
+/// One motion: the ladder and all fixed choices against one reference, timed in the same way.
+class ToleranceStudy {
+ public:
+  /// `folder` holds the scene files.
+  ToleranceStudy(const tolerance::Motion& motion, const std::string& folder, StudySizes sizes);
+
+  /// Every converged choice of five pairs, functions doubled from 7 or 8 on, points doubled from there until
+  /// the error does not depend on them any more.
+  std::vector<FixedChoice> fixed_choices() const;
+  Asked ask(double tolerance) const;
+
+ private:
+  void add_pair(const std::string& trial, const std::string& weight, std::vector<FixedChoice>& choices) const;
+  double add_row(FixedChoice choice, std::vector<FixedChoice>& choices) const;
+  bool measure(FixedChoice& choice) const;
+
+  double error_of(const solvers::CondensedProblem& problem, const solvers::PeriodicResponse& response) const;
+
+  reproduce::Scene scene_;
+  reproduce::StructureModel model_;
+  StudySizes sizes_;
+  Eigen::VectorXd exact_;
+};
+
+/// The cheapest of `choices` with at most that error; nullptr when none has.
+const FixedChoice* cheapest(const std::vector<FixedChoice>& choices, double error);
+
+}  // namespace wavebalance::bench
