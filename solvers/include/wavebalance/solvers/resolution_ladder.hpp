@@ -39,8 +39,8 @@ struct LadderOptions {
   double tolerance = 1e-4;  ///< on the relative rms error of the contact displacement
   int first_functions = 15;
   int first_points = 32;
-  int max_functions = 1 << 14;
-  int max_points = 1 << 16;
+  int max_functions = 1 << 16;
+  int max_points = 1 << 17;
   ForcedResponseOptions solver = {};
   /// Told of each rung once it is solved; returns false to stop.
   std::function<bool(const LadderRung&)> observer = {};
