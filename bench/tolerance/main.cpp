@@ -77,13 +77,12 @@ reproduce::Figure picture(const reproduce::Table& table) {
   figure.title = "Scenes with a tolerance: " + std::to_string(table.rows()) + " runs";
   reproduce::Panel& errors = add_panel(figure, "True error", "Relative rms error of the tip displacement");
   errors.y.tick_format = "10^{%L}";
-  errors.y.lower = 1e-12;
-  errors.legend = reproduce::Legend::bottom_right;
+  errors.y.lower = 1e-14;
+  errors.legend = reproduce::Legend::top_left;
   errors.add(line("three times the tolerance", 1e-8, 1e-1, true, allowed));
   errors.add(line("tolerance", 1e-8, 1e-1, true, 1.0));
   errors.add(marks("true", met, "true_error", reproduce::Colour::blue, 1));
-  reproduce::Panel& costs =
-      add_panel(figure, "Cost", "Processor time over that of the cheapest fixed choice");
+  reproduce::Panel& costs = add_panel(figure, "Cost", "Cost over the cheapest fixed choice");
   costs.legend = reproduce::Legend::none;
   costs.add(line("", 1e-8, 1e-1, false, allowed));
   costs.add(line("", 1e-8, 1e-1, false, 1.0));
