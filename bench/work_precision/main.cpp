@@ -79,7 +79,8 @@ class Results {
       const std::vector<Point> points = method(study);
       append(table_, study, points);
       picture.add(study, points);
-      notes_.push_back("reference of " + study.name + ": " + study.reference_text);
+      notes_.push_back("reference of " + study.name + ": " + study.reference_text + ", own error about " +
+                       reproduce::cell_text(study.reference_error));
       report(study, points, processor_seconds() - start);
       write_csv(program_.output / "work_precision.csv", table_,
                 {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",

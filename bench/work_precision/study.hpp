@@ -28,8 +28,6 @@ struct Study {
   Eigen::VectorXd reference;     ///< tip displacement, m
   double reference_error = 0.0;  ///< estimated, relative: errors below it say nothing
   std::string reference_text;    ///< where it comes from
-
-  bool rigid() const { return scene.contact.law == reproduce::ContactLawType::rigid; }
 };
 
 /// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle: law by law against shooting.
