@@ -187,18 +187,19 @@ KrylovBlock::Outcome KrylovBlock::solve_bordered(const ComplianceOperator& compl
   return outcome;
 }
 
-// Powers of J turn towards what it magnifies, which is smooth, those of P^-1 towards what J shrinks.
+// Powers of J turn towards what it magnifies, which is smooth, those of P^-1 towards what J shrinks. Both
+// start with a part of every frequency: the smoothest motion may be the very one that J shrinks.
 double KrylovBlock::condition(const ComplianceOperator& compliance) {
   if (active_.empty()) return 1.0;
   Unknown unknown;
   Eigen::VectorXd product;
-  unknown.z = Eigen::VectorXd::Ones(stiffness_.size());
+  const Eigen::ArrayXd samples = Eigen::ArrayXd::LinSpaced(stiffness_.size(), 0.0, stiffness_.size() - 1.0);
+  const Eigen::VectorXd all_frequencies = samples.square().cos().matrix();
+  unknown.z = (1.0 + all_frequencies.array()).matrix();
   multiply(compliance, unknown, product);
   if (!bordered_) {
     unknown.z = product.normalized();
     multiply(compliance, unknown, product);
-    const Eigen::ArrayXd samples = Eigen::ArrayXd::LinSpaced(stiffness_.size(), 0.0, stiffness_.size() - 1.0);
-    const Eigen::VectorXd all_frequencies = samples.square().cos().matrix();
     precondition(all_frequencies, 0.0, unknown);
     const Eigen::VectorXd shrunk = unknown.z.normalized();
     precondition(shrunk, 0.0, unknown);

@@ -81,8 +81,11 @@ NewtonResult iterate(ContactSystem& system, Eigen::VectorXd& u, const NewtonOpti
     before = result.residual;
     if (result.iterations >= options.max_iterations) return ended(SolveStatus::iteration_limit);
     const double reduction = forcing_term(result.residual, options.tolerance);
-    if (!system.factorize() || !system.solve(system.residual(), direction, reduction))
+    if (!system.factorize()) {
+      result.condition = std::numeric_limits<double>::infinity();
       return ended(SolveStatus::singular);
+    }
+    if (!system.solve(system.residual(), direction, reduction)) return ended(SolveStatus::singular);
     if (!line_search(system, u, direction, options)) return ended(SolveStatus::stalled);
   }
 }
@@ -92,7 +95,9 @@ NewtonResult iterate(ContactSystem& system, Eigen::VectorXd& u, const NewtonOpti
 NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options) {
   system.set_linear_solver(options.linear_solver);
   NewtonResult result = iterate(system, u, options);
-  if (result.iterations > 0 || result.status == SolveStatus::stalled) result.condition = system.condition();
+  const bool factorized = result.iterations > 0 || result.status == SolveStatus::stalled ||
+                          result.status == SolveStatus::singular;
+  if (factorized && std::isfinite(result.condition)) result.condition = system.condition();
   return result;
 }
 

@@ -235,7 +235,8 @@ struct Destabilising {
   double gap() const { return -std::numeric_limits<double>::infinity(); }
 };
 
-// It takes away the static stiffness up to a rounding: the mean of the response is anything.
+// It takes away the static stiffness, up to a rounding or a little more: the mean of the response is anything
+// or nearly so. Whether a pivot vanishes in the first case is a matter of rounding.
 TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
   const LinearStructure bar = testing::jl14_bar(1, 1e-4);
   CondensedProblem problem(testing::fourier_pair(127, 512), bar, Eigen::Vector2cd(1.0, 1.0));
@@ -244,11 +245,11 @@ TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
     ForcedResponseOptions options;
     options.newton.linear_solver = method;
     options.homotopy = false;
-    for (const double share : {0.5, 1.0}) {
-      const auto response =
-          forced_response(problem, Destabilising{share * bar.stiffness.coeff(0, 0)}, options);
-      EXPECT_EQ(response.condition > 1e12, share == 1.0) << response.condition;
-      EXPECT_EQ(response.status == SolveStatus::singular || response.condition > 1e12, share == 1.0);
+    for (const double detuning : {0.5, 1e-13, 0.0}) {
+      const double stiffness = (1.0 - detuning) * bar.stiffness.coeff(0, 0);
+      const auto response = forced_response(problem, Destabilising{stiffness}, options);
+      EXPECT_EQ(response.condition > 1e12, detuning < 0.5) << response.condition << " at " << detuning;
+      EXPECT_TRUE(response.converged() || detuning < 0.5);
     }
   }
 }

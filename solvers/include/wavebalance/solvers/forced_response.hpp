@@ -30,7 +30,8 @@ struct NewtonResult {
   double residual = 0.0;                 ///< relative, see NewtonOptions
   std::vector<double> residual_history;  ///< one entry an iteration, the first before any step
   /// Condition number of the last Newton matrix on the active samples: with LU an estimate in the 1-norm,
-  /// with GMRES a lower bound in the 2-norm from vectors that were multiplied. 0 when no system was solved.
+  /// with GMRES a lower bound in the 2-norm from vectors that were multiplied. 0 when no system was solved,
+  /// infinite when a pivot vanished.
   double condition = 0.0;
 };
 
