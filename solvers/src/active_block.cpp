@@ -105,4 +105,12 @@ void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorX
 
 double ActiveBlock::condition() const { return matrix_.size() == 0 ? 1.0 : 1.0 / lu_.rcond(); }
 
+// Eliminating the samples without stiffness, on whose columns J is the identity, leaves the determinant as it
+// is.
+int ActiveBlock::determinant_sign() const {
+  if (lu_.rows() == 0) return 1;
+  const auto negative = (lu_.matrixLU().diagonal().array() < 0.0).count();
+  return static_cast<int>(lu_.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+}
+
 }  // namespace wavebalance::solvers

@@ -28,6 +28,8 @@ class ActiveBlock {
   /// J x + b y = r, c.x + d y = s.
   void solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, Eigen::VectorXd& x,
                       double& y);
+  /// 1 or -1: the sign of the determinant of the matrix last factorized, that of the whole [J b; c^T d].
+  int determinant_sign() const;
 
   /// Estimate of the condition number, in the 1-norm, of what was factorized last. O(active^2).
   double condition() const;

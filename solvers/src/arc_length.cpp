@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace wavebalance::solvers {
 
@@ -51,6 +52,8 @@ bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slope_.size());
   if (!system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent)) return false;
   if (!point.displacement_tangent.allFinite() || !std::isfinite(point.parameter_tangent)) return false;
+  const int sign = system_.determinant_sign();
+  point.orientation = sign == 0 ? along.orientation : sign;
   normalize(point);
   return true;
 }
@@ -93,8 +96,26 @@ bool ArcLength::correct(const CurvePoint& from, double step, CurvePoint& to, int
   return false;
 }
 
-bool ArcLength::accept_angle(const CurvePoint& candidate) const {
-  return inner(point_, candidate) >= std::cos(options_.largest_angle);
+bool ArcLength::is_at_gap(const CurvePoint& point, int sample) const {
+  return std::abs(point.displacement[sample] - system_.gap_at(sample)) <= 1e-8 * options_.displacement_scale;
+}
+
+bool ArcLength::same_sides(const CurvePoint& candidate) const {
+  for (int l = 0; l < candidate.displacement.size(); ++l) {
+    const double gap = system_.gap_at(l);
+    const bool passed = (point_.displacement[l] > gap) != (candidate.displacement[l] > gap);
+    if (passed && !is_at_gap(point_, l)) return false;
+  }
+  return true;
+}
+
+// Along a curve of a piecewise smooth system the sign of det [R_u R_p; tangent^T] stays, over folds and over
+// corners: a candidate with the other sign lies on a part that the curve reaches later, facing back. Only
+// where another curve crosses within one smooth piece does the sign change, however short the step.
+bool ArcLength::continues(const CurvePoint& candidate, double step) const {
+  if (inner(point_, candidate) < std::cos(options_.largest_angle)) return false;
+  if (candidate.orientation * point_.orientation >= 0) return true;
+  return step < 2.0 * options_.smallest_step && same_sides(candidate);
 }
 
 ArcLength::Status ArcLength::advance() {
@@ -102,7 +123,10 @@ ArcLength::Status ArcLength::advance() {
   CurvePoint candidate;
   int corrections = 0;
   for (double step = step_; step >= options_.smallest_step; step *= 0.5) {
-    if (!correct(point_, step, candidate, corrections) || !accept_angle(candidate)) continue;
+    if (!correct(point_, step, candidate, corrections) || !continues(candidate, step)) {
+      if (turn_corner(step)) return Status::advanced;
+      continue;
+    }
     previous_ = std::move(point_);
     point_ = std::move(candidate);
     last_step_ = step;
@@ -112,7 +136,7 @@ ArcLength::Status ArcLength::advance() {
     step_ = std::clamp(step * growth, options_.smallest_step, options_.largest_step);
     return Status::advanced;
   }
-  return turn_corner();
+  return turn_corner(options_.largest_step) ? Status::advanced : Status::no_point;
 }
 
 bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
@@ -135,10 +159,9 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, Cu
   return true;
 }
 
-// The sample that the tangent takes through the gap first; -1 when none within the largest step.
+// The sample that the tangent takes through the gap first; -1 when none within `distance`.
 int ArcLength::crossing_ahead(double& distance) const {
   int sample = -1;
-  distance = options_.largest_step;
   for (int l = 0; l < point_.displacement.size(); ++l) {
     const double rate = point_.displacement_tangent[l];
     const double ahead = (system_.gap_at(l) - point_.displacement[l]) / rate;
@@ -149,6 +172,21 @@ int ArcLength::crossing_ahead(double& distance) const {
     sample = l;
   }
   return sample;
+}
+
+// The sample that passes its gap first between the point and a corner of `sample`; -1 when none does.
+int ArcLength::passed_before(int sample, const CurvePoint& corner, double& fraction) const {
+  int first = -1;
+  fraction = 1.0;
+  for (int l = 0; l < corner.displacement.size(); ++l) {
+    if (l == sample || is_at_gap(corner, l) || is_at_gap(point_, l)) continue;
+    const double gap = system_.gap_at(l), from = point_.displacement[l] - gap,
+                 to = corner.displacement[l] - gap;
+    if (from * to > 0.0 || from / (from - to) >= fraction) continue;
+    fraction = from / (from - to);
+    first = l;
+  }
+  return first;
 }
 
 // Newton on R = 0 with the sample held at the gap, from the side on which the curve arrives.
@@ -179,37 +217,77 @@ bool ArcLength::solve_corner(int sample, double distance, CurvePoint& corner) {
   return false;
 }
 
-// The tangent with every sample that reaches the gap together taken on the far side.
-bool ArcLength::leave_corner(int sample, CurvePoint& corner) {
-  const double direction = point_.displacement_tangent[sample] > 0.0 ? 1.0 : -1.0;
-  for (int l = 0; l < corner.displacement.size(); ++l) {
-    const double gap = system_.gap_at(l);
-    const bool together = std::abs(corner.displacement[l] - gap) <= 1e-8 * options_.displacement_scale;
-    if (together) system_.set_tangent(l, direction > 0.0 ? system_.law_at(l).tangent(gap) : 0.0);
+std::vector<int> ArcLength::samples_at_gap(const CurvePoint& point) const {
+  std::vector<int> samples;
+  for (int l = 0; l < point.displacement.size(); ++l)
+    if (is_at_gap(point, l)) samples.push_back(l);
+  return samples;
+}
+
+// With `together`, the samples at their gaps, as stiff as `presses` says. One goes on through its gap; what
+// several do follows from the orientation of the curve.
+bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+                               CurvePoint& corner) {
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    const double stiffness = system_.law_at(together[i]).tangent(system_.gap_at(together[i]));
+    system_.set_tangent(together[i], presses[i] ? stiffness : 0.0);
   }
   parameter_.slope(system_, slope_);
   Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());
   row[sample] = 1.0;
   if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(row.size());
-  if (!system_.solve_bordered(zero, direction, corner.displacement_tangent, corner.parameter_tangent))
+  const int sign = system_.determinant_sign();
+  const double through = point_.displacement_tangent[sample] > 0.0 ? 1.0 : -1.0;
+  const bool passes = together.size() == 1 || sign * point_.orientation == 0;
+  const double direction = passes ? through : double(sign * point_.orientation);
+  row.setZero();
+  if (!system_.solve_bordered(row, direction, corner.displacement_tangent, corner.parameter_tangent))
     return false;
   if (!corner.displacement_tangent.allFinite() || !std::isfinite(corner.parameter_tangent)) return false;
+  corner.orientation = sign == 0 ? point_.orientation : (direction > 0.0 ? sign : -sign);
   normalize(corner);
   return true;
 }
 
-ArcLength::Status ArcLength::turn_corner() {
-  double distance = 0.0;
-  const int sample = crossing_ahead(distance);
+// The tangent of the side ahead: every sample at its gap has the stiffness of the side to which that tangent
+// moves it.
+bool ArcLength::leave_corner(int sample, CurvePoint& corner) {
+  const std::vector<int> together = samples_at_gap(corner);
+  std::vector<bool> presses, moves_in;
+  for (const int l : together) presses.push_back(point_.displacement_tangent[l] > 0.0);
+  for (std::size_t round = 0; round <= together.size(); ++round) {
+    if (!corner_tangent(sample, together, presses, corner)) return false;
+    moves_in.clear();
+    for (const int l : together) moves_in.push_back(corner.displacement_tangent[l] > 0.0);
+    if (moves_in == presses) return true;
+    presses = moves_in;
+  }
+  return false;
+}
+
+// False when no sample reaches its gap within that distance or the corner cannot be left.
+bool ArcLength::turn_corner(double within) {
+  constexpr int attempts = 10;
+  double distance = within;
+  int sample = crossing_ahead(distance);
   CurvePoint corner;
-  if (sample < 0 || !solve_corner(sample, distance, corner) || !leave_corner(sample, corner))
-    return Status::no_point;
-  previous_ = std::move(point_);
-  point_ = std::move(corner);
-  last_step_ = distance;
-  step_ = options_.initial_step;
-  return Status::advanced;
+  for (int attempt = 0; sample >= 0 && attempt < attempts; ++attempt) {
+    if (!solve_corner(sample, distance, corner)) return false;
+    double fraction = 1.0;
+    const int earlier = passed_before(sample, corner, fraction);
+    if (earlier >= 0) {
+      sample = earlier;
+      distance *= fraction;
+      continue;
+    }
+    if (!leave_corner(sample, corner)) return false;
+    previous_ = std::move(point_);
+    point_ = std::move(corner);
+    last_step_ = distance;
+    step_ = options_.initial_step;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace wavebalance::solvers

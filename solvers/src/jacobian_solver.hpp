@@ -23,6 +23,9 @@ class JacobianSolver {
   bool solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, double reduction,
                       Eigen::VectorXd& x, double& y);
 
+  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
+  int determinant_sign() const { return used_ == Used::dense ? dense_.determinant_sign() : 0; }
+
   /// Condition of what was factorized last: see NewtonResult. 0 before.
   double condition(CondensedProblem& problem);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <vector>
 
 #include "wavebalance/solvers/contact_system.hpp"
 
@@ -53,14 +54,17 @@ struct CurvePoint {
   Eigen::VectorXd displacement_tangent;
   double parameter_tangent = 0.0;
   double residual = 0.0;
+  int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
   bool corner = false;  ///< the contact law's slope jumps here; the tangent is that of the side ahead
 };
 
 /// Pseudo-arc-length continuation of a piecewise smooth solution curve. A smooth fold is passed by the
 /// bordered Newton matrix. At a corner, where a sample reaches the gap and the law's slope jumps, steps along
 /// the tangent of the side behind may miss the curve however short they are: the corner is then solved for (R
-/// = 0 with that sample at the gap) and left along the tangent of the side ahead, oriented so that the sample
-/// goes on through the gap.
+/// = 0 with that sample at the gap) and left along the tangent of the side ahead, on which every sample at
+/// its gap moves to the side whose stiffness it has. Orientation is by the sign of det [R_u R_p; tangent^T],
+/// which stays over folds and corners: a step that lands on a part of the curve that faces back is taken
+/// shorter.
 class ArcLength {
  public:
   enum class Status { advanced, no_point };
@@ -82,10 +86,16 @@ class ArcLength {
  private:
   bool correct(const CurvePoint& from, double step, CurvePoint& to, int& corrections);
   bool tangent_at(CurvePoint& point, const CurvePoint& along);
-  bool accept_angle(const CurvePoint& candidate) const;
-  Status turn_corner();
+  bool same_sides(const CurvePoint& candidate) const;
+  bool continues(const CurvePoint& candidate, double step) const;
+  bool is_at_gap(const CurvePoint& point, int sample) const;
+  bool turn_corner(double within);
   int crossing_ahead(double& distance) const;
+  int passed_before(int sample, const CurvePoint& corner, double& fraction) const;
   bool solve_corner(int sample, double distance, CurvePoint& corner);
+  std::vector<int> samples_at_gap(const CurvePoint& point) const;
+  bool corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+                      CurvePoint& corner);
   bool leave_corner(int sample, CurvePoint& corner);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;

@@ -64,6 +64,8 @@ class ContactSystem {
   /// Solves J x + b y = r, c.x + d y = s.
   bool solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                       double reduction = 1e-10);
+  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when GMRES stood in for its LU.
+  int determinant_sign() const;
 
   /// Condition of what was factorized last, as NewtonResult says; 0 before any.
   double condition();
