@@ -114,17 +114,25 @@ bool ArcLength::same_sides(const CurvePoint& candidate) const {
 // where another curve crosses within one smooth piece does the sign change, however short the step.
 bool ArcLength::continues(const CurvePoint& candidate, double step) const {
   if (inner(point_, candidate) < std::cos(options_.largest_angle)) return false;
-  if (candidate.orientation * point_.orientation >= 0) return true;
+  if (!oriented_ || candidate.orientation * point_.orientation >= 0) return true;
   return step < 2.0 * options_.smallest_step && same_sides(candidate);
 }
 
+// Curves cross at corners of structures with symmetries, where the sense is lost: then by the angle alone.
 ArcLength::Status ArcLength::advance() {
+  oriented_ = true;
+  if (step_along()) return Status::advanced;
+  oriented_ = false;
+  return step_along() ? Status::advanced : Status::no_point;
+}
+
+bool ArcLength::step_along() {
   constexpr int comfortable_corrections = 3;
   CurvePoint candidate;
   int corrections = 0;
   for (double step = step_; step >= options_.smallest_step; step *= 0.5) {
     if (!correct(point_, step, candidate, corrections) || !continues(candidate, step)) {
-      if (turn_corner(step)) return Status::advanced;
+      if (turn_corner(step)) return true;
       continue;
     }
     previous_ = std::move(point_);
@@ -134,9 +142,9 @@ ArcLength::Status ArcLength::advance() {
                           : corrections == comfortable_corrections ? 1.1
                                                                    : 0.6;
     step_ = std::clamp(step * growth, options_.smallest_step, options_.largest_step);
-    return Status::advanced;
+    return true;
   }
-  return turn_corner(options_.largest_step) ? Status::advanced : Status::no_point;
+  return turn_corner(options_.largest_step);
 }
 
 bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
@@ -224,10 +232,10 @@ std::vector<int> ArcLength::samples_at_gap(const CurvePoint& point) const {
   return samples;
 }
 
-// With `together`, the samples at their gaps, as stiff as `presses` says. One goes on through its gap; what
-// several do follows from the orientation of the curve.
+// With `together`, the samples at their gaps, as stiff as `presses` says; the sample goes on `through` its
+// gap, or as the orientation of the curve says.
 bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
-                               CurvePoint& corner) {
+                               bool through, CurvePoint& corner) {
   for (std::size_t i = 0; i < together.size(); ++i) {
     const double stiffness = system_.law_at(together[i]).tangent(system_.gap_at(together[i]));
     system_.set_tangent(together[i], presses[i] ? stiffness : 0.0);
@@ -237,9 +245,9 @@ bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, con
   row[sample] = 1.0;
   if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
   const int sign = system_.determinant_sign();
-  const double through = point_.displacement_tangent[sample] > 0.0 ? 1.0 : -1.0;
-  const bool passes = together.size() == 1 || sign * point_.orientation == 0;
-  const double direction = passes ? through : double(sign * point_.orientation);
+  const double onwards = point_.displacement_tangent[sample] > 0.0 ? 1.0 : -1.0;
+  const int oriented = sign * point_.orientation;
+  const double direction = through || oriented == 0 ? onwards : double(oriented);
   row.setZero();
   if (!system_.solve_bordered(row, direction, corner.displacement_tangent, corner.parameter_tangent))
     return false;
@@ -250,13 +258,13 @@ bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, con
 }
 
 // The tangent of the side ahead: every sample at its gap has the stiffness of the side to which that tangent
-// moves it.
+// moves it. That on which the sample goes on through its gap comes first.
 bool ArcLength::leave_corner(int sample, CurvePoint& corner) {
   const std::vector<int> together = samples_at_gap(corner);
   std::vector<bool> presses, moves_in;
   for (const int l : together) presses.push_back(point_.displacement_tangent[l] > 0.0);
   for (std::size_t round = 0; round <= together.size(); ++round) {
-    if (!corner_tangent(sample, together, presses, corner)) return false;
+    if (!corner_tangent(sample, together, presses, round == 0, corner)) return false;
     moves_in.clear();
     for (const int l : together) moves_in.push_back(corner.displacement_tangent[l] > 0.0);
     if (moves_in == presses) return true;

@@ -59,6 +59,6 @@ bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::Ve
   return jacobian_->solve_bordered(*problem_, r, s, reduction, x, y);
 }
 
-int ContactSystem::determinant_sign() const { return active_->determinant_sign(); }
+int ContactSystem::determinant_sign() const { return jacobian_->determinant_sign(); }
 
 }  // namespace wavebalance::solvers

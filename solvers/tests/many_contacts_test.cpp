@@ -288,55 +288,6 @@ TEST(ManyContactsSweep, PassesFoldsAndEqualsPointsSolvedSingly) {
   EXPECT_GE(compared, 20);
 }
 
-// Their samples reach the gaps at the same frequencies. Haar functions make the samples of a cell do so too.
-TEST(ManyContactsSweep, OfTwinsThatTouchTogetherIsThatOfOne) {
-  testing::Oscillator one;
-  LinearStructure twins;
-  Eigen::Matrix2d identity = Eigen::Matrix2d::Identity(), mass = one.mass * identity,
-                  damping = 0.3 * one.damping * identity, stiffness = one.stiffness * identity;
-  twins.mass = mass.sparseView();
-  twins.damping = damping.sparseView();
-  twins.stiffness = stiffness.sparseView();
-  twins.load = Eigen::Vector2d::Constant(one.load);
-  twins.contact_dofs = {0, 1};
-  one.damping *= 0.3;
-  const LinearContact stop{5e5, 3e-3};
-  FrequencySweepOptions options;
-  options.from = 25.0;
-  options.to = 60.0;
-  for (const TimePair& pair : {testing::fourier_pair(15, 32), testing::pair_kinds()[3]}) {
-    CondensedProblem both(pair, twins, testing::cosine_load()),
-        alone(pair, one.structure(), testing::cosine_load());
-    const FrequencySweep together = frequency_sweep(both, stop, options);
-    const FrequencySweep single = frequency_sweep(alone, stop, options);
-    ASSERT_EQ(together.status, SweepStatus::reached_end) << to_string(together.status);
-    ASSERT_EQ(single.status, SweepStatus::reached_end) << to_string(single.status);
-    ASSERT_GE(single.turning_points.size(), 2u);
-    ASSERT_EQ(together.turning_points.size(), single.turning_points.size());
-    for (std::size_t i = 0; i < single.turning_points.size(); ++i) {
-      EXPECT_NEAR(together.turning_points[i].frequency, single.turning_points[i].frequency, 1e-6);
-      EXPECT_NEAR(together.turning_points[i].max_displacement, single.turning_points[i].max_displacement,
-                  1e-9);
-    }
-  }
-}
-
-// Stiff stops make every sample that touches a fold of the curve; it faces back between two of them.
-TEST(ManyContactsSweep, KeepsItsSenseThroughManyCorners) {
-  for (const TimePair& pair : {testing::fourier_pair(16, 32), testing::pair_kinds()[3]}) {
-    CondensedProblem problem(pair, chain(3), testing::cosine_load());
-    FrequencySweepOptions options;
-    options.from = 0.02;
-    options.to = 0.06;
-    options.arc_length.largest_step = 0.1;
-    std::vector<AnyContactLaw> stops;
-    for (const double gap : gaps) stops.emplace_back(LinearContact{100.0, gap});
-    const FrequencySweep sweep = frequency_sweep(problem, stops, options);
-    EXPECT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
-    std::printf("%zu %zu\n", sweep.points.size(), sweep.turning_points.size());
-  }
-}
-
 TEST(ManyContactsErrors, NameTheNumberFoundAndWanted) {
   auto problem = make_problem(testing::fourier_pair(7, 32), chain(3));
   EXPECT_THROW(forced_response(problem, springs({0, 1}), {}), std::invalid_argument);

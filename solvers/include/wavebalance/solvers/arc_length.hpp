@@ -89,13 +89,14 @@ class ArcLength {
   bool same_sides(const CurvePoint& candidate) const;
   bool continues(const CurvePoint& candidate, double step) const;
   bool is_at_gap(const CurvePoint& point, int sample) const;
+  bool step_along();
   bool turn_corner(double within);
   int crossing_ahead(double& distance) const;
   int passed_before(int sample, const CurvePoint& corner, double& fraction) const;
   bool solve_corner(int sample, double distance, CurvePoint& corner);
   std::vector<int> samples_at_gap(const CurvePoint& point) const;
   bool corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
-                      CurvePoint& corner);
+                      bool through, CurvePoint& corner);
   bool leave_corner(int sample, CurvePoint& corner);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;
@@ -107,6 +108,7 @@ class ArcLength {
   CurvePoint point_, previous_;
   double step_ = 0.0;
   double last_step_ = 0.0;
+  bool oriented_ = true;  // whether a step must keep the orientation
   Eigen::VectorXd slope_, change_;
 };
 
