@@ -76,6 +76,12 @@ std::string shown_value(const std::vector<double>& list) {
   return shown;
 }
 
+std::string shown_value(const std::vector<std::string>& list) {
+  std::string shown;
+  for (const auto& one : list) shown += (shown.empty() ? "" : "; ") + one;
+  return list.empty() ? "none" : shown;
+}
+
 std::string shown_value(const Table& table) { return std::to_string(table.rows()) + " rows in summary.json"; }
 
 std::string summary_text(const Summary& summary) {
@@ -95,6 +101,8 @@ void report(const RunArguments& arguments, const Record& record, const std::vect
       if (!name.ends_with(".vtu")) list += (list.empty() ? "" : ", ") + name;
     std::printf("written to %s: %s\n", arguments.output.c_str(), list.c_str());
   }
+  for (const auto& warning : record.warnings)
+    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
   if (!record.converged)
     std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", record.status.c_str());
 }

@@ -78,6 +78,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back("complementarity", response.rigid->product);
     record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
   }
+  append_condition(record, response.condition);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   append_structure(record.summary, model);
   if (response.contacts.points() == 0) return record;
@@ -129,6 +130,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
     record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
   }
+  append_condition(record, sweep.curve.condition);
   append_structure(record.summary, model);
   record.sweep = sweep_table(sweep.curve);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
@@ -154,6 +156,7 @@ std::optional<solvers::SweepPoint> rigid_point(Scene& scene, const StructureMode
                                                Sweep& sweep) {
   scene.forcing.frequency = frequency;
   const Response response = weighted_residual_response(scene, model);
+  sweep.curve.condition = std::max(sweep.curve.condition, response.condition);
   if (!response.converged) return std::nullopt;
   sweep.max_penetration = std::max(sweep.max_penetration, response.rigid->max_penetration);
   sweep.max_force = std::max(sweep.max_force, response.contacts.force.maxCoeff());

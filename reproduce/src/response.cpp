@@ -80,12 +80,14 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
   result.contacts = std::move(contacts);
 }
 
-void note_solution(Response& result, const solvers::PeriodicResponse& found) {
+void note_solution(Response& result, const solvers::CondensedProblem& problem,
+                   const solvers::PeriodicResponse& found) {
   result.converged = found.converged();
   result.status = to_string(found.status);
   result.residual = found.residual;
   result.iterations = found.iterations;
   result.used_homotopy = found.used_homotopy;
+  result.condition = std::max(problem.condensation().condition(), found.condition);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
@@ -94,7 +96,7 @@ void solve_law(const Scene& scene, const StructureModel& model, solvers::Condens
   solver.observer = solve_observer(options.observer);
   const solvers::ContactLaws laws = make_laws(scene);
   const auto found = solvers::forced_response(problem, laws, solver, options.guess);
-  note_solution(result, found);
+  note_solution(result, problem, found);
   note_motion(problem, found, model, sample_response(problem, found, laws, scene.analysis.output_points),
               options, result);
 }
@@ -112,7 +114,7 @@ void solve_rigid(const Scene& scene, const StructureModel& model, solvers::Conde
   solvers::RigidResponseOptions solver;
   solver.observer = solve_observer(options.observer);
   const auto found = solvers::rigid_response(problem, model.gaps, solver);
-  note_solution(result, found.response);
+  note_solution(result, problem, found.response);
   const auto& contact = found.complementarity;
   result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
   result.residual = std::max(found.response.residual, contact.product);
@@ -156,6 +158,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
     result.converged = false;  // also when only the field of the whole structure cannot be had
     result.status = std::string("singular: ") + error.what();
     result.residual = std::numeric_limits<double>::quiet_NaN();
+    result.condition = std::numeric_limits<double>::infinity();
   }
   result.wall_seconds = seconds_since(start);
   return result;

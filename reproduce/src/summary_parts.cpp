@@ -1,5 +1,8 @@
 #include "summary_parts.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "wavebalance/reproduce/measures.hpp"
 
 namespace wavebalance::reproduce {
@@ -19,6 +22,21 @@ void append_structure(Summary& summary, const StructureModel& model) {
   summary.emplace_back("degrees_of_freedom", std::int64_t{model.unknowns});
   summary.emplace_back("reduced_degrees_of_freedom", std::int64_t{model.size()});
   summary.emplace_back("reduction_seconds", model.reduction_seconds);
+}
+
+void append_condition(Record& record, double condition) {
+  constexpr double largest_condition = 1e12;
+  if (std::isinf(condition)) {
+    record.warnings.emplace_back("a system of the solution is singular to working precision");
+  } else if (condition > largest_condition) {
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "the condition estimate %.1e is past %.0e: up to %d of 16 digits may be lost", condition,
+                  largest_condition, static_cast<int>(std::ceil(std::log10(condition))));
+    record.warnings.emplace_back(text);
+  }
+  record.summary.emplace_back("condition_estimate", condition);
+  record.summary.emplace_back("warnings", record.warnings);
 }
 
 void add_contacts(Record& record, const ContactMotion& contacts, int leading) {

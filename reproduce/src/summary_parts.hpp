@@ -16,6 +16,10 @@ Summary opening(bool converged, const std::string& status, double residual, int 
 /// How large the structure is, before and after its reduction.
 void append_structure(Summary& summary, const StructureModel& model);
 
+/// condition_estimate (NaN: none) and `warnings`, in the summary and in the record. Past 1e12 there is one:
+/// of the sixteen digits of a double fewer than four are left.
+void append_condition(Record& record, double condition);
+
 /// The table of all contacts, and which of them the record shows, where there are several.
 void add_contacts(Record& record, const ContactMotion& contacts, int leading);
 

@@ -53,6 +53,7 @@ solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureMo
   result.status = to_string(found.status);
   result.residual = found.response.residual;
   result.used_homotopy = found.response.used_homotopy;
+  result.condition = std::max(found.problem->condensation().condition(), found.response.condition);
   result.unknowns = model.contacts() * found.ladder.back().functions;
   for (const auto& rung : found.ladder) result.iterations += rung.iterations;
   result.refinement =

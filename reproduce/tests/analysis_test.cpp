@@ -152,7 +152,47 @@ TEST(Analyse, UndampedResonanceIsToldByName) {
   const Record record = analyse(scene);
   EXPECT_FALSE(record.converged);
   EXPECT_NE(record.status.find("singular"), std::string::npos) << record.status;
+  EXPECT_TRUE(std::isinf(value_of<double>(record.summary, "condition_estimate")));
+  EXPECT_EQ(record.warnings.size(), 1u);
   EXPECT_TRUE(std::isnan(value_of<double>(record.summary, "max_displacement_m")));
+}
+
+TEST(Analyse, OrdinaryConditionsAreWithoutWarning) {
+  const Record record = analyse(scene_of());
+  EXPECT_GT(value_of<double>(record.summary, "condition_estimate"), 1.0);
+  EXPECT_LT(value_of<double>(record.summary, "condition_estimate"), 1e12);
+  EXPECT_TRUE(record.warnings.empty());
+  EXPECT_TRUE(value_of<std::vector<std::string>>(record.summary, "warnings").empty());
+  const Record stepped = analyse(scene_of({"analysis.type=time_stepping"}));
+  EXPECT_TRUE(std::isnan(value_of<double>(stepped.summary, "condition_estimate")));
+  EXPECT_TRUE(stepped.warnings.empty());
+}
+
+// The dynamic stiffness k - omega^2 m is 2e-13 of k beside the natural frequency 1 / (2 pi).
+TEST(Analyse, ConditionsPast1e12Warn) {
+  Scene scene =
+      scene_of({"structure.stiffness_damping=0", "structure.elements=1", "structure.youngs_modulus=1",
+                "structure.density=3", "structure.area=1", "structure.length=1", "time.functions=9"});
+  scene.contact = {};
+  scene.forcing.frequency = (1.0 + 1e-13) / (2.0 * std::acos(-1.0));
+  const Record record = analyse(scene);
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_NEAR(value_of<double>(record.summary, "condition_estimate"), 1e13, 1e11);
+  ASSERT_EQ(record.warnings.size(), 1u);
+  EXPECT_EQ(record.warnings, value_of<std::vector<std::string>>(record.summary, "warnings"));
+  EXPECT_NE(record.warnings[0].find("past 1e+12"), std::string::npos) << record.warnings[0];
+  EXPECT_NE(json_text(record.summary).find("\"warnings\": [\n    \"the condition"), std::string::npos);
+}
+
+TEST(Analyse, ASweepHasTheLargestConditionOfItsCurve) {
+  const auto condition_up_to = [](const std::string& frequency) {
+    const Scene scene = scene_of({"time.functions=31", "analysis.type=frequency_sweep",
+                                  "analysis.frequency_from=100", "analysis.frequency_to=" + frequency});
+    return value_of<double>(analyse(scene).summary, "condition_estimate");
+  };
+  const double near = condition_up_to("110");
+  EXPECT_GE(near, 1.0);
+  EXPECT_GE(condition_up_to("200"), near);
 }
 
 TEST(Analyse, UnconvergedCurvesAreMarkedAsSuch) {

@@ -83,6 +83,15 @@ TEST(CommandRun, QuietSaysNothing) {
   EXPECT_EQ(outcome.output + outcome.errors, "");
 }
 
+TEST(CommandRun, WarnsOfAConditionPast1e12AlsoWhenQuiet) {
+  const TemporaryFolder folder;
+  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "extremes" / "bar_linear.toml";
+  const Outcome outcome =
+      run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "contact.stiffness=1e22"});
+  EXPECT_EQ(outcome.errors.find("wavebalance: warning: the condition estimate "), 0u) << outcome.errors;
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"the condition estimate "), std::string::npos);
+}
+
 TEST(CommandRun, ToleranceChoosesTheSizesAndSaysHow) {
   const TemporaryFolder folder;
   const Outcome outcome =

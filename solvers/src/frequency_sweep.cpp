@@ -41,6 +41,7 @@ class Sweep {
   FrequencySweep run() {
     problem_.set_frequency(options_.from);
     const PeriodicResponse first = forced_response(problem_, system_.laws(), options_.start);
+    result_.condition = std::max(problem_.condensation().condition(), first.condition);
     if (!first.converged()) return result_;
     const FrequencyParameter parameter;
     ArcLength curve(system_, parameter, scaled_options(first));
@@ -93,6 +94,7 @@ class Sweep {
 
   SweepPoint measure(const CurvePoint& point) {
     problem_.set_frequency(point.parameter);
+    result_.condition = std::max(result_.condition, problem_.condensation().condition());
     system_.evaluate(point.displacement);
     const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
     SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.corner};

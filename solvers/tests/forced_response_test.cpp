@@ -74,6 +74,31 @@ TEST(ForcedResponse, EveryRecordedFieldBelongsToTheSolution) {
   }
 }
 
+// A stiff law makes much of a residual that is small beside the motion: at a tolerance of 1e-4 the force that
+// makes the motion could be any other than the law's force at that motion.
+TEST(ForcedResponse, TheForceOfAConvergedMotionIsThatOfItsLaw) {
+  for (const double stiffening : {1.0, 1e2, 1e4}) {
+    CondensedProblem problem = case_1(63, 256);
+    testing::ExponentialLaw law = testing::jl14_case_1.law;
+    law.constant *= stiffening;
+    ForcedResponseOptions options;
+    options.newton.tolerance = 1e-4;
+    const PeriodicResponse response = forced_response(problem, law, options);
+    ASSERT_TRUE(response.converged()) << stiffening << " " << to_string(response.status);
+    Eigen::VectorXd product;
+    problem.apply(response.contact_force, product);
+    const Eigen::VectorXd& free = problem.free_response();
+    const Eigen::VectorXd motion = free - product;
+    EXPECT_LE((motion - response.displacement).norm(), 1e-4 * (free.norm() + product.norm())) << stiffening;
+    const Eigen::VectorXd law_force = motion.unaryExpr([&](double u) { return law.force(u); });
+    // Newton's bound of 1e-6 is on the force times the share that it has in the motion.
+    const double share = product.norm() / (response.displacement.norm() + free.norm());
+    EXPECT_LE((law_force - response.contact_force).cwiseAbs().maxCoeff(),
+              2e-6 / share * response.contact_force.maxCoeff())
+        << stiffening;
+  }
+}
+
 TEST(ForcedResponse, StartedAtTheSolutionStays) {
   CondensedProblem problem = case_1(63, 256);
   const testing::ExponentialLaw law = testing::jl14_case_1.law;

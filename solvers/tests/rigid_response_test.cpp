@@ -82,6 +82,25 @@ TEST(RigidResponse, StaticPushAgainstTheObstacleIsHeldAtTheGap) {
   EXPECT_NEAR(rigid.response.contact_force[0], 3.0, 1e-6);
 }
 
+// Without a load nothing moves on its own, free of an open gap and of one that it just fills. An obstacle
+// that stands in the way pushes it back for good, against the static stiffness 70e9 * 25e-4 / 1 m; the
+// tolerance is relative to the contact-free response, which is zero, so that this may end as stalled, but
+// never in a crash.
+TEST(RigidResponse, WithoutLoadItRestsWhereTheObstacleAllows) {
+  LinearStructure bar = testing::jl14_bar(5, 1e-4);
+  bar.load.setZero();
+  auto problem = fourier_problem(bar, 7, 32, 150.0);
+  for (const double gap : {1e-3, 0.0, -1e-3}) {
+    const RigidResponse rigid = rigid_response(problem, gap, {});
+    EXPECT_TRUE(rigid.response.displacement.allFinite() && rigid.response.contact_force.allFinite()) << gap;
+    ASSERT_TRUE(rigid.response.converged() || gap < 0.0) << gap << " " << to_string(rigid.response.status);
+    if (!rigid.response.converged()) continue;
+    const double held = std::min(gap, 0.0);
+    EXPECT_NEAR(rigid.response.displacement.maxCoeff(), held, 1e-12) << gap;
+    EXPECT_NEAR(rigid.response.contact_force.mean(), -held * 70e9 * 25e-4, 1e-6 * 70e9 * 25e-4 * 1e-3) << gap;
+  }
+}
+
 TEST(RigidResponse, AnInfiniteGapIsAnError) {
   auto problem = fourier_problem(testing::jl14_bar(5, 1e-4), 5, 16, 150.0);
   EXPECT_THROW(rigid_response(problem, INFINITY, {}), std::invalid_argument);

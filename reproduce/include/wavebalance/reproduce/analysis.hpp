@@ -37,7 +37,8 @@ Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {})
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer = {});
 
 /// A Table is written as an array of objects, one a row.
-using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>, Table>;
+using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
+                                  std::vector<std::string>, Table>;
 using Summary = std::vector<std::pair<std::string, SummaryValue>>;
 
 /// A further file of a record, ready to be written.
@@ -50,6 +51,8 @@ struct RecordFile {
 struct Record {
   bool converged = false;
   std::string status;
+  /// What makes the result less accurate than it looks, a sentence each; the summary holds them too.
+  std::vector<std::string> warnings;
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< frequency_Hz, max_displacement_m, rms_displacement_m; empty otherwise

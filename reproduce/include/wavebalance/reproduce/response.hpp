@@ -51,6 +51,9 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
   bool used_homotopy = false;
+  /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
+  /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
+  double condition = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
   std::optional<RigidContact> rigid;     ///< of scenes with rigid contact
   std::optional<Refinement> refinement;  ///< of scenes with time.tolerance

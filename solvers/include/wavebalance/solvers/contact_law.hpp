@@ -31,8 +31,9 @@ class AnyContactLaw {
   /// No contact: force, tangent and potential are zero and the gap is infinite.
   AnyContactLaw();
 
-  template <ContactLaw Law>
-  requires(!std::same_as<Law, AnyContactLaw>) AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
+  template <class Law>  // the type is asked first: ContactLaw asks for copies, and would ask itself again
+  requires(!std::same_as<Law, AnyContactLaw> && ContactLaw<Law>)
+      AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
       : model_(std::make_shared<Model<Law>>(std::move(law))) {}
 
   double force(double displacement) const;

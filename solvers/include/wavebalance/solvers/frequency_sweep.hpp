@@ -54,6 +54,9 @@ struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
   std::vector<SweepPoint> points;
   std::vector<TurningPoint> turning_points;
+  /// The largest Condensation::condition() of the curve's points and PeriodicResponse::condition of the
+  /// first.
+  double condition = 0.0;
 };
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through

@@ -25,8 +25,8 @@ concept TimeBasis = std::copy_constructible<Basis> &&
 /// basis.
 class AnyTimeBasis {
  public:
-  template <TimeBasis Basis>
-  requires(!std::same_as<Basis, AnyTimeBasis>)
+  template <class Basis>  // the type is asked first: TimeBasis asks for copies, and would ask itself again
+  requires(!std::same_as<Basis, AnyTimeBasis> && TimeBasis<Basis>)
       AnyTimeBasis(Basis basis)  // NOLINT: a basis is meant to convert
       : model_(std::make_shared<Model<Basis>>(std::move(basis))) {}
 
