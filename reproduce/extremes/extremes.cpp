@@ -59,8 +59,8 @@ void append_units(reproduce::Table& table, reproduce::Table& rounded, const std:
 }
 
 void make(report::Artefact& artefact, const std::filesystem::path& scenes) {
-  for (const char* name :
-       {"bar.toml", "bar_linear.toml", "bar_rigid.toml", "bar_mm_n_t.toml", "bar_nondimensional.toml"})
+  for (const char* name : {"bar.toml", "bar_linear.toml", "bar_rigid.toml", "bar_mm_n_t.toml",
+                           "bar_nondimensional.toml", "blade.toml", "chain.toml", "chain_rigid.toml"})
     artefact.scene(name);
   reproduce::Table table(columns), rounded(columns);
   int holding = 0;

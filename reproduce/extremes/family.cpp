@@ -19,7 +19,8 @@ Overrides operator+(Overrides left, const Overrides& right) {
   return left;
 }
 
-const std::string bar = "bar.toml", linear = "bar_linear.toml", rigid = "bar_rigid.toml";
+const std::string bar = "bar.toml", linear = "bar_linear.toml", rigid = "bar_rigid.toml",
+                  chain = "chain.toml", rigid_chain = "chain_rigid.toml", blade = "blade.toml";
 
 class Family {
  public:
@@ -50,6 +51,8 @@ class Family {
   void contacts();
   void tiny_numbers();
   void masses();
+  void matrices();
+  void blades();
 
   std::vector<Case> take() { return std::move(cases_); }
 
@@ -180,6 +183,30 @@ void Family::masses() {
   names("massless contact node", bar, {massless, "structure.elements=1"}, "structure.elements");
 }
 
+void Family::matrices() {
+  names("matrices", chain, {"structure.stiffness=chain_free.mtx"}, "free to move");
+  names("matrices", chain, {"structure.mass=chain_indefinite.mtx"}, "not positive definite");
+  names("matrices", chain, {"structure.contact_dofs=[2, 4]"}, "no degree of freedom 4");
+  for (const std::string& scene : {chain, rigid_chain})
+    for (const char* gap : {"1e-4", "0", "-1e-4", "1e15", "[0, -1e-4]", "[1e-4, 1e15]"})
+      solves("matrices, two contacts", scene, {std::string("contact.gap=") + gap});
+  for (const double penalty : {1e-3, 1e9, 1e12, 1e15, 1e18})
+    for (const char* gap : {"1e-4", "0"})
+      solves("matrices, two contacts", chain,
+             {set("contact.stiffness", penalty), std::string("contact.gap=") + gap});
+}
+
+void Family::blades() {
+  solves("blade", blade, {});
+  solves("blade", blade, {"contact.gap=0"});
+  solves("blade", blade, {"contact.gap=-1e-4"});
+  solves("blade", blade, {"structure.kept_modes=0"});
+  for (const double penalty : {1e-3, 1e9, 1e12, 1e15, 1e18})
+    solves("blade", blade, {set("contact.stiffness", penalty)});
+  names("blade", blade, {"structure.span_elements=0"}, "structure.span_elements");
+  names("blade", blade, {"structure.density=0"}, "structure.density");
+}
+
 }  // namespace
 
 double natural_frequency(const reproduce::Structure& bar, int mode) {
@@ -202,6 +229,8 @@ std::vector<Case> family(const std::filesystem::path& scenes) {
   all.contacts();
   all.tiny_numbers();
   all.masses();
+  all.matrices();
+  all.blades();
   return all.take();
 }
 

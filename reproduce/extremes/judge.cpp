@@ -47,17 +47,28 @@ double largest(const Eigen::SparseMatrix<double>& matrix) {
              : Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).cwiseAbs().maxCoeff();
 }
 
-void measure_motion(const Scene& scene, const solvers::PeriodSamples& samples, Residuals& result) {
+/// Weighted contact forces of every contact, C x (M/2 + 1).
+Eigen::MatrixXcd projected(const solvers::TimePair& pair, const Eigen::MatrixXd& forces) {
+  spectral::RealFft fft(pair.points());
+  Eigen::MatrixXcd result(forces.rows(), pair.spectrum_size());
+  Eigen::VectorXcd one;
+  for (Eigen::Index contact = 0; contact < forces.rows(); ++contact) {
+    pair.project(spectrum(fft, forces.row(contact)), one);
+    result.row(contact) = one;
+  }
+  return result;
+}
+
+void measure_motion(const Scene& scene, const reproduce::Response& response, Residuals& result) {
+  const solvers::PeriodSamples& samples = response.samples;
   const solvers::LinearStructure structure = reproduce::make_model(scene).structure;
   const solvers::TimePair pair = reproduce::make_pair(scene.time);
   const Eigen::MatrixXcd a = coefficients(pair, samples.displacements);
-  spectral::RealFft fft(pair.points());
-  Eigen::VectorXcd contact, harmonics = Eigen::VectorXcd::Zero(2);
+  const Eigen::MatrixXcd contact = projected(pair, response.contacts.force);
+  Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(2);
   harmonics[1] = 1.0;
-  pair.project(spectrum(fft, samples.contact_force), contact);
   const Eigen::VectorXcd load = pair.load(harmonics);
   const double f = scene.forcing.frequency;
-  const Eigen::Index tip = structure.size() - 1;
   const double mass = largest(structure.mass), damping = largest(structure.damping),
                stiffness = largest(structure.stiffness);
   const double sample = std::numeric_limits<double>::epsilon() * samples.displacements.cwiseAbs().maxCoeff();
@@ -67,8 +78,9 @@ void measure_motion(const Scene& scene, const solvers::PeriodSamples& samples, R
                                                 structure.damping * (pair.symbol(1)[k] * f * a.col(k)),
                                                 structure.stiffness * (pair.symbol(0)[k] * a.col(k))};
     Eigen::VectorXcd residual = terms[0] + terms[1] + terms[2] - structure.load * load[k];
-    residual[tip] += contact[k];
-    double size = std::abs(contact[k]) + structure.load.cwiseAbs().maxCoeff() * std::abs(load[k]);
+    residual(structure.contact_dofs) += contact.col(k);
+    double size =
+        contact.col(k).cwiseAbs().maxCoeff() + structure.load.cwiseAbs().maxCoeff() * std::abs(load[k]);
     for (const auto& term : terms) size += term.cwiseAbs().maxCoeff();
     worst = std::max(worst, residual.cwiseAbs().maxCoeff());
     if (std::isnan(residual.cwiseAbs().sum())) worst = std::numeric_limits<double>::infinity();
@@ -81,11 +93,13 @@ void measure_motion(const Scene& scene, const solvers::PeriodSamples& samples, R
   result.motion_rounding = scale > 0.0 ? rounding / scale : rounding;
 }
 
-double complementarity(const Scene& scene, const solvers::PeriodSamples& samples) {
-  const Eigen::ArrayXd force = samples.contact_force.array();
-  const Eigen::ArrayXd opening = scene.contact.gap - samples.displacement.array();
+double complementarity(const Scene& scene, const reproduce::ContactMotion& contacts) {
+  const Eigen::ArrayXXd force = contacts.force.array();
+  Eigen::ArrayXXd opening = -contacts.displacement.array();
+  for (int contact = 0; contact < contacts.contacts(); ++contact)
+    opening.row(contact) += scene.contact.gap_of(contact);
   const double largest = force.abs().maxCoeff();
-  double span = samples.displacement.cwiseAbs().maxCoeff();
+  double span = contacts.displacement.cwiseAbs().maxCoeff();
   double worst = 0.0;
   if (largest > 0.0)
     worst = std::max(
@@ -95,7 +109,7 @@ double complementarity(const Scene& scene, const solvers::PeriodSamples& samples
   // contact.
   Scene free = scene;
   free.contact = {};
-  if (const auto motion = solve(free).samples.displacement; motion.size() > 0)
+  if (const auto motion = solve(free).contacts.displacement; motion.size() > 0)
     span = std::max(span, motion.cwiseAbs().maxCoeff());
   worst = std::max(0.0, -force.minCoeff()) / (largest > 0.0 ? largest : 1.0);
   if (span > 0.0) worst = std::max(worst, -opening.minCoeff() / span);
@@ -111,7 +125,8 @@ bool is_slow(const Scene& scene) {
 }
 
 bool can_be_stepped(const Scene& scene, int stepped_elements) {
-  return !is_slow(scene) && scene.contact.law != ContactLawType::rigid && !scene.structure.massless_tip &&
+  return scene.structure.type == reproduce::StructureType::bar && !is_slow(scene) &&
+         scene.contact.law != ContactLawType::rigid && !scene.structure.massless_tip &&
          scene.structure.elements <= stepped_elements && scene.time.trial != "haar" &&
          scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
 }
@@ -211,8 +226,8 @@ reproduce::Response solve(Scene scene) {
 
 Residuals residuals(const Scene& scene, const reproduce::Response& response, int stepped_elements) {
   Residuals result;
-  measure_motion(scene, response.samples, result);
-  result.complementarity = complementarity(scene, response.samples);
+  measure_motion(scene, response, result);
+  result.complementarity = complementarity(scene, response.contacts);
   if (can_be_stepped(scene, stepped_elements)) result.periodicity = periodicity(scene, response.samples);
   return result;
 }
