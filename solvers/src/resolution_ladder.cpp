@@ -14,6 +14,10 @@ namespace wavebalance::solvers {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+// Problems with fewer points tell motions that a few harmonics hold from the others, which they do not
+// resolve.
+constexpr int screening_points = 32;
+constexpr double asymptotic = 0.03;  // errors above it do not yet fall with an order
 
 struct Size {
   int functions = 0;
@@ -81,7 +85,10 @@ class Ladder {
       result_.response = std::move(response);
     }
     rung.seconds = seconds_since(start);
-    failures_ = found ? 0 : failures_ + 1;
+    if (found)
+      failures_ = 0;
+    else if (rung.points >= screening_points)
+      ++failures_;
     if (found) solved_ = rung;
     result_.ladder.push_back(rung);
     const bool told_to_stop = options_.observer && !options_.observer(rung);
@@ -100,14 +107,28 @@ class Ladder {
     return u;
   }
 
+  PeriodicResponse from_afar(CondensedProblem& problem, LadderRung& rung) const {
+    ForcedResponseOptions solver = options_.solver;
+    solver.homotopy = solver.homotopy && rung.points >= screening_points;
+    PeriodicResponse response = forced_response(problem, laws_, solver);
+    rung.iterations += response.iterations;
+    return response;
+  }
+
+  /// Whether the rung before is a start for the next.
+  bool resolved() const {
+    return solved_ && (solved_->points >= screening_points || solved_->change < asymptotic);
+  }
+
   PeriodicResponse find(CondensedProblem& problem, LadderRung& rung) {
-    if (!solved_) {
-      PeriodicResponse response = forced_response(problem, laws_, options_.solver);
-      rung.iterations = response.iterations;
-      return response;
+    if (!resolved()) {
+      rung.restarted = solved_.has_value();
+      return from_afar(problem, rung);
     }
     const Eigen::VectorXd guess = prolonged(problem.points());
-    PeriodicResponse warm = forced_response(problem, laws_, options_.solver, guess);
+    ForcedResponseOptions nearby = options_.solver;
+    nearby.homotopy = false;
+    PeriodicResponse warm = forced_response(problem, laws_, nearby, guess);
     rung.iterations = warm.iterations;
     const auto moved = [&](const PeriodicResponse& response) {
       return response.converged() ? (response.displacement - guess).norm() / guess.norm()
@@ -115,8 +136,7 @@ class Ladder {
     };
     const double warm_change = moved(warm);
     if (!(warm_change > solved_->change) && warm.converged()) return warm;
-    PeriodicResponse cold = forced_response(problem, laws_, options_.solver);
-    rung.iterations += cold.iterations;
+    PeriodicResponse cold = from_afar(problem, rung);
     if (!(moved(cold) < warm_change)) return warm;
     rung.restarted = true;
     return cold;
@@ -141,15 +161,22 @@ class Ladder {
       if (functions > 1.0)
         rung.truncation = std::hypot(distance.beyond * remainder_over_distance(functions, function_order()),
                                      distance.within * remainder_over_distance(functions, point_order));
-      if (points > 1.0) {
-        const double of_points = functions > 1.0
-                                     ? std::min(distance.within, halved_quadrature(problem, response))
-                                     : distance.within;
-        rung.quadrature = of_points * remainder_over_distance(points, point_order);
-      }
+      if (points > 1.0)
+        rung.quadrature = share_of_points(distance.within, functions > 1.0, problem, response) *
+                          remainder_over_distance(points, point_order);
     }
     rung.quadrature += missed_contacts(problem, response, laws_);
     rung.estimated_error = std::hypot(rung.truncation, rung.quadrature);
+  }
+
+  /// What of the lower harmonics' distance the points explain. With contacts that few points see, distances
+  /// are small by chance, and the halved sums tell more.
+  static double share_of_points(double within, bool functions_grew, CondensedProblem& problem,
+                                const PeriodicResponse& response) {
+    const bool brief = has_brief_contact(response, problem.points());
+    if (!brief && !functions_grew) return within;
+    const double halved = halved_quadrature(problem, response);
+    return brief ? std::max(within, halved) : std::min(within, halved);
   }
 
   /// How the ladder ends with its last rung; nothing when it goes on, with the size of the next.
@@ -157,30 +184,45 @@ class Ladder {
     const LadderRung& rung = result_.ladder.back();
     constexpr int patience = 2;  // a small problem may have no solution although the motion exists
     if (failures_ == patience) return LadderStatus::not_converged;
-    if (rung.estimated_error <= options_.tolerance) return LadderStatus::converged;
+    if (rung.estimated_error <= wanted(rung)) return LadderStatus::converged;
     if (told_to_stop) return LadderStatus::cancelled;
     if (has_stagnated()) return LadderStatus::stagnated;
     const Size next = next_size();
     if (next.functions > options_.max_functions || next.points > options_.max_points)
-      return failures_ > 0 ? LadderStatus::not_converged : LadderStatus::size_limit;
+      return failed() ? LadderStatus::not_converged : LadderStatus::size_limit;
     size_ = next;
     return std::nullopt;
   }
 
+  /// The estimate that ends the ladder: two small problems may come near one another by chance.
+  double wanted(const LadderRung& rung) const {
+    constexpr double doubt = 1e-3;
+    return rung.points < screening_points ? doubt * options_.tolerance : options_.tolerance;
+  }
+
   Size next_size() const {
     const LadderRung& rung = result_.ladder.back();
-    constexpr double asymptotic = 0.03, point_order = 2.0;
+    constexpr double point_order = 2.0;
+    constexpr int few_points = 256;  // doubling them costs little
     int functions = 2, points = 2;
-    if (fourier() && rung.estimated_error < asymptotic) {
-      const double wanted = 0.5 * options_.tolerance;
-      functions = growth(rung.truncation / wanted, function_order());
-      points = growth(rung.quadrature / wanted, point_order);
+    if (rung.points < screening_points) {
+      points = result_.ladder.size() > 1 || failed() ? 4 : 2;
+    } else if (fourier() && rung.estimated_error < asymptotic) {
+      const double half = 0.5 * options_.tolerance;
+      functions = growth(rung.truncation / half, function_order());
+      points = growth(rung.quadrature / half, point_order);
+      functions = std::max(functions, points / 2);  // points so far from enough left truncation in doubt
     }
     Size next{odd_ ? functions * (size_.functions + 1) - 1 : functions * size_.functions,
               points * size_.points};
-    while (next.points < next.functions) next.points *= 2;
+    const int least = next.points < screening_points
+                          ? next.functions
+                          : std::min(2 * next.functions, std::max(next.functions, few_points));
+    while (next.points < least) next.points *= 2;
     return next;
   }
+
+  bool failed() const { return !(result_.ladder.back().residual <= options_.solver.newton.tolerance); }
 
   /// Distances near the residual that Newton stops at do not fall any more.
   bool has_stagnated() const {

@@ -22,6 +22,10 @@ RungDistance rung_distance(const CondensedProblem& coarse, const PeriodicRespons
 /// force at every other point doubled against the force at all. One product with K.
 double halved_quadrature(CondensedProblem& problem, const PeriodicResponse& response);
 
+/// Whether some contact lasts for fewer points than show its shape, so that its force may move by a point's
+/// share.
+bool has_brief_contact(const PeriodicResponse& response, int points);
+
 /// Displacement, relative rms, that contacts between the points may cause, which no point sees: at a maximum
 /// short of the gap the parabola through three samples exceeds it.
 double missed_contacts(CondensedProblem& problem, const PeriodicResponse& response, const ContactLaws& laws);

@@ -30,6 +30,20 @@ INSTANTIATE_TEST_SUITE_P(Motions, Tolerance, testing::ValuesIn(motions()),
                            return std::string(one.param.name);
                          });
 
+TEST(Tolerance, IsMetWhereOneOrTwoPointsOfTheFirstProblemsTouch) {
+  const Motion grazing{"grazing",
+                       "linear_stop.toml",
+                       {"structure.stiffness_damping=1.1725e-5", "forcing.frequency=389.954",
+                        "contact.gap=1.52607e-3", "contact.stiffness=6.11416e10"}};
+  const Eigen::VectorXd exact = reference(scene(grazing, WAVEBALANCE_SCENES, 1.0, 2048), 511);
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    const reproduce::Response response =
+        reproduce::weighted_residual_response(scene(grazing, WAVEBALANCE_SCENES, tolerance, 2048));
+    ASSERT_TRUE(response.converged) << response.status;
+    EXPECT_LE(reproduce::relative_rms_error(response.samples.displacement, exact), 3.0 * tolerance);
+  }
+}
+
 TEST(Tolerance, IsMetWithPairsOfTheUsersOwn) {
   Motion motion = motions().front();
   const Eigen::VectorXd exact = reference(scene(motion, WAVEBALANCE_SCENES, 1.0, 2048), 511);

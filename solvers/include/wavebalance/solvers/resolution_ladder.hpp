@@ -37,8 +37,8 @@ struct LadderRung {
 
 struct LadderOptions {
   double tolerance = 1e-4;  ///< on the relative rms error of the contact displacement
-  int first_functions = 15;
-  int first_points = 32;
+  int first_functions = 7;
+  int first_points = 8;
   int max_functions = 1 << 16;
   int max_points = 1 << 17;
   ForcedResponseOptions solver = {};
@@ -72,8 +72,12 @@ struct LadderResponse {
 /// parabola through three displacements exceeds the gap, are added. What dominates is refined next. It is an
 /// estimate, not a bound.
 ///
-/// Where several responses exist the ladder stays on one. A rung that lies farther from the one before than
-/// that did is solved anew from the contact-free response, and the nearer of the two is kept.
+/// Problems of fewer than 32 points tell smooth motions from the others: they end the ladder only where the
+/// estimate is below a thousandth of the tolerance, are solved without homotopy, and are no start for the
+/// next rung unless they lie near one another.
+///
+/// Where several responses exist the ladder stays on one. A later rung that lies farther from the one before
+/// than that did is solved anew from the contact-free response, and the nearer of the two is kept.
 ///
 /// Throws std::invalid_argument for options out of range and what `make_problem` throws. The cost is near
 /// that of the last rung: sizes grow geometrically, and Newton starts near the solution.
