@@ -1,83 +1,115 @@
 #include <benchmark/benchmark.h>
 
-#include <array>
+#include <Eigen/Eigenvalues>
 #include <vector>
 
 #include "wavebalance/contact/multipliers.hpp"
 #include "wavebalance/fem/bar.hpp"
+#include "wavebalance/fem/blade.hpp"
+#include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/solvers/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/nonlinear_mode.hpp"
 
-// The first nonlinear mode of the rod of [LL10, section 5.1] with a rigid obstacle, from contact to ten times
-// the grazing energy: 20 elements with half-lumped mass, N = 10 harmonics, m = 20 samples, full Fourier
-// series.
+// First nonlinear modes with a rigid obstacle, from contact to a largest energy, full Fourier series: the rod
+// of [LL10, section 5.1], 20 elements with half-lumped mass, and the open blade, reduced to 112 coordinates.
 namespace wavebalance::bench {
 namespace {
 
-constexpr int elements = 20;
-constexpr int harmonics = 10;
-constexpr int samples = 20;
-constexpr int points = 200;
-constexpr double largest_energy = 10.0;
+struct ModeCase {
+  solvers::ModalModel model;
+  int harmonics;
+  int points;                          // of the curve
+  double largest_energy;               // over that of grazing
+  double last_ratio;                   // omega over omega_1 a little beyond the largest energy
+  std::vector<double> dense_energies;  // at which the dense baseline is measured
+};
 
-solvers::ModalModel rod() {
+constexpr int samples = 20;
+
+ModeCase rod() {
+  constexpr int elements = 20;
   const fem::Matrices bar = fem::bar({.youngs_modulus = 2.1e11,
                                       .density = 7800.0,
                                       .area = 9e-4,
                                       .elements = elements,
                                       .lumped_fraction = 0.5});
   const fem::EigenmodesResult modes = fem::eigenmodes(bar.stiffness, bar.mass, elements);
-  return {modes.omega.cwiseAbs2(), modes.shapes.bottomRows(1), Eigen::VectorXd::Constant(1, 1e-3)};
+  return {{modes.omega.cwiseAbs2(), modes.shapes.bottomRows(1), Eigen::VectorXd::Constant(1, 1e-3)},
+          10,
+          200,
+          10.0,
+          1.2379,
+          {1.5, 3.0, 5.0, 9.5}};
 }
 
-solvers::NonlinearMode condensed_mode() { return {rod(), {.harmonics = harmonics, .samples = samples}}; }
-
-std::vector<solvers::ModePoint> curve(const solvers::NonlinearMode& mode) {
-  constexpr double last_ratio = 1.2379;  // omega over omega_1 a little beyond the largest energy
-  return solvers::backbone(mode,
-                           {.last_ratio = last_ratio, .points = points, .largest_energy = largest_energy});
+ModeCase blade() {
+  const fem::Blade blade = fem::blade();
+  const fem::Matrices matrices = fem::solid_matrices(blade.model);
+  const fem::CraigBampton reduced = fem::craig_bampton(matrices, blade.boundary_unknowns);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(reduced.stiffness, reduced.mass);
+  const auto contacts = static_cast<Eigen::Index>(blade.contact_unknowns.size());
+  Eigen::MatrixXd shapes(contacts, modes.eigenvalues().size());
+  for (Eigen::Index c = 0; c < contacts; ++c) shapes.row(c) = modes.eigenvectors().row(3 * c + 2);
+  return {
+      {modes.eigenvalues(), shapes, Eigen::VectorXd::Constant(contacts, 1e-3)}, 5, 108, 10.4, 1.26, {3.0}};
 }
 
-void mode_backbone(benchmark::State& state) {
-  const solvers::NonlinearMode mode = condensed_mode();
+solvers::NonlinearMode condensed_mode(const ModeCase& study) {
+  return {study.model, {.harmonics = study.harmonics, .samples = samples}};
+}
+
+std::vector<solvers::ModePoint> curve(const ModeCase& study, const solvers::NonlinearMode& mode) {
+  return solvers::backbone(
+      mode, {.last_ratio = study.last_ratio, .points = study.points, .largest_energy = study.largest_energy});
+}
+
+void mode_backbone(benchmark::State& state, ModeCase (*make)()) {
+  const ModeCase study = make();
+  const solvers::NonlinearMode mode = condensed_mode(study);
   std::vector<solvers::ModePoint> backbone;
-  for (auto _ : state) backbone = curve(mode);
+  for (auto _ : state) backbone = curve(study, mode);
   double accepted = 0.0;
   for (const solvers::ModePoint& point : backbone) accepted += point.accepted() ? 1.0 : 0.0;
-  if (backbone.back().energy_ratio < largest_energy)
+  if (backbone.back().energy_ratio < study.largest_energy)
     state.SkipWithError("the largest energy was not reached");
   state.counters["curve_points"] = double(backbone.size());
   state.counters["accepted"] = accepted;
 }
 
-// All r (2N + 1) = 420 unknowns in the augmented Lagrangian take long for the whole curve: four points of it,
-// each from the condensed point one energy step before, scaled to as many points as the curve above.
-void dense_mode_backbone(benchmark::State& state) {
-  const solvers::NonlinearMode condensed = condensed_mode();
-  const auto backbone = curve(condensed);
-  const solvers::LagrangianMode mode(rod(), {.harmonics = harmonics, .samples = samples});
-  constexpr std::array energies{1.5, 3.0, 5.0, 9.5};
-  constexpr double step = (largest_energy - 1.0) / points, penalty = 300.0;
+// All r (2N + 1) unknowns (rod 420, blade 1232) in the augmented Lagrangian take long for the whole curve: a
+// few points of it, each from the condensed point one energy step before, scaled to as many points as the
+// curve above.
+void dense_mode_backbone(benchmark::State& state, ModeCase (*make)()) {
+  const ModeCase study = make();
+  const solvers::NonlinearMode condensed = condensed_mode(study);
+  const auto backbone = curve(study, condensed);
+  const solvers::LagrangianMode mode(study.model, {.harmonics = study.harmonics, .samples = samples});
+  const double step = (study.largest_energy - 1.0) / study.points;
+  constexpr double penalty = 300.0;
+  const auto unknowns = static_cast<std::size_t>(study.model.contacts() * samples);
   double newton = 0.0;
   for (auto _ : state) {
     newton = 0.0;
-    for (const double energy : energies) {
+    for (const double energy : study.dense_energies) {
       state.PauseTiming();
       const solvers::ModePoint start = solvers::at_energy(condensed, backbone, energy - step);
-      contact::MultiplierUpdate outer(std::vector<double>(samples, penalty), {penalty});
+      contact::MultiplierUpdate outer(std::vector<double>(unknowns, penalty), {penalty});
       state.ResumeTiming();
       const auto point = mode.solve(energy, outer, {start.amplitudes, start.force});
       if (!point.accepted()) state.SkipWithError(to_string(point.status).c_str());
       newton += point.newton_iterations();
     }
   }
-  state.counters["newton_a_point"] = newton / double(energies.size());
-  state.counters["parts"] = double(backbone.size()) / double(energies.size());
+  const auto dense_points = double(study.dense_energies.size());
+  state.counters["newton_a_point"] = newton / dense_points;
+  state.counters["parts"] = double(backbone.size()) / dense_points;
 }
 
-BENCHMARK(mode_backbone)->Unit(benchmark::kMillisecond);
-BENCHMARK(dense_mode_backbone)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(mode_backbone, rod, rod)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(dense_mode_backbone, rod, rod)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(mode_backbone, blade, blade)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(dense_mode_backbone, blade, blade)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace wavebalance::bench

@@ -29,8 +29,8 @@ struct Asked {
 
 struct StudySizes {
   int largest_functions = 1 << 13;
-  int largest_points = 1 << 16;
-  double patience = 0.1;  ///< s: a pair's or a row's larger sizes are left out beyond it
+  int largest_points = 1 << 14;
+  double patience = 0.02;  ///< s: a pair's or a row's larger sizes are left out beyond it
 };
 
 /// One motion: the ladder and all fixed choices against one reference, timed in the same way.
