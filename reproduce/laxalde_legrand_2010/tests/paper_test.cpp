@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 
 #include "curves.hpp"
-#include "wavebalance/report/record.hpp"
-#include "wavebalance/reproduce/output.hpp"
+#include "programs.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
@@ -19,32 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Columns = std::vector<std::string>;
 
-class Ll10Paper : public testing::Test {
- protected:
-  Ll10Paper() {
-    std::string name = (fs::temp_directory_path() / "wavebalance_ll10_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~Ll10Paper() override { fs::remove_all(folder_); }
-
-  int run(const std::string& program) const {
-    const std::string command =
-        std::string(LL10_PROGRAMS) + "/ll10_" + program + " --output '" + folder_.string() + "'";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  Table read(const std::string& file) const { return reproduce::read_csv(folder_ / file); }
-  bool has(const std::string& file) const { return fs::is_regular_file(folder_ / file); }
-  /// The verdict on the statement that holds `words`.
-  bool verdict(const std::string& stem, const std::string& words) const {
-    const auto file = folder_ / "records" / (stem + ".json");
-    for (const auto& claim : report::parse_record(reproduce::read_file(file), file).claims)
-      if (claim.quote.find(words) != std::string::npos) return claim.holds;
-    throw std::runtime_error("no statement holds \"" + words + "\"");
-  }
-
-  fs::path folder_;
-};
+class Ll10Paper : public Programs {};
 
 TEST_F(Ll10Paper, BackboneHoldsThreeFormulationsAndTheExactOneIsTheClosedForm) {
   ASSERT_EQ(run("fig03"), 0);
