@@ -6,10 +6,10 @@
 /// hexahedra.
 inline wavebalance::fem::SolidModel strip() {
   namespace fem = wavebalance::fem;
-  const auto block = fem::structured_mesh(
-      fem::SolidElement::hexahedron8, {6, 1, 1}, [](const Eigen::Vector3d& at) -> Eigen::Vector3d {
-        return {0.2 * at[0], 0.02 * at[1], 0.004 * at[2]};
-      });
+  const auto block = fem::structured_mesh(fem::SolidElement::hexahedron8, {6, 1, 1},
+                                          [](const Eigen::Vector3d& at) -> Eigen::Vector3d {
+                                            return {0.2 * at[0], 0.02 * at[1], 0.004 * at[2]};
+                                          });
   const auto clamped = block.nodes_where([](const Eigen::Vector3d& at) { return at[0] == 0.0; });
   return fem::hold_nodes(block.mesh, {.youngs_modulus = 210e9, .poissons_ratio = 0.3, .density = 7800.0},
                          clamped);

@@ -20,9 +20,9 @@ class MatrixMarketError : public std::runtime_error {
 /// Reads `matrix coordinate real|integer general|symmetric` [BPR96]; indices count from 1, a symmetric file
 /// holds one triangle, on or below the diagonal. The result is compressed, with both triangles. Zeros are
 /// kept. O(nnz). Throws MatrixMarketError for: a file that cannot be opened, another header, sizes that are
-/// not whole numbers, above 10^8 or not square where they must be, an index out of range, an entry above the diagonal of
-/// a symmetric file, an entry given twice, a value that is no finite number, too few entries, text behind
-/// the last one.
+/// not whole numbers, above 10^8 or not square where they must be, an index out of range, an entry above the
+/// diagonal of a symmetric file, an entry given twice, a value that is no finite number, too few entries,
+/// text behind the last one.
 Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& file);
 /// The same from a stream; errors call it `name`.
 Eigen::SparseMatrix<double> read_matrix_market(std::istream& input, const std::string& name);

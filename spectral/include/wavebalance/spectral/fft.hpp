@@ -11,8 +11,8 @@ namespace wavebalance::spectral {
 ///     inverse:  u(l) = sum_{n=-N/2}^{N/2} c(n) exp(2 pi i n l/N),  c(-n) = conj c(n), n = +-N/2 counted once
 ///
 /// Neither is normalised: forward then inverse multiplies by N. For a period sampled at l/N, c(n)/N
-/// approximates the Fourier coefficient of harmonic n. O(N log N) for every N, primes included. Plans are made
-/// by the first transform each way, without timing, so that results are the same bit for bit every time.
+/// approximates the Fourier coefficient of harmonic n. O(N log N) for every N, primes included. Plans are
+/// made by the first transform each way, without timing, so that results are the same bit for bit every time.
 ///
 /// The object owns work buffers: one object must not be used from two threads at the same time (hence no
 /// const transforms), different objects may. Making and destroying objects is thread-safe. Movable, not
