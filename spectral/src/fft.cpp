@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <stdexcept>
@@ -43,64 +45,94 @@ void require_length(const char* call, const char* span, std::size_t found, int w
 
 fftw_complex* as_fftw(std::complex<double>* values) { return reinterpret_cast<fftw_complex*>(values); }
 
+// The plans of one size, each made by the first transform that needs it: planning takes longer than a
+// transform, and many objects transform in one direction only. Executing a plan changes nothing in it.
+class PlanPair {
+ public:
+  explicit PlanPair(int size) : size_(size) {}
+  ~PlanPair() {
+    const std::lock_guard lock(planner_mutex());
+    fftw_destroy_plan(forward_);
+    fftw_destroy_plan(inverse_);
+  }
+  PlanPair(const PlanPair&) = delete;
+  PlanPair& operator=(const PlanPair&) = delete;
+
+  // `real` and `complex` are not touched: plans made by estimate only look at their alignment.
+  fftw_plan forward(double* real, fftw_complex* complex) {
+    const std::lock_guard lock(planner_mutex());
+    if (forward_ == nullptr)
+      forward_ = fftw_plan_dft_r2c_1d(size_, real, complex, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+    return require(forward_);
+  }
+  fftw_plan inverse(double* real, fftw_complex* complex) {
+    const std::lock_guard lock(planner_mutex());
+    if (inverse_ == nullptr)
+      inverse_ = fftw_plan_dft_c2r_1d(size_, complex, real, FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+    return require(inverse_);
+  }
+
+ private:
+  fftw_plan require(fftw_plan plan) const {
+    if (plan != nullptr) return plan;
+    throw std::runtime_error("RealFft: FFTW has no plan for size " + std::to_string(size_));
+  }
+
+  int size_;
+  fftw_plan forward_ = nullptr;
+  fftw_plan inverse_ = nullptr;
+};
+
+// Plans outlive the objects that use them, up to this many points in all: resolutions are tried again and
+// again.
+std::shared_ptr<PlanPair> shared_plans(int size) {
+  constexpr std::size_t most_points = std::size_t{1} << 20;
+  static std::mutex mutex;
+  static std::map<int, std::shared_ptr<PlanPair>> kept;
+  static std::size_t points = 0;
+  const std::lock_guard lock(mutex);
+  const auto found = kept.find(size);
+  if (found != kept.end()) return found->second;
+  points += static_cast<std::size_t>(size);
+  if (points > most_points) {
+    kept.clear();
+    points = static_cast<std::size_t>(size);
+  }
+  return kept.emplace(size, std::make_shared<PlanPair>(size)).first->second;
+}
+
 }  // namespace
 
-// Planning takes longer than a transform, and many objects transform in one direction only: each plan is made
-// by the first transform that needs it.
 struct RealFft::Plan {
   explicit Plan(int points)
-      : size(points),
-        real(make_buffer<double>(points)),
-        complex(make_buffer<std::complex<double>>(points / 2 + 1)) {}
-  ~Plan();
-  Plan(const Plan&) = delete;
-  Plan& operator=(const Plan&) = delete;
+      : real(make_buffer<double>(points)),
+        complex(make_buffer<std::complex<double>>(points / 2 + 1)),
+        shared(shared_plans(points)) {}
 
-  // FFTW's vector code needs the alignment that the plan was made with.
+  // FFTW's vector code needs the alignment that the plan was made with, that of fftw_malloc.
   bool fits(const double* values) const {
     return fftw_alignment_of(const_cast<double*>(values)) == fftw_alignment_of(real.get());
   }
   bool fits(const std::complex<double>* values) const {
     return fits(reinterpret_cast<const double*>(values));
   }
-  fftw_plan forward();
-  fftw_plan inverse();
-
-  int size;
-  std::unique_ptr<double[], FreeBuffer> real;
-  std::unique_ptr<std::complex<double>[], FreeBuffer> complex;
-
- private:
-  fftw_plan require(fftw_plan plan) const {
-    if (plan != nullptr) return plan;
-    throw std::runtime_error("RealFft: FFTW has no plan for size " + std::to_string(size));
+  fftw_plan forward() {
+    if (forward_ == nullptr) forward_ = shared->forward(real.get(), as_fftw(complex.get()));
+    return forward_;
+  }
+  fftw_plan inverse() {
+    if (inverse_ == nullptr) inverse_ = shared->inverse(real.get(), as_fftw(complex.get()));
+    return inverse_;
   }
 
+  std::unique_ptr<double[], FreeBuffer> real;
+  std::unique_ptr<std::complex<double>[], FreeBuffer> complex;
+  std::shared_ptr<PlanPair> shared;
+
+ private:
   fftw_plan forward_ = nullptr;
   fftw_plan inverse_ = nullptr;
 };
-
-fftw_plan RealFft::Plan::forward() {
-  if (forward_ != nullptr) return forward_;
-  const std::lock_guard lock(planner_mutex());
-  forward_ =
-      fftw_plan_dft_r2c_1d(size, real.get(), as_fftw(complex.get()), FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-  return require(forward_);
-}
-
-fftw_plan RealFft::Plan::inverse() {
-  if (inverse_ != nullptr) return inverse_;
-  const std::lock_guard lock(planner_mutex());
-  inverse_ =
-      fftw_plan_dft_c2r_1d(size, as_fftw(complex.get()), real.get(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-  return require(inverse_);
-}
-
-RealFft::Plan::~Plan() {
-  const std::lock_guard lock(planner_mutex());
-  fftw_destroy_plan(forward_);
-  fftw_destroy_plan(inverse_);
-}
 
 RealFft::RealFft(int size) : size_(require_positive(size)), plan_(std::make_unique<Plan>(size)) {}
 RealFft::~RealFft() = default;

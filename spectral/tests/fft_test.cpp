@@ -147,6 +147,19 @@ TEST(RealFft, PlansInSeveralThreadsAtOnce) {
   EXPECT_EQ(matches, std::vector<int>(4, 50));
 }
 
+// Past 2^20 points the plans kept for later objects are given up; those in use stay.
+TEST(RealFft, KeepsItsPlansWhenManyOtherSizesAreUsed) {
+  const auto samples = random_samples(60);
+  const auto expected = forward(samples);
+  RealFft early(60);
+  std::vector<Complex> spectrum(31);
+  early.forward(samples, spectrum);
+  for (int size = 1 << 18; size < (1 << 18) + 6; ++size) RealFft other(size);
+  early.forward(samples, spectrum);
+  EXPECT_EQ(spectrum, expected);
+  EXPECT_EQ(forward(samples), expected);
+}
+
 std::string message_of(auto&& call) {
   try {
     call();
