@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
+#include "memo.hpp"
 #include "refinable.hpp"
 
 namespace wavebalance::wavelets {
@@ -44,6 +46,18 @@ Eigen::VectorXd correlation_values(const ScalingFunction& trial, const ScalingFu
   return detail::values_at_integers(mask, derivative);
 }
 
+// The families are known by the degree of a spline or by the length of a filter, taken negative.
+int family(const ScalingFunction& function) {
+  return function.spline_degree() ? *function.spline_degree() : -static_cast<int>(function.filter().size());
+}
+
+const Eigen::VectorXd& known_correlation_values(const ScalingFunction& trial, const ScalingFunction& weight,
+                                                int derivative) {
+  static detail::Memo<std::tuple<int, int, int>, Eigen::VectorXd> known;
+  return known.get({family(trial), family(weight), derivative},
+                   [&] { return correlation_values(trial, weight, derivative); });
+}
+
 std::string describe(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
   return "the inner product of " + weight.name() + " with derivative " + std::to_string(derivative) + " of " +
          trial.name() + " does not exist: Sobolev exponents " + std::to_string(weight.sobolev_exponent()) +
@@ -71,7 +85,7 @@ ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, con
   if (!connection_exists(trial, weight, derivative)) throw InadmissiblePairError(trial, weight, derivative);
   ConnectionCoefficients result;
   result.first = 1 - static_cast<int>(weight.filter().size());
-  result.values = correlation_values(trial, weight, derivative);
+  result.values = known_correlation_values(trial, weight, derivative);
   if (trial.coefficients().size() == 1 && weight.coefficients().size() == 1) return result;
   // \int B_w(x - l - a) B_t^(d)(x - b) dx = C^(d)(l + a - b): shifts by b - a.
   result.values = convolution(result.values, correlation(weight.coefficients(), trial.coefficients()));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "memo.hpp"
 #include "refinable.hpp"
 #include "wavebalance/wavelets/filter.hpp"
 
@@ -99,6 +100,14 @@ void multiply_by(std::vector<Complex>& polynomial, Complex constant, Complex lin
   polynomial[0] = polynomial[0] * constant;
 }
 
+// prod (1 - z w) over the roots with |z| < 1, in the delay w: the minimum-phase factor without zeros at pi.
+std::vector<Complex> minimum_phase_factor(int zeros) {
+  std::vector<Complex> product{{1, 0}};
+  for (const Complex& y : roots(daubechies_polynomial(zeros)))
+    multiply_by(product, {1, 0}, Complex{} - inner_root(y));
+  return product;
+}
+
 }  // namespace
 
 detail::ExtendedVector detail::extended_daubechies_filter(int coefficients, int removed) {
@@ -106,10 +115,8 @@ detail::ExtendedVector detail::extended_daubechies_filter(int coefficients, int 
     throw std::invalid_argument("daubechies_filter: coefficients = " + std::to_string(coefficients) +
                                 ", allowed: even numbers 2..40");
   const int zeros = coefficients / 2;
-  std::vector<Complex> product{{1, 0}};
-  // Minimum phase: in the delay w, 1 - z w with |z| < 1.
-  for (const Complex& y : roots(daubechies_polynomial(zeros)))
-    multiply_by(product, {1, 0}, Complex{} - inner_root(y));
+  static Memo<int, std::vector<Complex>> factors;
+  std::vector<Complex> product = factors.get(zeros, [&] { return minimum_phase_factor(zeros); });
   for (int k = 0; k < zeros - removed; ++k) multiply_by(product, {1, 0}, {1, 0});
   Extended sum = 0;
   for (const Complex& value : product) sum += value.re;

@@ -60,10 +60,13 @@ Eigen::VectorXd values_at_integers(const ExtendedVector& divided, int derivative
   return backward_differences(eigenvector_at_integers(divided), 1, derivative).cast<double>();
 }
 
-Eigen::VectorXd values_at_dyadics(const ExtendedVector& divided, int level, int derivative) {
-  const Eigen::VectorXd mask = divided.cast<double>();
-  Eigen::VectorXd table = eigenvector_at_integers(divided).cast<double>();
-  for (int j = 0; j < level; ++j) table = refine(table, mask, Eigen::Index{1} << j);
+Refinable refinable(const ExtendedVector& divided) {
+  return {divided.cast<double>(), eigenvector_at_integers(divided).cast<double>()};
+}
+
+Eigen::VectorXd values_at_dyadics(const Refinable& phi, int level, int derivative) {
+  Eigen::VectorXd table = phi.integers;
+  for (int j = 0; j < level; ++j) table = refine(table, phi.mask, Eigen::Index{1} << j);
   return backward_differences(table, Eigen::Index{1} << level, derivative);
 }
 

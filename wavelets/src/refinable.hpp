@@ -23,9 +23,15 @@ ExtendedVector extended_bspline_filter(int degree, int removed = 0);
 /// derivative must exist; cost O(L^3).
 Eigen::VectorXd values_at_integers(const ExtendedVector& divided, int derivative);
 
-/// The same at n 2^-level from the begin of the support, by the refinement equation of Phi_d and the
-/// differences. Returns (divided.size() + derivative - 1) 2^level + 1 values; cost O(L^3 + L^2 2^level).
-Eigen::VectorXd values_at_dyadics(const ExtendedVector& divided, int level, int derivative);
+/// Phi_d as its mask and its values at the integers, from which all others follow. Cost O(L^3).
+struct Refinable {
+  Eigen::VectorXd mask, integers;
+};
+Refinable refinable(const ExtendedVector& divided);
+
+/// Phi^(derivative) at n 2^-level from the begin of the support, by the refinement equation of Phi_d and the
+/// differences. Returns (mask.size() + derivative - 1) 2^level + 1 values; cost O(L^2 2^level).
+Eigen::VectorXd values_at_dyadics(const Refinable& phi, int level, int derivative);
 
 /// Throws std::invalid_argument "<name> = <value>, allowed: <lowest>..<highest>" unless value lies in that
 /// range.

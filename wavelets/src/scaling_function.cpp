@@ -4,7 +4,9 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
+#include "memo.hpp"
 #include "refinable.hpp"
 #include "wavebalance/wavelets/bspline.hpp"
 #include "wavebalance/wavelets/filter.hpp"
@@ -37,8 +39,11 @@ Eigen::VectorXd spline_table(int degree, int level, int derivative) {
   return table;
 }
 
-Eigen::VectorXd daubechies_table(const Eigen::VectorXd& filter, int level, int derivative) {
-  const auto divided = detail::extended_daubechies_filter(static_cast<int>(filter.size()), derivative);
+Eigen::VectorXd daubechies_table(int coefficients, int level, int derivative) {
+  static detail::Memo<std::pair<int, int>, detail::Refinable> known;
+  const detail::Refinable& divided = known.get({coefficients, derivative}, [&] {
+    return detail::refinable(detail::extended_daubechies_filter(coefficients, derivative));
+  });
   return detail::values_at_dyadics(divided, level, derivative);
 }
 
@@ -68,6 +73,11 @@ std::complex<double> refinement_product(const Eigen::VectorXd& filter, double cy
 
 ScalingFunction ScalingFunction::daubechies(int coefficients) {
   if (coefficients == 2) return haar();
+  static detail::Memo<int, ScalingFunction> made;
+  return made.get(coefficients, [&] { return make_daubechies(coefficients); });
+}
+
+ScalingFunction ScalingFunction::make_daubechies(int coefficients) {
   ScalingFunction result;
   result.filter_ = daubechies_filter(coefficients);
   result.name_ = "daubechies" + std::to_string(coefficients);
@@ -108,8 +118,9 @@ Eigen::VectorXd ScalingFunction::values(int level, int derivative) const {
   detail::require_in_range("ScalingFunction::values: level", level, 0, 24);
   detail::require_in_range(("ScalingFunction::values: derivative of " + name_).c_str(), derivative, 0,
                            pointwise_derivatives_);
-  const Eigen::VectorXd table = spline_degree_ ? spline_table(*spline_degree_, level, derivative)
-                                               : daubechies_table(filter_, level, derivative);
+  const Eigen::VectorXd table = spline_degree_
+                                    ? spline_table(*spline_degree_, level, derivative)
+                                    : daubechies_table(static_cast<int>(filter_.size()), level, derivative);
   if (coefficients_.size() == 1) return table;
   const Eigen::Index one = Eigen::Index{1} << level;
   Eigen::VectorXd result = Eigen::VectorXd::Zero((coefficients_.size() - 1) * one + table.size());

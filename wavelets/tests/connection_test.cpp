@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "wavebalance/wavelets/bspline.hpp"
@@ -206,6 +207,20 @@ TEST(PeriodicInnerProducts, OfOneConstantAreItsMeanSquare) {
       EXPECT_NEAR(periodic_inner_products(basis, basis, 2)[0], 0.0, 1e-13) << phi.name();
     }
   }
+}
+
+// What depends on the families alone is made once, by whichever thread comes first.
+TEST(PeriodicInnerProducts, AreTheSameFromEveryThread) {
+  std::vector<Eigen::VectorXd> columns(8);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    threads.emplace_back([&column = columns[i], length = i < 4 ? 14 : 22] {
+      const PeriodicBasis basis(ScalingFunction::daubechies(length), 6);
+      column = periodic_inner_products(basis, basis, 2) + basis.samples(64, 1);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < columns.size(); ++i) EXPECT_EQ(columns[i], columns[i < 4 ? 0 : 4]) << i;
+  EXPECT_NE(columns[0], columns[4]);
 }
 
 TEST(PeriodicInnerProducts, RejectDifferentNumbersOfFunctions) {

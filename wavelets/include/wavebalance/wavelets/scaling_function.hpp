@@ -13,7 +13,7 @@ namespace wavebalance::wavelets {
 class ScalingFunction {
  public:
   /// Daubechies function with `coefficients` = L filter coefficients (even, 2..40), support [0, L - 1]; L = 2
-  /// is haar(). Throws std::invalid_argument as daubechies_filter does.
+  /// is haar(). Made once a process and copied. Throws std::invalid_argument as daubechies_filter does.
   static ScalingFunction daubechies(int coefficients);
   /// 1 on [0, 1), left-closed [JL14, eq. (33)].
   static ScalingFunction haar();
@@ -62,6 +62,7 @@ class ScalingFunction {
 
  private:
   ScalingFunction() = default;
+  static ScalingFunction make_daubechies(int coefficients);
 
   std::string name_;
   Eigen::VectorXd filter_;
