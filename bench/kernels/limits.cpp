@@ -27,7 +27,10 @@ void set_work(benchmark::State& state, double flops, double bytes) {
 }
 
 void LimitReporter::ReportRuns(const std::vector<Run>& runs) {
-  ConsoleReporter::ReportRuns(runs);
+  std::vector<Run> shown;
+  for (const Run& run : runs)
+    if (runs.size() == 1 || run.aggregate_name == "median") shown.push_back(run);
+  ConsoleReporter::ReportRuns(shown);
   for (const Run& run : runs) {
     if (run.run_type != Run::RT_Iteration) continue;
     if (run.error_occurred) throw std::runtime_error(run.benchmark_name() + ": " + run.error_message);
