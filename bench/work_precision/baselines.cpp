@@ -58,6 +58,23 @@ Point dense_point(const Study& study, int functions, double patience) {
   return point;
 }
 
+// `solve(tolerance)` timed and compared, for each tolerance.
+template <class Solve>
+std::vector<Point> reference_points(const std::string& method, const Study& study,
+                                    const std::vector<double>& tolerances, const Solve& solve) {
+  std::vector<Point> points;
+  for (const double tolerance : tolerances) {
+    Point point = named(method, tolerance);
+    decltype(solve(tolerance)) result;
+    point.seconds = least_seconds([&] { result = solve(tolerance); }, {.patience = 0.2});
+    point.status = to_string(result.status);
+    point.converged = point.status == "converged";
+    point.error = error_of(study, result.samples.displacement);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double patience) {
@@ -72,43 +89,21 @@ std::vector<Point> dense_points(const Study& study, const std::vector<int>& func
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances) {
   const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
   const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
-  std::vector<Point> points;
-  for (const double tolerance : tolerances) {
-    Point point = named("time_stepping", tolerance);
-    solvers::TimeSteppingOptions options;
-    options.period_tolerance = tolerance;
-    options.step_tolerance = 1e-3 * tolerance;
-    solvers::TimeSteppingResult result;
-    const auto run = [&] {
-      result = solvers::integrate_to_periodic(structure, law, study.scene.forcing.frequency, options);
-    };
-    point.seconds = least_seconds(run, {.patience = 0.2});
-    point.converged = result.status == solvers::TimeSteppingStatus::converged;
-    point.status = to_string(result.status);
-    point.error = error_of(study, result.samples.displacement);
-    points.push_back(std::move(point));
-  }
-  return points;
+  return reference_points("time_stepping", study, tolerances, [&](double tolerance) {
+    const solvers::TimeSteppingOptions options{.period_tolerance = tolerance,
+                                               .step_tolerance = 1e-3 * tolerance};
+    return solvers::integrate_to_periodic(structure, law, study.scene.forcing.frequency, options);
+  });
 }
 
 std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances) {
   const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
   const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
-  std::vector<Point> points;
-  for (const double tolerance : tolerances) {
-    Point point = named("shooting", tolerance);
-    solvers::ShootingOptions options;
-    options.step_tolerance = tolerance;
-    options.tolerance = std::max(1e-11, 1e-2 * tolerance);
-    solvers::ShootingResult result;
-    const auto run = [&] { result = solvers::shoot(structure, law, study.scene.forcing.frequency, options); };
-    point.seconds = least_seconds(run, {.patience = 0.2});
-    point.converged = result.status == solvers::ShootingStatus::converged;
-    point.status = to_string(result.status);
-    point.error = error_of(study, result.samples.displacement);
-    points.push_back(std::move(point));
-  }
-  return points;
+  return reference_points("shooting", study, tolerances, [&](double tolerance) {
+    const solvers::ShootingOptions options{.tolerance = std::max(1e-11, 1e-2 * tolerance),
+                                           .step_tolerance = tolerance};
+    return solvers::shoot(structure, law, study.scene.forcing.frequency, options);
+  });
 }
 
 }  // namespace wavebalance::bench

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene_texts.hpp"
+#include "summary_value.hpp"
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/measures.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
@@ -15,14 +16,6 @@ using namespace wavebalance::reproduce;
 
 Scene scene_of(const std::vector<std::string>& overrides = {}) {
   return parse_scene(bar_scene, "case.toml", overrides);
-}
-
-template <class Type>
-Type value_of(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (key == name) return std::get<Type>(value);
-  ADD_FAILURE() << "no " << name;
-  return {};
 }
 
 TEST(MakeStructure, LoadAndContactAreAtTheTip) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scene_texts.hpp"
+#include "summary_value.hpp"
 #include "wavebalance/contact/exact_bar_mode.hpp"
 #include "wavebalance/reproduce/analysis.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
@@ -20,14 +21,6 @@ using wavebalance::solvers::ModeStatus;
 
 Scene rod(const std::vector<std::string>& overrides = {}) {
   return parse_scene(rod_scene, "rod.toml", overrides);
-}
-
-template <class Type>
-Type value_of(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (key == name) return std::get<Type>(value);
-  ADD_FAILURE() << "no " << name;
-  return {};
 }
 
 TEST(ModeStudy, LinearFrequencyIsThatOfThePaper) {

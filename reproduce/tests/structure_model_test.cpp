@@ -5,6 +5,7 @@
 #include "chain_files.hpp"
 #include "scene_texts.hpp"
 #include "strip.hpp"
+#include "summary_value.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
@@ -33,14 +34,6 @@ Scene as_matrices(const TemporaryFolder& folder, const Scene& bar, const std::st
   if (bar.analysis.type != AnalysisType::nonlinear_mode)
     result = with(result, "[forcing]\n", "[forcing]\nload_dofs = [" + tip + "]\n");
   return load_scene(folder.write("matrices.toml", result));
-}
-
-template <class Type>
-Type value_of(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (key == name) return std::get<Type>(value);
-  ADD_FAILURE() << "no " << name;
-  return {};
 }
 
 double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
