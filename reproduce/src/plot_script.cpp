@@ -139,7 +139,7 @@ std::string legend_text(const Panel& panel) {
     case Legend::right_of_panel:
       return "set key outside right top Left reverse" + style;
     case Legend::below_panel:
-      return "set key outside center bottom horizontal Left reverse" + style;
+      return "set key outside center bottom horizontal Left reverse height 1.2" + style;
     default:
       return "set key inside right top Left reverse" + style;
   }
