@@ -27,6 +27,23 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
     force_ *= factor_;
     tangent_ *= factor_;
   }
+  return evaluate_residual(displacement);
+}
+
+double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const Sides& presses) {
+  laws_.evaluate(problem_->contacts(), displacement, force_, tangent_);
+  for (int l = 0; l < displacement.size(); ++l) {
+    const double beyond = displacement[l] - gap_at(l);
+    if (presses[l] == (beyond > 0.0) && beyond != 0.0) continue;
+    tangent_[l] = presses[l] ? law_at(l).tangent(gap_at(l)) : 0.0;
+    force_[l] = tangent_[l] * beyond;
+  }
+  force_ *= factor_;
+  tangent_ *= factor_;
+  return evaluate_residual(displacement);
+}
+
+double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
   const Eigen::VectorXd& free = problem_->free_response();
   if (force_.isZero(0.0)) {
     product_.setZero(displacement.size());

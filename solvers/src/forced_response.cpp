@@ -18,6 +18,7 @@ ArcLengthOptions homotopy_options(ContactSystem& system) {
   options.largest_step = 0.25;
   options.smallest_step = 1e-5;
   options.largest_angle = 0.6;
+  options.corners = Corners::where_needed;
   return options;
 }
 

@@ -18,6 +18,8 @@ std::string to_string(SweepStatus status) {
       return "no_start";
     case SweepStatus::lost:
       return "lost";
+    case SweepStatus::unbounded:
+      return "unbounded";
     case SweepStatus::point_limit:
       return "point_limit";
     case SweepStatus::cancelled:
@@ -29,6 +31,23 @@ std::string to_string(SweepStatus status) {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A response with contact larger than this many gaps, and than this many times that without contact.
+constexpr double bound = 100.0;
+
+// Leaves out neighbours that are less than `least` apart in frequency, the nearest first: what remains are
+// the turns of the curve on that scale.
+void leave_out_small_returns(std::vector<TurningPoint>& turns, double least) {
+  const auto apart = [&](std::size_t i) { return std::abs(turns[i + 1].frequency - turns[i].frequency); };
+  while (turns.size() > 1) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i + 1 < turns.size(); ++i)
+      if (apart(i) < apart(nearest)) nearest = i;
+    if (apart(nearest) >= least) return;
+    const auto first = turns.begin() + static_cast<std::ptrdiff_t>(nearest);
+    turns.erase(first, first + 2);
+  }
+}
 
 class Sweep {
  public:
@@ -49,6 +68,9 @@ class Sweep {
     if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced)
       return result_;
     result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
+    const double interval = std::abs(options_.to - options_.from);
+    leave_out_small_returns(result_.turning_points,
+                            options_.smallest_return > 0.0 ? options_.smallest_return : 1e-3 * interval);
     return std::move(result_);
   }
 
@@ -75,8 +97,16 @@ class Sweep {
         return ahead >= 0.0 ? SweepStatus::reached_end : SweepStatus::returned;
       }
       if (!record(curve.point())) return SweepStatus::cancelled;
+      if (has_grown_past_bounds()) return SweepStatus::unbounded;
     }
     return SweepStatus::point_limit;
+  }
+
+  // With the contact-free response of the frequency last measured.
+  bool has_grown_past_bounds() {
+    largest_free_ = std::max(largest_free_, problem_.free_response().cwiseAbs().maxCoeff());
+    const double gap = system_.laws().largest_gap();
+    return gap > 0.0 && result_.points.back().max_abs_displacement > bound * std::max(gap, largest_free_);
   }
 
   void note_turning_point(ArcLength& curve) {
@@ -117,6 +147,7 @@ class Sweep {
   const FrequencySweepOptions& options_;
   TrialEvaluator evaluator_;
   FrequencySweep result_;
+  double largest_free_ = 0.0;
 };
 
 }  // namespace
@@ -129,6 +160,9 @@ FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& law
     throw std::invalid_argument("frequency_sweep: from " + std::to_string(options.from) + " Hz to " +
                                 std::to_string(options.to) +
                                 " Hz; both must be positive, finite and different");
+  if (!(options.smallest_return >= 0.0))
+    throw std::invalid_argument("frequency_sweep: smallest_return is " +
+                                std::to_string(options.smallest_return) + " Hz; it must not be negative");
   return Sweep(problem, laws, options).run();
 }
 

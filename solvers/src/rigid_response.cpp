@@ -84,6 +84,7 @@ class StiffeningPath {
     arc.largest_step = 0.5;
     arc.smallest_step = 1e-5;
     arc.largest_angle = 0.6;
+    arc.corners = Corners::where_needed;
     return arc;
   }
 

@@ -99,6 +99,27 @@ TEST_P(ContactSystemTest, BorderedSolveEqualsTheBorderedDenseMatrix) {
   }
 }
 
+TEST_P(ContactSystemTest, KeptOnTheirSidesSamplesPassTheGapSmoothly) {
+  const Eigen::VectorXd u = state(0.0);
+  system_.set_stiffness_factor(0.5);
+  const Sides sides = u.array() > law_.start;
+  ASSERT_TRUE(sides.any() && !sides.all());
+  system_.evaluate(u);
+  const Eigen::VectorXd residual = system_.residual(), tangent = system_.tangent();
+  system_.evaluate(u, sides);
+  EXPECT_EQ(system_.residual(), residual);
+  EXPECT_EQ(system_.tangent(), tangent);
+  // Beyond their gaps: those that pressed keep the law's slope there, the others stay free.
+  const Eigen::VectorXd across = (2.0 * law_.start - u.array()).matrix();
+  system_.evaluate(across, sides);
+  const double slope = 0.5 * law_.tangent(law_.start);
+  for (Eigen::Index l = 0; l < u.size(); ++l) {
+    EXPECT_EQ(system_.tangent()[l], sides[l] ? slope : 0.0);
+    EXPECT_NEAR(system_.force()[l], sides[l] ? slope * (across[l] - law_.start) : 0.0,
+                1e-15 * slope * std::abs(across[l]));
+  }
+}
+
 TEST_P(ContactSystemTest, ResidualIsThatOfTheExplicitCompliance) {
   const Eigen::VectorXd u = state(0.0);
   system_.set_stiffness_factor(0.5);

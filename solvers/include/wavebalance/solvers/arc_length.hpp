@@ -35,6 +35,13 @@ class StiffnessParameter final : public CurveParameter {
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };
 
+/// Which corners of the curve are solved for.
+enum class Corners {
+  where_needed,  ///< those over which no step is found
+  near_turns,    ///< also those near which the curve may turn in its parameter
+  every          ///< no turn can be missed; a few solves a corner
+};
+
 struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
@@ -44,6 +51,7 @@ struct ArcLengthOptions {
   double largest_angle = 0.35;  ///< rad, between the tangents of successive points
   int max_corrections = 8;
   double tolerance = 1e-10;  ///< on the relative residual
+  Corners corners = Corners::near_turns;
 };
 
 /// A point of a solution curve with its unit tangent in the scaled inner product
@@ -59,12 +67,13 @@ struct CurvePoint {
 };
 
 /// Pseudo-arc-length continuation of a piecewise smooth solution curve. A smooth fold is passed by the
-/// bordered Newton matrix. At a corner, where a sample reaches the gap and the law's slope jumps, steps along
-/// the tangent of the side behind may miss the curve however short they are: the corner is then solved for (R
-/// = 0 with that sample at the gap) and left along the tangent of the side ahead, on which every sample at
-/// its gap moves to the side whose stiffness it has. Orientation is by the sign of det [R_u R_p; tangent^T],
-/// which stays over folds and corners: a step that lands on a part of the curve that faces back is taken
-/// shorter.
+/// bordered Newton matrix. Long steps pass corners, where a sample reaches the gap and the law's slope jumps,
+/// unseen. Where they miss the curve or may hide a turn of it, the curve is followed piece by piece: with the
+/// samples kept on their sides of the gaps it is smooth, the first sample that would leave its side is held
+/// at its gap, and the corner is left on the side ahead, on which that sample goes on through. The sign of
+/// det [R_u R_p; tangent^T] stays over folds and over corners of one sample: a long step that lands on a part
+/// of the curve that faces back is refused. It changes only where curves cross, as those of a structure with
+/// symmetries do where samples reach their gaps together; those go on through together.
 class ArcLength {
  public:
   enum class Status { advanced, no_point };
@@ -84,20 +93,39 @@ class ArcLength {
   const CurvePoint& previous() const { return previous_; }
 
  private:
-  bool correct(const CurvePoint& from, double step, CurvePoint& to, int& corrections);
+  /// Of points (u, p) with row.u + corner p = offset.
+  struct Plane {
+    Eigen::VectorXd row;
+    double corner = 0.0;
+    double offset = 0.0;
+    double tolerance = 0.0;  // on miss()
+    double miss(const CurvePoint& point) const;
+  };
+
+  double evaluate(const CurvePoint& point, const Sides* sides);
+  bool solve_in(const Plane& plane, const Sides* sides, CurvePoint& point, int& corrections);
+  bool correct(const CurvePoint& from, double step, const Sides* sides, CurvePoint& to, int& corrections);
   bool tangent_at(CurvePoint& point, const CurvePoint& along);
-  bool same_sides(const CurvePoint& candidate) const;
-  bool continues(const CurvePoint& candidate, double step) const;
+  CurvePoint ahead(const CurvePoint& from, double step) const;
+  CurvePoint chord(const CurvePoint& to) const;
+  bool is_ahead(const CurvePoint& candidate) const;
   bool is_at_gap(const CurvePoint& point, int sample) const;
-  bool step_along();
-  bool turn_corner(double within);
+  bool hides_turn(const CurvePoint& candidate);
+  void accept(CurvePoint&& candidate, const Sides& sides);
+
+  bool step_far();
+  bool step_in_piece();
+  bool step_smoothly(double step, const Sides& sides, CurvePoint& candidate);
+  bool turn_corner(int sample, double distance, const Sides& sides);
   int crossing_ahead(double& distance) const;
-  int passed_before(int sample, const CurvePoint& corner, double& fraction) const;
-  bool solve_corner(int sample, double distance, CurvePoint& corner);
+  int passed(const CurvePoint& candidate, const Sides& sides, double& fraction) const;
+  Sides sides_of(const CurvePoint& point) const;
   std::vector<int> samples_at_gap(const CurvePoint& point) const;
+  bool arrives(int sample, const Sides& sides, CurvePoint corner);
+  bool tangent_through(int sample, bool inwards, CurvePoint& corner);
   bool corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
-                      bool through, CurvePoint& corner);
-  bool leave_corner(int sample, CurvePoint& corner);
+                      CurvePoint& corner);
+  bool leave_corner(int sample, const Sides& sides, CurvePoint& corner);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;
   Eigen::VectorXd scaled(const Eigen::VectorXd& tangent) const;
@@ -107,8 +135,9 @@ class ArcLength {
   ArcLengthOptions options_;
   CurvePoint point_, previous_;
   double step_ = 0.0;
-  double last_step_ = 0.0;
-  bool oriented_ = true;  // whether a step must keep the orientation
+  double last_step_ = 0.0;  // from previous_ to point_, along the tangent of previous_
+  Sides last_sides_;        // of the piece that both lie on; empty when it may be several
+  bool crossed_ = false;    // whether curves have crossed: the orientation then tells nothing on long steps
   Eigen::VectorXd slope_, change_;
 };
 

@@ -9,6 +9,9 @@ namespace wavebalance::solvers {
 
 class JacobianSolver;
 
+/// Of each sample, whether it presses.
+using Sides = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
 /// How systems with the Newton matrix J are solved.
 enum class LinearSolver {
   automatic,  ///< LU for few active samples, GMRES for many
@@ -39,6 +42,10 @@ class ContactSystem {
 
   /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
   double evaluate(const Eigen::VectorXd& displacement);
+  /// The same with every sample kept on one side of its gap, samples() values: one that presses feels its
+  /// law's tangent also below the gap, a free one no force beyond it. Equal to evaluate() where the sides are
+  /// those of `displacement`, and smooth across the gaps.
+  double evaluate(const Eigen::VectorXd& displacement, const Sides& presses);
 
   const Eigen::VectorXd& force() const { return force_; }        ///< s f_c(u), N
   const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
@@ -71,6 +78,8 @@ class ContactSystem {
   double condition();
 
  private:
+  double evaluate_residual(const Eigen::VectorXd& displacement);
+
   CondensedProblem* problem_;
   ContactLaws laws_;
   Eigen::VectorXd gaps_;

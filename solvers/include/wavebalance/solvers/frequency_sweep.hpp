@@ -13,6 +13,8 @@ enum class SweepStatus {
   returned,     ///< the curve left the interval at the end where it started
   no_start,     ///< no periodic response was found at the first frequency
   lost,         ///< no further point was found, neither along the tangent nor round a corner
+  unbounded,    ///< the response grew past all bounds, as it does at a resonance without damping: that of the
+                ///< Nyquist function which an even number of functions keeps
   point_limit,  ///< max_points used up
   cancelled     ///< the observer asked to stop
 };
@@ -29,7 +31,8 @@ struct SweepPoint {
   bool corner = false;                ///< the law's slope jumps here (a sample reaches the gap)
 };
 
-/// Where the curve turns in frequency: at a smooth fold or at a corner.
+/// Where the curve turns in frequency, at a smooth fold or at a corner. A sampled stop makes a corner of
+/// every sample that touches, and near folds the curve turns at many of them, to and fro.
 struct TurningPoint {
   double frequency = 0.0;             ///< Hz
   double max_displacement = 0.0;      ///< m, as in SweepPoint
@@ -42,6 +45,10 @@ struct FrequencySweepOptions {
   double to = 0.0;           ///< Hz, either side of `from`
   int output_points = 1024;  ///< of the period, for the maximum and the rms
   int max_points = 20000;
+  /// Hz; turning points between which the frequency goes back by less are left out. 0 stands for a thousandth
+  /// of the interval. Those that long steps pass unseen are small, too; Corners::every in arc_length passes
+  /// none.
+  double smallest_return = 0.0;
   /// Arc length: displacement_scale 0 stands for the largest gap, or without contact the rms response at
   /// `from`; parameter_scale 0 stands for a 20th of the interval.
   ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
