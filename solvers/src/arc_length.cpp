@@ -70,6 +70,7 @@ ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p
   previous_ = point_;
   last_step_ = 0.0;
   crossed_ = false;
+  pieces_left_ = watched_ = 0.0;
   return tangent_at(point_, along) ? Status::advanced : Status::no_point;
 }
 
@@ -155,36 +156,20 @@ void ArcLength::accept(CurvePoint&& candidate, const Sides& sides) {
 }
 
 ArcLength::Status ArcLength::advance() {
-  const bool far = !crossed_ && options_.corners != Corners::every;
-  return (far && step_far()) || step_in_piece() ? Status::advanced : Status::no_point;
+  const bool far = !crossed_ && pieces_left_ <= 0.0 && options_.corners != Corners::every;
+  if (far && step_far()) return Status::advanced;
+  if (!step_in_piece()) return Status::no_point;
+  const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
+  pieces_left_ = turned ? watched_ : pieces_left_ - last_step_;
+  return Status::advanced;
 }
 
-// Over corners where samples have changed sides, a part of the curve that turns and turns again may have been
-// cut off: where the slope at which the parameter grows is not large beside its jump at a corner.
-bool ArcLength::hides_turn(const CurvePoint& candidate) {
-  constexpr double steep = 0.5, share = 0.5;
+// A turn over corners, or the first or last touch, is followed piece by piece: there the curve turns at a
+// corner.
+bool ArcLength::turns_unseen(const CurvePoint& candidate) const {
   const Sides here = sides_of(point_), there = sides_of(candidate);
-  int nearest = -1;
-  double distance = std::numeric_limits<double>::infinity();
-  for (int l = 0; l < here.size(); ++l) {
-    if (here[l] == there[l]) continue;
-    const double away = std::abs(candidate.displacement[l] - system_.gap_at(l));
-    if (away < distance) {
-      distance = away;
-      nearest = l;
-    }
-  }
-  if (nearest < 0) return false;
-  if (!here.any() || !there.any()) return true;
-  const double a = point_.parameter_tangent, b = candidate.parameter_tangent;
-  const double least = std::min(std::abs(a), std::abs(b));
-  if (a * b <= 0.0) return true;
-  if (least > steep * options_.parameter_scale) return false;
-  CurvePoint other = candidate;
-  system_.set_tangent(nearest,
-                      here[nearest] ? system_.law_at(nearest).tangent(system_.gap_at(nearest)) : 0.0);
-  if (!tangent_at(other, point_)) return true;
-  return std::abs(other.parameter_tangent - b) > share * least;
+  if ((here == there).all()) return false;
+  return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || here.any() != there.any();
 }
 
 // A step of the whole system, shorter until it keeps to the curve or few corners are left on its way.
@@ -199,7 +184,10 @@ bool ArcLength::step_far() {
   for (; step_ >= options_.smallest_step; step_ *= 0.5) {
     const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
     if (found && candidate.orientation * point_.orientation >= 0) {
-      if (options_.corners != Corners::where_needed && hides_turn(candidate)) return false;
+      if (options_.corners != Corners::where_needed && turns_unseen(candidate)) {
+        pieces_left_ = watched_ = step_;
+        return false;
+      }
       accept(std::move(candidate), Sides());
       const double growth = corrections > comfortable_corrections                     ? 0.6
                             : corrections == comfortable_corrections || step_ < tried ? 1.1

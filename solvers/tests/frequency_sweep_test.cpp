@@ -104,7 +104,7 @@ struct StoppedOscillators {
   double stiffness = 10.0;
   int count = 1;
 
-  FrequencySweep sweep(TimePair pair, double from, double to, Corners corners = Corners::near_turns) const {
+  FrequencySweep sweep(TimePair pair, double from, double to, Corners corners = Corners::at_turns) const {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
     LinearStructure structure;
     structure.mass = structure.stiffness = identity.sparseView();

@@ -38,7 +38,7 @@ class StiffnessParameter final : public CurveParameter {
 /// Which corners of the curve are solved for.
 enum class Corners {
   where_needed,  ///< those over which no step is found
-  near_turns,    ///< also those near which the curve may turn in its parameter
+  at_turns,      ///< also those at which the parameter is seen to turn, and the first and last touch
   every          ///< no turn can be missed; a few solves a corner
 };
 
@@ -46,12 +46,12 @@ struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
   double initial_step = 0.02;
-  double smallest_step = 1e-3;  ///< below it the step is taken to end at a corner of the curve
+  double smallest_step = 1e-3;  ///< of long steps; within a piece of the curve 1e-4 of it
   double largest_step = 0.25;
   double largest_angle = 0.35;  ///< rad, between the tangents of successive points
-  int max_corrections = 8;
-  double tolerance = 1e-10;  ///< on the relative residual
-  Corners corners = Corners::near_turns;
+  int max_corrections = 8;      ///< of a point; half as many after a long step
+  double tolerance = 1e-10;     ///< on the relative residual
+  Corners corners = Corners::at_turns;
 };
 
 /// A point of a solution curve with its unit tangent in the scaled inner product
@@ -68,12 +68,13 @@ struct CurvePoint {
 
 /// Pseudo-arc-length continuation of a piecewise smooth solution curve. A smooth fold is passed by the
 /// bordered Newton matrix. Long steps pass corners, where a sample reaches the gap and the law's slope jumps,
-/// unseen. Where they miss the curve or may hide a turn of it, the curve is followed piece by piece: with the
-/// samples kept on their sides of the gaps it is smooth, the first sample that would leave its side is held
-/// at its gap, and the corner is left on the side ahead, on which that sample goes on through. The sign of
-/// det [R_u R_p; tangent^T] stays over folds and over corners of one sample: a long step that lands on a part
-/// of the curve that faces back is refused. It changes only where curves cross, as those of a structure with
-/// symmetries do where samples reach their gaps together; those go on through together.
+/// unseen. Where they miss the curve, and as far as a long step in which the curve turns, it is followed
+/// piece by piece: with the samples kept on their sides of the gaps it is smooth, the first sample that would
+/// leave its side is held at its gap, and the corner is left on the side ahead, on which that sample goes on
+/// through. The sign of det [R_u R_p; tangent^T] stays over folds and over corners of one sample: a long step
+/// that lands on a part of the curve that faces back is refused. It changes only where curves cross, as those
+/// of a structure with symmetries do where samples reach their gaps together: those samples go on through
+/// together, and the curve is followed piece by piece from there on.
 class ArcLength {
  public:
   enum class Status { advanced, no_point };
@@ -110,7 +111,7 @@ class ArcLength {
   CurvePoint chord(const CurvePoint& to) const;
   bool is_ahead(const CurvePoint& candidate) const;
   bool is_at_gap(const CurvePoint& point, int sample) const;
-  bool hides_turn(const CurvePoint& candidate);
+  bool turns_unseen(const CurvePoint& candidate) const;
   void accept(CurvePoint&& candidate, const Sides& sides);
 
   bool step_far();
@@ -135,9 +136,11 @@ class ArcLength {
   ArcLengthOptions options_;
   CurvePoint point_, previous_;
   double step_ = 0.0;
-  double last_step_ = 0.0;  // from previous_ to point_, along the tangent of previous_
-  Sides last_sides_;        // of the piece that both lie on; empty when it may be several
-  bool crossed_ = false;    // whether curves have crossed: the orientation then tells nothing on long steps
+  double last_step_ = 0.0;    // from previous_ to point_, along the tangent of previous_
+  Sides last_sides_;          // of the piece that both lie on; empty when it may be several
+  double watched_ = 0.0;      // the length of the long step that saw the last turn
+  double pieces_left_ = 0.0;  // arc length that is to be followed piece by piece
+  bool crossed_ = false;      // whether curves have crossed: the orientation then tells nothing on long steps
   Eigen::VectorXd slope_, change_;
 };
 
