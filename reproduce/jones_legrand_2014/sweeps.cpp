@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/nyquist_resonances.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
 
@@ -44,6 +45,26 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
 reproduce::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file) {
   return reproduce::frequency_sweep(
       artefact.scene(file, {"time.functions=63", "analysis.first_step=0.5", "analysis.largest_step=1.0"}));
+}
+
+std::string every_turn_text(report::Artefact& artefact, const std::string& file, const Pair& pair) {
+  const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
+  auto problem = reproduce::make_problem(scene, reproduce::make_model(scene));
+  solvers::FrequencySweepOptions options;
+  options.from = scene.analysis.frequency_from;
+  options.to = scene.analysis.frequency_to;
+  options.arc_length.corners = solvers::Corners::every;
+  options.smallest_return = 1e-9 * std::abs(options.to - options.from);
+  const auto curve = solvers::frequency_sweep(problem, reproduce::make_laws(scene), options);
+  std::vector<double> turns;
+  for (const auto& turn : curve.turning_points) turns.push_back(turn.frequency);
+  std::string text = pair.label + " " + std::to_string(turns.size());
+  if (!turns.empty()) {
+    const auto [low, high] = std::minmax_element(turns.begin(), turns.end());
+    text += " at " + report::number(*low, 7) + " to " + report::number(*high, 7) + " Hz";
+  }
+  const bool ended = curve.status == solvers::SweepStatus::reached_end;
+  return ended ? text : text + " (" + to_string(curve.status) + ")";
 }
 
 Series sweep_series(const std::string& label, const reproduce::Sweep& sweep) {

@@ -23,6 +23,9 @@ reproduce::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std
 /// which `full` does not have.
 void note_nyquist_resonances(report::Artefact& artefact, const std::string& file,
                              const reproduce::Sweep& full);
+/// Every turning point of the scene's curve with a pair, small returns too: "6 at 1315.034 to 1338.035 Hz",
+/// and where the curve ends early, how. Each corner is solved for.
+std::string every_turn_text(report::Artefact& artefact, const std::string& file, const Pair& pair);
 /// The curve of a sweep in mm over Hz.
 Series sweep_series(const std::string& label, const reproduce::Sweep& sweep);
 
