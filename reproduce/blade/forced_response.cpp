@@ -3,6 +3,7 @@
 
 #include "forced_blade.hpp"
 #include "wavebalance/report/artefact.hpp"
+#include "wavebalance/reproduce/analysis.hpp"
 #include "wavebalance/reproduce/measures.hpp"
 
 using namespace wavebalance;
@@ -24,6 +25,18 @@ constexpr Pair pairs[] = {
 
 using Responses = std::vector<blade::BladeResponse>;
 
+/// The responses of forced_response.toml.
+struct Study {
+  reproduce::Scene scene;
+  Responses linear;               ///< without contact
+  reproduce::Sweep traced;        ///< Fourier, by arc length
+  std::vector<Responses> curves;  ///< one a pair, upwards in steps
+  Responses down;                 ///< Fourier, downwards in steps
+
+  double gap() const { return scene.contact.gap; }
+  double frequency() const { return scene.forcing.frequency; }
+};
+
 /// Thinner from one pair to the next, so that all show where they agree.
 double width(std::size_t pair) { return 2.8 - 0.9 * static_cast<double>(pair); }
 
@@ -43,31 +56,46 @@ std::vector<double> frequencies(const Responses& responses) {
   return result;
 }
 
-void add_curves(reproduce::Figure& figure, const std::vector<Responses>& curves, const Responses& down,
-                const Responses& linear, double gap, double frequency) {
+reproduce::Series points_of(const std::string& label, const Responses& responses, double gap, Colour colour,
+                            int marker) {
+  reproduce::Series series(label, frequencies(responses),
+                           over_gap(blade::largest_displacements(responses), gap),
+                           reproduce::SeriesStyle::points);
+  series.colour = colour;
+  series.marker = marker;
+  return series;
+}
+
+void add_curves(reproduce::Figure& figure, const Study& study) {
   auto& panel = figure.add_panel("frequency response");
   panel.x.label = "Frequency (Hz)";
-  panel.x.lower = linear.front().frequency;
-  panel.x.upper = linear.back().frequency;
+  panel.x.lower = study.linear.front().frequency;
+  panel.x.upper = study.linear.back().frequency;
   panel.y.label = "Largest u_z at the tip over the gap";
   panel.y.lower = 0.0;
+  panel.y.upper = 6.0;
   panel.legend = reproduce::Legend::top_right;
-  reproduce::Series straight("without contact", frequencies(linear),
-                             over_gap(blade::largest_displacements(linear), gap));
+  reproduce::Series straight("without contact", frequencies(study.linear),
+                             over_gap(blade::largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
   straight.dash = reproduce::Dash::dashed;
   panel.add(straight);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    reproduce::Series series(pairs[i].label, frequencies(curves[i]),
-                             over_gap(blade::largest_displacements(curves[i]), gap));
-    series.colour = pairs[i].colour;
-    series.width = width(i);
-    panel.add(series);
+  const auto& points = study.traced.curve.points;
+  std::vector<double> x, y;
+  for (const auto& point : points) {
+    x.push_back(point.frequency);
+    y.push_back(point.max_displacement / study.gap());
   }
-  reproduce::Series back("Fourier, downwards", frequencies(down),
-                         over_gap(blade::largest_displacements(down), gap), reproduce::SeriesStyle::points);
-  back.colour = Colour::sky_blue;
-  panel.add(back).mark_y(1.0).mark_x(frequency);
+  reproduce::Series traced("Fourier, by arc length", x, y);
+  traced.colour = Colour::black;
+  traced.width = 1.2;
+  panel.add(traced);
+  for (std::size_t i = 0; i < study.curves.size(); ++i)
+    panel.add(points_of(pairs[i].label + std::string(", upwards"), study.curves[i], study.gap(),
+                        pairs[i].colour, static_cast<int>(i) + 1));
+  panel.add(points_of("Fourier, downwards", study.down, study.gap(), Colour::sky_blue, 4))
+      .mark_y(1.0)
+      .mark_x(study.frequency());
 }
 
 /// Contact force over time and chord, mean of the two faces.
@@ -134,21 +162,20 @@ std::size_t peak_of(const Responses& responses) {
   return best;
 }
 
-void claims(report::Artefact& artefact, const std::vector<Responses>& curves, const Responses& linear,
-            double gap, double frequency) {
-  const double free_peak = linear[peak_of(linear)].frequency;
-  const double free_height = linear[peak_of(linear)].displacement.maxCoeff() / gap;
+void claims(report::Artefact& artefact, const Study& study) {
+  const auto& curves = study.curves;
+  const double gap = study.gap(), frequency = study.frequency();
+  const auto& free = study.linear[peak_of(study.linear)];
+  const double free_height = free.displacement.maxCoeff() / gap;
   std::string peaks, differences;
   bool higher = true;
   double largest = 0.0;
-  int unsolved = 0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& peak = curves[i][peak_of(curves[i])];
     const double height = peak.displacement.maxCoeff() / gap;
-    higher = higher && peak.frequency > free_peak && height < free_height;
+    higher = higher && peak.frequency > free.frequency && height < free_height;
     peaks += (i == 0 ? "" : ", ") + std::string(pairs[i].label) + " " + report::number(peak.frequency, 4) +
              " Hz and " + report::number(height, 3);
-    for (const auto& response : curves[i]) unsolved += response.converged ? 0 : 1;
     if (i == 0) continue;
     const double difference = blade::rms_difference(blade::at(curves[i], frequency).displacement,
                                                     blade::at(curves[0], frequency).displacement);
@@ -156,9 +183,9 @@ void claims(report::Artefact& artefact, const std::vector<Responses>& curves, co
     differences += (i == 1 ? "" : ", ") + std::string(pairs[i].label) + " " + report::percent(difference, 2);
   }
   artefact.claim({"this project", "Contact at the tip stiffens the blade and limits its motion.",
-                  "in each pair the peak of the upward curve is at a higher frequency than without contact, "
+                  "in each pair the peak of the upward steps is at a higher frequency than without contact, "
                   "and lower",
-                  peaks + " gaps; without contact " + report::number(free_peak, 4) + " Hz and " +
+                  peaks + " gaps; without contact " + report::number(free.frequency, 4) + " Hz and " +
                       report::number(free_height, 3) + " gaps",
                   higher});
   artefact.claim(
@@ -166,8 +193,75 @@ void claims(report::Artefact& artefact, const std::vector<Responses>& curves, co
        "at " + report::number(frequency, 4) +
            " Hz the motions of all 24 contacts differ from those by Fourier by less than 5 % (rms)",
        differences, largest < 0.05});
-  artefact.note(std::to_string(unsolved) + " of " + std::to_string(curves.size() * curves[0].size()) +
-                " responses did not converge and are missing in the curves.");
+}
+
+void notes(report::Artefact& artefact, const Study& study) {
+  std::size_t unsolved = 0;
+  for (const auto& curve : study.curves)
+    for (const auto& response : curve) unsolved += response.converged ? 0 : 1;
+  artefact.note(std::to_string(unsolved) + " of " +
+                std::to_string(study.curves.size() * study.curves[0].size()) +
+                " stepped responses did not converge and are missing.");
+  std::string turns;
+  for (const auto& turn : study.traced.curve.turning_points)
+    turns += (turns.empty() ? "" : ", ") + report::number(turn.frequency, 5) + " Hz";
+  artefact.note("The curve by arc length (" + to_string(study.traced.curve.status) + ", " +
+                std::to_string(study.traced.curve.points.size()) + " points) turns at " +
+                (turns.empty() ? "no frequency" : turns) +
+                ". It takes an odd number of functions: an even one, as wavelets have, leaves its Nyquist "
+                "coefficient undamped, whose resonances no curve passes; steps do.");
+}
+
+Study solved(report::Artefact& artefact) {
+  const std::string file = "forced_response.toml";
+  Study study;
+  study.scene = artefact.scene(file);
+  const auto model = reproduce::make_model(study.scene);
+  // A gap of 1 m is never closed; without contact eight functions are as good as any.
+  study.linear = blade::stepped(
+      artefact.scene(file, {"contact.gap=1.0", "time.functions=8", "analysis.largest_step=1.0"}), model);
+  study.traced = reproduce::frequency_sweep(
+      artefact.scene(file, {"time.functions=31", "time.quadrature_points=64", "analysis.first_step=0.2",
+                            "analysis.largest_step=2.5", "analysis.output_points=256"}),
+      model);
+  for (const Pair& pair : pairs)
+    study.curves.push_back(blade::stepped(artefact.scene(file, of_pair(pair)), model));
+  study.down = blade::stepped(blade::reversed(study.scene), model);
+  return study;
+}
+
+void write_data(report::Artefact& artefact, const Study& study) {
+  reproduce::Table table;
+  table.add_column("frequency_Hz", frequencies(study.curves[0]));
+  for (std::size_t i = 0; i < study.curves.size(); ++i)
+    table.add_column(pairs[i].column, blade::largest_displacements(study.curves[i]));
+  auto falling = blade::largest_displacements(study.down);
+  std::reverse(falling.begin(), falling.end());
+  table.add_column("fourier_fourier_downwards", falling);
+  artefact.data(table, "Hz; largest radial displacement of a contact node in m; missing where not converged");
+  reproduce::Table free;
+  free.add_column("frequency_Hz", frequencies(study.linear))
+      .add_column("max_displacement_m", blade::largest_displacements(study.linear));
+  artefact.more_data("without_contact", free, "Hz; largest radial displacement of a contact node in m");
+  artefact.more_data("curve", reproduce::sweep_table(study.traced.curve),
+                     "Hz, m; Fourier by arc length, points in their order along the curve");
+  artefact.more_data("histories", histories(study.curves, study.frequency()),
+                     "one period at " + report::number(study.frequency(), 4) +
+                         " Hz: radial displacement in m and contact force in N at the first node of the "
+                         "leading and the last of the trailing edge");
+}
+
+reproduce::Figure drawn(const Study& study) {
+  reproduce::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 520;
+  figure.panel_height = 300;
+  add_curves(figure, study);
+  add_map(figure, blade::at(study.curves[0], study.frequency()));
+  for (const bool force : {false, true})
+    for (const bool leading : {true, false})
+      add_history(figure, study.curves, study.gap(), study.frequency(), force, leading);
+  return figure;
 }
 
 }  // namespace
@@ -176,51 +270,18 @@ int main(int argc, char** argv) {
   const report::Identity identity{"blade", "Blade: forced response",
                                   "near the first mode, in three pairs of bases", "forced_response"};
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto scene = artefact.scene("forced_response.toml");
-    const auto model = reproduce::make_model(scene);
-    const double gap = scene.contact.gap, frequency = scene.forcing.frequency;
-    // A gap of 1 m is never closed; without contact eight functions are as good as any.
-    const auto linear =
-        blade::stepped(artefact.scene("forced_response.toml",
-                                      {"contact.gap=1.0", "time.functions=8", "analysis.largest_step=1.0"}),
-                       model);
-    std::vector<Responses> curves;
-    for (const Pair& pair : pairs)
-      curves.push_back(blade::stepped(artefact.scene("forced_response.toml", of_pair(pair)), model));
-    const auto down = blade::stepped(blade::reversed(scene), model);
-    reproduce::Table table;
-    table.add_column("frequency_Hz", frequencies(curves[0]));
-    for (std::size_t i = 0; i < curves.size(); ++i)
-      table.add_column(pairs[i].column, blade::largest_displacements(curves[i]));
-    auto falling = blade::largest_displacements(down);
-    std::reverse(falling.begin(), falling.end());
-    table.add_column("fourier_fourier_downwards", falling);
-    artefact.data(table,
-                  "Hz; largest radial displacement of a contact node in m; missing where not converged");
-    reproduce::Table free;
-    free.add_column("frequency_Hz", frequencies(linear))
-        .add_column("max_displacement_m", blade::largest_displacements(linear));
-    artefact.more_data("without_contact", free, "Hz; largest radial displacement of a contact node in m");
-    artefact.more_data("histories", histories(curves, frequency),
-                       "one period at " + report::number(frequency, 4) +
-                           " Hz: radial displacement in m and contact force in N at the first node of the "
-                           "leading and the last of the trailing edge");
-    reproduce::Figure figure;
-    figure.columns = 2;
-    figure.panel_width = 520;
-    figure.panel_height = 300;
-    add_curves(figure, curves, down, linear, gap, frequency);
-    add_map(figure, blade::at(curves[0], frequency));
-    for (const bool force : {false, true})
-      for (const bool leading : {true, false}) add_history(figure, curves, gap, frequency, force, leading);
-    artefact.picture(figure);
+    const Study study = solved(artefact);
+    write_data(artefact, study);
+    artefact.picture(drawn(study));
     artefact.caption(
-        "Response of the open blade to a harmonic force at the tip, with " +
-        std::to_string(scene.time.functions) + " functions and " +
-        std::to_string(scene.time.quadrature_points) +
-        " points a period in each pair: what JL14 names as its next step. Frequencies go up, each "
-        "response from the one before, and down again; dotted lines mark the gap and the "
-        "frequency of the histories, whose colours are those of (a).");
-    claims(artefact, curves, linear, gap, frequency);
+        "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
+        "functions and 64 points, and each pair in steps of the frequency with " +
+        std::to_string(study.scene.time.functions) + " functions and " +
+        std::to_string(study.scene.time.quadrature_points) +
+        " points a period: what JL14 names as its next step. Steps go up, each response from the one before, "
+        "and down again; dotted lines mark the gap and the frequency of the histories, whose colours are "
+        "those of (a).");
+    claims(artefact, study);
+    notes(artefact, study);
   });
 }

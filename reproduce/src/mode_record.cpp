@@ -157,6 +157,43 @@ Record motion_record(const ModeStudy& study) {
   return record;
 }
 
+/// What all points of a branch of the printed equations say together.
+struct BranchMeasures {
+  double gradient = 0.0;  ///< largest that a Newton iteration ended with
+  double equation = 0.0;  ///< largest residual of the equation of motion of an accepted point
+  int iterations = 0;
+};
+
+BranchMeasures measured(const std::vector<solvers::LagrangianPoint>& branch) {
+  BranchMeasures measures;
+  for (const auto& point : branch) {
+    measures.iterations += point.newton_iterations();
+    if (!point.history.empty())
+      measures.gradient = std::max(measures.gradient, point.history.back().gradient);
+    if (point.accepted()) measures.equation = std::max(measures.equation, point.equation_residual);
+  }
+  return measures;
+}
+
+void append_published(Summary& summary, const ModeStudy& study,
+                      const std::vector<solvers::LagrangianPoint>& branch, double equation) {
+  const solvers::LagrangianPoint& last = branch.back();
+  append_discretisation(summary, study);
+  summary.emplace_back("formulation", name_of(study.scene().analysis.formulation));
+  summary.emplace_back("points", static_cast<std::int64_t>(branch.size()));
+  summary.emplace_back("equation_of_motion_residual", equation);
+  summary.emplace_back("energy_ratio", last.accepted() ? last.energy_ratio : missing);
+  summary.emplace_back("frequency_ratio",
+                       last.accepted() ? last.omega / study.mode().linear_omega() : missing);
+}
+
+void draw_branch(Record& record, const ModeStudy& study,
+                 const std::vector<solvers::LagrangianPoint>& branch) {
+  record.backbone = backbone_table(study, branch);
+  record.figure = backbone_figure(study.scene(), record.backbone);
+  record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + record.status + ")";
+}
+
 /// The curve of the printed equations, or its last motion.
 Record published_record(const ModeStudy& study) {
   const Scene& scene = study.scene();
@@ -167,37 +204,23 @@ Record published_record(const ModeStudy& study) {
   response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const solvers::LagrangianPoint& last = branch.back();
   response.samples = study.samples(last, scene.analysis.output_points, false);
-  double gradient = 0.0, equation = 0.0;
-  int iterations = 0;
-  for (const auto& point : branch) {
-    iterations += point.newton_iterations();
-    if (!point.history.empty()) gradient = std::max(gradient, point.history.back().gradient);
-    if (point.accepted()) equation = std::max(equation, point.equation_residual);
-  }
+  const BranchMeasures measures = measured(branch);
   Record record;
   record.converged = response.converged = last.accepted();
   record.status = last.accepted()
                       ? "converged"
                       : to_string(last.status) + " at energy ratio " + cell_text(last.prescribed_ratio);
-  record.summary =
-      opening(record.converged, record.status, gradient, iterations,
-              study.mode().model().modes() * (2 * scene.analysis.harmonics + 1), response.wall_seconds);
+  const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
+  record.summary = opening(record.converged, record.status, measures.gradient, measures.iterations, unknowns,
+                           response.wall_seconds);
   append_motion(record.summary, response.samples);
-  append_discretisation(record.summary, study);
-  record.summary.emplace_back("formulation", name_of(scene.analysis.formulation));
-  record.summary.emplace_back("points", static_cast<std::int64_t>(branch.size()));
-  record.summary.emplace_back("equation_of_motion_residual", equation);
-  record.summary.emplace_back("energy_ratio", last.accepted() ? last.energy_ratio : missing);
-  record.summary.emplace_back("frequency_ratio",
-                              last.accepted() ? last.omega / study.mode().linear_omega() : missing);
-  if (energy > 0.0 && last.accepted()) {
+  append_published(record.summary, study, branch, measures.equation);
+  if (energy == 0.0) {
+    draw_branch(record, study, branch);
+  } else if (last.accepted()) {
     record.response = response_table(response.samples);
     record.figure =
         motion_figure(scene, response, std::round(last.omega / (0.02 * std::numbers::pi)) / 100.0);
-  } else if (energy == 0.0) {
-    record.backbone = backbone_table(study, branch);
-    record.figure = backbone_figure(scene, record.backbone);
-    record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + record.status + ")";
   }
   return record;
 }
