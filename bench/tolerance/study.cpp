@@ -14,8 +14,14 @@ namespace wavebalance::bench {
 namespace {
 
 constexpr int output_points = 4096;
-constexpr int reference_functions = 2047;
+constexpr int reference_functions = (1 << 14) - 1;
 constexpr Repetition repetition{.budget = 0.003};
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 }  // namespace
 
@@ -23,81 +29,106 @@ ToleranceStudy::ToleranceStudy(const tolerance::Motion& motion, const std::strin
     : scene_(tolerance::scene(motion, folder, 1.0, output_points)),
       model_(reproduce::make_model(scene_)),
       sizes_(sizes),
+      law_(reproduce::make_law(scene_.contact)),
       exact_(tolerance::reference(scene_, std::min(reference_functions, sizes.largest_functions - 1))) {}
 
 double ToleranceStudy::error_of(const solvers::CondensedProblem& problem,
                                 const solvers::PeriodicResponse& response) const {
-  const auto motion =
-      reproduce::sample_response(problem, response, reproduce::make_law(scene_.contact), output_points);
+  const auto motion = reproduce::sample_response(problem, response, law_, output_points);
   return reproduce::relative_rms_error(motion.displacement.row(0), exact_);
 }
 
-bool ToleranceStudy::measure(FixedChoice& choice) const {
+ToleranceStudy::Solution ToleranceStudy::solve(const FixedChoice& choice) const {
   reproduce::Scene scene = scene_;
   scene.time = {.trial = choice.trial,
                 .weight = choice.weight,
                 .functions = choice.functions,
                 .quadrature_points = choice.points};
-  const auto law = reproduce::make_law(scene.contact);
-  const auto solve = [&] {
-    solvers::CondensedProblem problem = reproduce::make_problem(scene, model_);
-    // A choice that Newton alone does not solve is never the cheapest of its error.
-    auto response = solvers::forced_response(problem, law, {.homotopy = false});
-    return std::pair{std::move(problem), std::move(response)};
-  };
-  auto [problem, response] = solve();
-  if (!response.converged()) return false;
-  choice.error = error_of(problem, response);
-  choice.seconds = least_seconds(solve, repetition);
+  solvers::CondensedProblem problem = reproduce::make_problem(scene, model_);
+  // A choice that Newton alone does not solve is never the cheapest of its error.
+  solvers::ForcedResponseOptions options;
+  options.homotopy = false;
+  auto response = solvers::forced_response(problem, law_, options);
+  return {std::move(problem), std::move(response)};
+}
+
+bool ToleranceStudy::measure(FixedChoice& choice) const {
+  constexpr double hardly_swings = 0.01;  // s
+  const double start = processor_seconds();
+  const Solution found = solve(choice);
+  choice.seconds = processor_seconds() - start;
+  if (!found.response.converged()) return false;
+  choice.error = error_of(found.problem, found.response);
+  if (choice.seconds < hardly_swings)
+    choice.seconds = std::min(choice.seconds, least_seconds([&] { solve(choice); }, repetition));
   return true;
 }
 
 /// Points doubled for one number of functions; returns the seconds of the last.
-double ToleranceStudy::add_row(FixedChoice choice, std::vector<FixedChoice>& choices) const {
+double ToleranceStudy::add_row(FixedChoice choice, Search& search) const {
   constexpr double settled = 0.02;
   double before = std::numeric_limits<double>::infinity();
   for (; choice.points <= sizes_.largest_points; choice.points *= 2) {
     if (!measure(choice)) continue;
-    choices.push_back(choice);
-    if (choice.seconds > sizes_.patience || std::abs(before / choice.error - 1.0) < settled) break;
+    search.choices.push_back(choice);
+    if (choice.error <= search.goal) search.patience = std::min(search.patience, choice.seconds);
+    if (choice.seconds > search.patience || std::abs(before / choice.error - 1.0) < settled) break;
     before = choice.error;
   }
   return choice.seconds;
 }
 
-void ToleranceStudy::add_pair(const std::string& trial, const std::string& weight,
-                              std::vector<FixedChoice>& choices) const {
+void ToleranceStudy::add_pair(const std::string& trial, const std::string& weight, Search& search) const {
   const bool odd = trial == "fourier" && weight == "fourier";
   for (int size = 8; size <= sizes_.largest_functions; size *= 2)
-    if (add_row({trial, weight, odd ? size - 1 : size, size, 0.0, 0.0}, choices) > sizes_.patience) return;
+    if (add_row({trial, weight, odd ? size - 1 : size, size, 0.0, 0.0}, search) > search.patience) return;
 }
 
-std::vector<FixedChoice> ToleranceStudy::fixed_choices() const {
-  std::vector<FixedChoice> choices;
-  add_pair("fourier", "fourier", choices);
-  for (const char* basis : {"bspline", "daubechies6", "daubechies20"}) add_pair(basis, basis, choices);
-  add_pair("haar", "fourier", choices);
-  return choices;
+std::vector<FixedChoice> ToleranceStudy::fixed_choices(double goal) const {
+  Search search{.goal = goal, .patience = sizes_.patience};
+  add_pair("fourier", "fourier", search);
+  for (const char* basis : {"bspline", "daubechies6", "daubechies20"}) add_pair(basis, basis, search);
+  add_pair("haar", "fourier", search);
+  return search.choices;
 }
 
-Asked ToleranceStudy::ask(double tolerance) const {
-  const auto law = reproduce::make_law(scene_.contact);
+solvers::LadderResponse ToleranceStudy::climb(double tolerance) const {
   const auto make = [this](int functions, int points) {
     reproduce::Scene scene = scene_;
     scene.time = {
         .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
     return reproduce::make_problem(scene, model_);
   };
-  const auto climb = [&] { return solvers::response_to_tolerance(make, law, {.tolerance = tolerance}); };
-  auto found = climb();
+  solvers::LadderOptions options;
+  options.tolerance = tolerance;
+  return solvers::response_to_tolerance(make, law_, options);
+}
+
+Asked ToleranceStudy::ask(double tolerance) const {
+  const auto found = climb(tolerance);
   Asked asked{.tolerance = tolerance, .status = to_string(found.status)};
   asked.estimated_error = found.estimated_error;
   asked.error = error_of(*found.problem, found.response);
   asked.functions = found.ladder.back().functions;
   asked.points = found.ladder.back().points;
   asked.rungs = static_cast<int>(found.ladder.size());
-  asked.seconds = least_seconds(climb, repetition);
   return asked;
+}
+
+Beside ToleranceStudy::time_beside(const Asked& asked, const FixedChoice& choice) const {
+  constexpr double budget = 0.02;  // s
+  constexpr std::size_t least = 3;
+  std::vector<double> of_asked, of_fixed;
+  for (double total = 0.0; total < budget || of_asked.size() < least;
+       total += of_asked.back() + of_fixed.back()) {
+    const double start = processor_seconds();
+    climb(asked.tolerance);
+    const double middle = processor_seconds();
+    if (!choice.trial.empty()) solve(choice);
+    of_asked.push_back(middle - start);
+    of_fixed.push_back(processor_seconds() - middle);
+  }
+  return {median(of_asked), choice.trial.empty() ? std::nan("") : median(of_fixed)};
 }
 
 const FixedChoice* cheapest(const std::vector<FixedChoice>& choices, double error) {

@@ -5,12 +5,13 @@
 
 #include "tolerance_scenes.hpp"
 #include "wavebalance/reproduce/structure_model.hpp"
+#include "wavebalance/solvers/resolution_ladder.hpp"
 
 namespace wavebalance::bench {
 
 /// A choice of pair, functions and points that a user could have made.
 struct FixedChoice {
-  std::string trial, weight;
+  std::string trial = {}, weight = {};
   int functions = 0;
   int points = 0;
   double error = 0.0;    ///< relative rms of the contact displacement
@@ -24,13 +25,18 @@ struct Asked {
   double estimated_error = 0.0;
   double error = 0.0;  ///< relative rms of the contact displacement
   int functions = 0, points = 0, rungs = 0;
-  double seconds = 0.0;  ///< processor seconds of the whole ladder
+};
+
+/// Medians of the processor seconds of calls in turn.
+struct Beside {
+  double asked = 0.0;  ///< the whole ladder
+  double fixed = 0.0;  ///< composition and solution of one choice
 };
 
 struct StudySizes {
-  int largest_functions = 1 << 13;
-  int largest_points = 1 << 14;
-  double patience = 0.02;  ///< s: a pair's or a row's larger sizes are left out beyond it
+  int largest_functions = 1 << 16;
+  int largest_points = 1 << 18;
+  double patience = 1.0;  ///< s: a pair's or a row's larger sizes are left out beyond it
 };
 
 /// One motion: the ladder and all fixed choices against one reference, timed in the same way.
@@ -39,21 +45,35 @@ class ToleranceStudy {
   /// `folder` holds the scene files.
   ToleranceStudy(const tolerance::Motion& motion, const std::string& folder, StudySizes sizes);
 
-  /// Every converged choice of five pairs, functions doubled from 7 or 8 on, points doubled from there until
-  /// the error does not depend on them any more.
-  std::vector<FixedChoice> fixed_choices() const;
   Asked ask(double tolerance) const;
+  /// Converged choices of five pairs, functions doubled from 7 or 8 on, points doubled from there until the
+  /// error does not depend on them any more. Left out are sizes that take longer than a choice found before
+  /// whose error is `goal` or less.
+  std::vector<FixedChoice> fixed_choices(double goal) const;
+  Beside time_beside(const Asked& asked, const FixedChoice& choice) const;
 
  private:
-  void add_pair(const std::string& trial, const std::string& weight, std::vector<FixedChoice>& choices) const;
-  double add_row(FixedChoice choice, std::vector<FixedChoice>& choices) const;
+  struct Solution {
+    solvers::CondensedProblem problem;
+    solvers::PeriodicResponse response;
+  };
+  struct Search {
+    double goal = 0.0;
+    double patience = 0.0;  // s
+    std::vector<FixedChoice> choices = {};
+  };
+  void add_pair(const std::string& trial, const std::string& weight, Search& search) const;
+  double add_row(FixedChoice choice, Search& search) const;
   bool measure(FixedChoice& choice) const;
+  Solution solve(const FixedChoice& choice) const;
+  solvers::LadderResponse climb(double tolerance) const;
 
   double error_of(const solvers::CondensedProblem& problem, const solvers::PeriodicResponse& response) const;
 
   reproduce::Scene scene_;
   reproduce::StructureModel model_;
   StudySizes sizes_;
+  solvers::AnyContactLaw law_;
   Eigen::VectorXd exact_;
 };
 

@@ -17,6 +17,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Problems with fewer points tell motions that a few harmonics hold from the others, which they do not
 // resolve.
 constexpr int screening_points = 32;
+constexpr double point_order = 1.5;  // below that of sums over forces with kinks
 constexpr double asymptotic = 0.03;  // errors above it do not yet fall with an order
 
 struct Size {
@@ -87,7 +88,7 @@ class Ladder {
     rung.seconds = seconds_since(start);
     if (found)
       failures_ = 0;
-    else if (rung.points >= screening_points)
+    else if (rung.points >= screening_points && !may_step_back())
       ++failures_;
     if (found) solved_ = rung;
     result_.ladder.push_back(rung);
@@ -107,9 +108,25 @@ class Ladder {
     return u;
   }
 
-  PeriodicResponse from_afar(CondensedProblem& problem, LadderRung& rung) const {
+  /// `smooth`, the last response's displacement, straight between its samples where one of them touches:
+  /// there a stiff law holds the samples, but not the harmonics between them.
+  Eigen::VectorXd straight_in_contact(const Eigen::VectorXd& smooth, int points) const {
+    const Eigen::VectorXd& coarse = result_.response.displacement;
+    const Eigen::VectorXd& force = result_.response.contact_force;
+    const int before = result_.problem->points(), ratio = points / before;
+    Eigen::VectorXd u = smooth;
+    for (Eigen::Index here = 0; here < coarse.size(); ++here) {
+      const Eigen::Index next = (here + 1) % before == 0 ? here + 1 - before : here + 1;
+      if (force[here] == 0.0 && force[next] == 0.0) continue;
+      for (int m = 0; m < ratio; ++m)
+        u[here * ratio + m] = coarse[here] + (coarse[next] - coarse[here]) * m / ratio;
+    }
+    return u;
+  }
+
+  PeriodicResponse from_afar(CondensedProblem& problem, LadderRung& rung, bool homotopy) const {
     ForcedResponseOptions solver = options_.solver;
-    solver.homotopy = solver.homotopy && rung.points >= screening_points;
+    solver.homotopy = homotopy && solver.homotopy && rung.points >= screening_points;
     PeriodicResponse response = forced_response(problem, laws_, solver);
     rung.iterations += response.iterations;
     return response;
@@ -120,23 +137,45 @@ class Ladder {
     return solved_ && (solved_->points >= screening_points || solved_->change < asymptotic);
   }
 
+  /// Whether sizes between the rung before and this one have not been tried.
+  bool may_step_back() const {
+    return failures_ == 0 && resolved() &&
+           (size_.points > 2 * solved_->points || size_.functions > 2 * solved_->functions + 1);
+  }
+
+  /// Newton from the last response; where it stalls, from its other prolongation.
+  PeriodicResponse from_nearby(CondensedProblem& problem, const Eigen::VectorXd& smooth,
+                               LadderRung& rung) const {
+    constexpr double much_better = 0.1;
+    const Eigen::VectorXd straight = straight_in_contact(smooth, problem.points());
+    ContactSystem system(problem, laws_);
+    const bool trust = system.evaluate(smooth) <= much_better * system.evaluate(straight);
+    ForcedResponseOptions solver = options_.solver;
+    solver.homotopy = false;
+    PeriodicResponse response = forced_response(problem, laws_, solver, trust ? smooth : straight);
+    rung.iterations = response.iterations;
+    if (response.converged()) return response;
+    PeriodicResponse other = forced_response(problem, laws_, solver, trust ? straight : smooth);
+    rung.iterations += other.iterations;
+    return other;
+  }
+
   PeriodicResponse find(CondensedProblem& problem, LadderRung& rung) {
-    if (!resolved()) {
+    const bool touched = solved_ && !result_.response.contact_force.isZero(0.0);
+    if (!resolved() || !touched) {
       rung.restarted = solved_.has_value();
-      return from_afar(problem, rung);
+      return from_afar(problem, rung, true);
     }
-    const Eigen::VectorXd guess = prolonged(problem.points());
-    ForcedResponseOptions nearby = options_.solver;
-    nearby.homotopy = false;
-    PeriodicResponse warm = forced_response(problem, laws_, nearby, guess);
-    rung.iterations = warm.iterations;
+    const Eigen::VectorXd before = prolonged(problem.points());
+    PeriodicResponse warm = from_nearby(problem, before, rung);
     const auto moved = [&](const PeriodicResponse& response) {
-      return response.converged() ? (response.displacement - guess).norm() / guess.norm()
+      return response.converged() ? (response.displacement - before).norm() / before.norm()
                                   : std::numeric_limits<double>::infinity();
     };
     const double warm_change = moved(warm);
-    if (!(warm_change > solved_->change) && warm.converged()) return warm;
-    PeriodicResponse cold = from_afar(problem, rung);
+    // Responses so near one another are one.
+    if (warm_change <= std::max(solved_->change, asymptotic)) return warm;
+    PeriodicResponse cold = from_afar(problem, rung, !warm.converged() && !may_step_back());
     if (!(moved(cold) < warm_change)) return warm;
     rung.restarted = true;
     return cold;
@@ -148,34 +187,49 @@ class Ladder {
     rung.change = distance.whole();
     const double functions = double(rung.functions) / before.functions;
     const double points = double(rung.points) / before.points;
-    constexpr double point_order = 1.5;
     rung.truncation = before.truncation;
-    rung.quadrature = before.quadrature;
     if (!fourier()) {
-      rung.quadrature = 0.0;
+      sums_ = 0.0;
       rung.truncation =
           distance.whole() * remainder_over_distance(functions, std::min(function_order(), point_order));
     } else {
       // Lower harmonics follow the truncated ones slowly where contact is stiff: what they moved by when both
       // sizes grew may be either's share.
       if (functions > 1.0)
-        rung.truncation = std::hypot(distance.beyond * remainder_over_distance(functions, function_order()),
-                                     distance.within * remainder_over_distance(functions, point_order));
+        rung.truncation =
+            std::hypot(distance.beyond * remainder_over_distance(functions, observed_order(rung, response)),
+                       distance.within * remainder_over_distance(functions, point_order));
+      constexpr double fading = 2.0 / 3.0;
       if (points > 1.0)
-        rung.quadrature = share_of_points(distance.within, functions > 1.0, problem, response) *
-                          remainder_over_distance(points, point_order);
+        sums_ = std::max(share_of_points(distance.within * remainder_over_distance(points, point_order),
+                                         functions > 1.0, problem, response),
+                         has_kinks(response) ? fading * sums_ / (points * points) : 0.0);
     }
-    rung.quadrature += missed_contacts(problem, response, laws_);
+    rung.quadrature = sums_ + missed_contacts(problem, response, laws_);
     rung.estimated_error = std::hypot(rung.truncation, rung.quadrature);
   }
 
-  /// What of the lower harmonics' distance the points explain. With contacts that few points see, distances
-  /// are small by chance, and the halved sums tell more.
+  /// Contact for a part of the period. Sums then err by the square of the width of a point times a factor of
+  /// either sign, that of the instants between the points: two in a row may agree by chance.
+  static bool has_kinks(const PeriodicResponse& response) {
+    const auto touching = (response.contact_force.array() != 0.0).count();
+    return touching > 0 && touching < response.contact_force.size();
+  }
+
+  /// Of the functions: where a contact is shorter than the highest harmonic, these hardly fall yet.
+  double observed_order(const LadderRung& rung, const PeriodicResponse& response) const {
+    constexpr double least = 0.5;
+    const double observed = decay_order(response, rung.functions);
+    return std::isnan(observed) ? function_order() : std::clamp(observed, least, function_order());
+  }
+
+  /// What the points explain of the lower harmonics' distance, an error of `within`. With contacts that few
+  /// points see, distances are small by chance, and the halved sums tell more.
   static double share_of_points(double within, bool functions_grew, CondensedProblem& problem,
                                 const PeriodicResponse& response) {
     const bool brief = has_brief_contact(response, problem.points());
     if (!brief && !functions_grew) return within;
-    const double halved = halved_quadrature(problem, response);
+    const double halved = halved_quadrature(problem, response) * remainder_over_distance(2.0, point_order);
     return brief ? std::max(within, halved) : std::min(within, halved);
   }
 
@@ -200,21 +254,25 @@ class Ladder {
     return rung.points < screening_points ? doubt * options_.tolerance : options_.tolerance;
   }
 
+  int grown(int functions, int factor) const {
+    return odd_ ? factor * (functions + 1) - 1 : factor * functions;
+  }
+
   Size next_size() const {
     const LadderRung& rung = result_.ladder.back();
-    constexpr double point_order = 2.0;
+    constexpr double observed_point_order = 2.0;
     constexpr int few_points = 256;  // doubling them costs little
+    if (failed() && may_step_back()) return {grown(solved_->functions, 2), 2 * solved_->points};
     int functions = 2, points = 2;
     if (rung.points < screening_points) {
       points = result_.ladder.size() > 1 || failed() ? 4 : 2;
     } else if (fourier() && rung.estimated_error < asymptotic) {
       const double half = 0.5 * options_.tolerance;
       functions = growth(rung.truncation / half, function_order());
-      points = growth(rung.quadrature / half, point_order);
+      points = growth(rung.quadrature / half, observed_point_order);
       functions = std::max(functions, points / 2);  // points so far from enough left truncation in doubt
     }
-    Size next{odd_ ? functions * (size_.functions + 1) - 1 : functions * size_.functions,
-              points * size_.points};
+    Size next{grown(size_.functions, functions), points * size_.points};
     const int least = next.points < screening_points
                           ? next.functions
                           : std::min(2 * next.functions, std::max(next.functions, few_points));
@@ -229,8 +287,10 @@ class Ladder {
     const auto& ladder = result_.ladder;
     constexpr double above_residual = 100.0;
     const double floor = above_residual * options_.solver.newton.tolerance;
-    if (ladder.size() < 3 || ladder.back().change > floor) return false;
-    return ladder.back().change > 0.5 * ladder[ladder.size() - 2].change;
+    const LadderRung& last = ladder.back();
+    // Contact between the points may be what an estimate far above the distance comes from.
+    if (ladder.size() < 3 || last.change > floor || last.estimated_error > 10.0 * floor) return false;
+    return last.change > 0.5 * ladder[ladder.size() - 2].change;
   }
 
   const ProblemFactory& make_problem_;
@@ -240,6 +300,7 @@ class Ladder {
   bool odd_;
   LadderResponse result_;
   std::optional<LadderRung> solved_;  // the last with a response, which is that of result_
+  double sums_ = 0.0;                 // estimated error of its sums over the points
   int failures_ = 0;                  // rungs without one since
 };
 

@@ -61,20 +61,39 @@ bool has_brief_contact(const PeriodicResponse& response, int points) {
 
 namespace {
 
-/// Sum of the forces, N, at the maxima beyond the gap that parabolas through the samples of one contact
-/// reach, with twice what a parabola misses of a smooth maximum half-way, 3/128 of the fourth difference.
-double missed_force(const Eigen::VectorXd& u, const AnyContactLaw& law) {
+bool touches_often(const Eigen::VectorXd& u, Eigen::Index l, double gap) {
+  const auto beyond = [&](Eigen::Index m) { return u[(m + u.size()) % u.size()] > gap; };
+  return u[l] > gap &&
+         ((beyond(l - 1) && (beyond(l - 2) || beyond(l + 1))) || (beyond(l + 1) && beyond(l + 2)));
+}
+
+/// Sum of what the forces, N, at the maxima beyond the gap that parabolas through the samples of one contact
+/// reach exceed those at the samples, with twice what a parabola misses of a smooth maximum half-way, 3/128
+/// of the fourth difference. A force yields to itself by `compliance`, m/N, of a point. Maxima in contacts of
+/// more than two points are left to the order of the sums.
+double missed_force(const Eigen::VectorXd& u, const AnyContactLaw& law, double compliance) {
   const Eigen::Index points = u.size();
   const auto at = [&](Eigen::Index l) { return u[(l + points) % points]; };
   double force = 0.0;
   for (Eigen::Index l = 0; l < points; ++l) {
     const double before = at(l - 1), after = at(l + 1);
-    if (u[l] >= law.gap() || u[l] < before || u[l] < after) continue;
+    if (u[l] < before || u[l] < after || touches_often(u, l, law.gap())) continue;
     const double bend = before - 2.0 * u[l] + after, rise = after - before;
+    if (!(bend < 0.0)) continue;
     const double fourth = at(l - 2) + at(l + 2) - 4.0 * (before + after) + 6.0 * u[l];
-    if (bend < 0.0) force += law.force(u[l] - rise * rise / (8.0 * bend) + 3.0 / 64.0 * std::abs(fourth));
+    const double more = -rise * rise / (8.0 * bend) + 3.0 / 64.0 * std::abs(fourth);
+    const double missed = law.force(u[l] + more) - law.force(u[l]);
+    if (missed > 0.0) force += missed / (1.0 + compliance * missed / more);
   }
   return force;
+}
+
+/// Displacement of a point under a unit force there, m/N; 0 where inertia prevails.
+double point_compliance(CondensedProblem& problem, int contact) {
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(problem.samples()), motion;
+  unit[contact * problem.points()] = 1.0;
+  problem.apply(unit, motion);
+  return std::max(motion[contact * problem.points()], 0.0);
 }
 
 }  // namespace
@@ -82,12 +101,23 @@ double missed_force(const Eigen::VectorXd& u, const AnyContactLaw& law) {
 double missed_contacts(CondensedProblem& problem, const PeriodicResponse& response, const ContactLaws& laws) {
   const int points = problem.points();
   Eigen::VectorXd pulses = Eigen::VectorXd::Zero(problem.samples()), motion;
-  for (int contact = 0; contact < problem.contacts(); ++contact)
-    pulses[contact * points] =
-        missed_force(response.displacement.segment(contact * points, points), laws[contact]);
+  for (int contact = 0; contact < problem.contacts(); ++contact) {
+    const Eigen::VectorXd u = response.displacement.segment(contact * points, points);
+    if (missed_force(u, laws[contact], 0.0) > 0.0)
+      pulses[contact * points] = missed_force(u, laws[contact], point_compliance(problem, contact));
+  }
   if (pulses.isZero(0.0)) return 0.0;
   problem.apply(pulses, motion);
   return relative(motion.norm(), response.displacement.norm());
+}
+
+double decay_order(const PeriodicResponse& response, int functions) {
+  const int top = (functions - 1) / 2, middle = top / 2, low = top / 4;
+  const auto& spectrum = response.coefficients;
+  if (low < 1) return 0.0;
+  const double upper = spectrum.middleRows(middle + 1, top - middle).norm();
+  const double lower = spectrum.middleRows(low + 1, middle - low).norm();
+  return std::log2(lower / upper);
 }
 
 }  // namespace wavebalance::solvers

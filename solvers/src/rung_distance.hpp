@@ -30,4 +30,8 @@ bool has_brief_contact(const PeriodicResponse& response, int points);
 /// short of the gap the parabola through three samples exceeds it.
 double missed_contacts(CondensedProblem& problem, const PeriodicResponse& response, const ContactLaws& laws);
 
+/// The order with which the harmonics fall from the second highest octave to the highest; 0 for fewer than
+/// four harmonics, NaN where both vanish.
+double decay_order(const PeriodicResponse& response, int functions);
+
 }  // namespace wavebalance::solvers

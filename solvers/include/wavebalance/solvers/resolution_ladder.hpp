@@ -68,16 +68,22 @@ struct LadderResponse {
 /// The distance of two rungs is the error of the coarser one. Harmonics beyond its functions are its
 /// truncation, the others the share of its points (pairs of Fourier functions; any other pair refines both
 /// together). The error of the finer rung follows with orders below those that forces with kinks show - 1.5
-/// for the points, at most 3 for the functions - and a factor 1.5; contacts between the points, where the
-/// parabola through three displacements exceeds the gap, are added. What dominates is refined next. It is an
-/// estimate, not a bound.
+/// for the points, at most 3 for the functions and no more than their two highest octaves show - and a factor
+/// 1.5. Of contacts that no point sees, or one or two, what a point at their maximum would feel beyond them
+/// is added: the force at the vertex of the parabola through three displacements, yielding to itself. What
+/// dominates is refined next. It is an estimate, not a bound.
 ///
 /// Problems of fewer than 32 points tell smooth motions from the others: they end the ladder only where the
 /// estimate is below a thousandth of the tolerance, are solved without homotopy, and are no start for the
 /// next rung unless they lie near one another.
 ///
+/// Newton starts from the response before: its harmonics, or straight between its samples in contact, which a
+/// stiff law holds. Where neither leads to a response and sizes in between were left out, these come next;
+/// the path of the homotopy is the last resort.
+///
 /// Where several responses exist the ladder stays on one. A later rung that lies farther from the one before
-/// than that did is solved anew from the contact-free response, and the nearer of the two is kept.
+/// than that did, and by more than 3 %, is solved anew from the contact-free response, and the nearer of the
+/// two is kept.
 ///
 /// Throws std::invalid_argument for options out of range and what `make_problem` throws. The cost is near
 /// that of the last rung: sizes grow geometrically, and Newton starts near the solution.

@@ -1,0 +1,78 @@
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "program.hpp"
+#include "random_motions.hpp"
+#include "stopwatch.hpp"
+#include "wavebalance/reproduce/table.hpp"
+
+// Random motions to a tolerance beside shooting that starts from what was found: tolerance_random.csv.
+namespace wavebalance::bench {
+namespace {
+
+constexpr std::uint64_t first_seed = 20140817;
+constexpr int output_points = 2048;
+constexpr double patience = 1.0;  // s: no further rung is begun after it, and the status is "cancelled"
+
+reproduce::Table empty_table() {
+  return reproduce::Table({"seed", "law", "frequency_Hz", "stiffness_damping_s", "gap_m", "tolerance",
+                           "status", "estimated_error", "true_error", "error_over_tolerance", "functions",
+                           "quadrature_points", "rungs", "seconds"});
+}
+
+void append(reproduce::Table& table, std::uint64_t seed, double tolerance) {
+  const tolerance::RandomMotion motion(seed);
+  const double start = processor_seconds();
+  auto found = motion.climb(
+      tolerance, [&](const solvers::LadderRung&) { return processor_seconds() - start < patience; });
+  const double seconds = processor_seconds() - start;
+  const auto exact = tolerance::shooting_nearby(motion, found, output_points);
+  const double error =
+      exact ? tolerance::true_error(found, *exact) : std::numeric_limits<double>::quiet_NaN();
+  table.append_row({std::to_string(seed), name_of(motion.scene.contact.law), motion.scene.forcing.frequency,
+                    motion.scene.structure.stiffness_damping, motion.scene.contact.gap, tolerance,
+                    to_string(found.status), found.estimated_error, error, error / tolerance,
+                    std::int64_t{found.ladder.back().functions}, std::int64_t{found.ladder.back().points},
+                    static_cast<std::int64_t>(found.ladder.size()), seconds});
+}
+
+void report(const reproduce::Table& table) {
+  int converged = 0, judged = 0, beyond = 0;
+  double largest = 0.0;
+  const auto errors = table.numbers("error_over_tolerance");
+  const auto status = table.texts("status");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (status[row] != "converged") continue;
+    ++converged;
+    if (std::isnan(errors[row])) continue;
+    ++judged;
+    beyond += errors[row] > 3.0 ? 1 : 0;
+    largest = std::max(largest, errors[row]);
+  }
+  std::printf(
+      "%zu runs, %d converged, %d with a shooting response beside them, %d of these beyond three times\n"
+      "the tolerance; largest true error over tolerance %.3g\n",
+      table.rows(), converged, judged, beyond, largest);
+}
+
+void run(const Program& program) {
+  const std::uint64_t motions = program.quick ? 4 : 200;
+  reproduce::Table table = empty_table();
+  for (const double tolerance : {1e-2, 1e-4, 1e-6})
+    for (std::uint64_t seed = first_seed; seed < first_seed + motions; ++seed) append(table, seed, tolerance);
+  reproduce::write_csv(
+      program.output / "tolerance_random.csv", table,
+      {"Random bars against stops to a tolerance, beside shooting from the motion that was found",
+       "SI; s of processor time; errors are relative rms of the contact displacement",
+       "tests/tolerance/random_motions.hpp",
+       {"true_error is empty where shooting finds no periodic motion from there; cancelled: after 1 s."}});
+  report(table);
+}
+
+}  // namespace
+}  // namespace wavebalance::bench
+
+int main(int argc, char** argv) {
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+}

@@ -1,0 +1,111 @@
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/solvers/periodic_field.hpp"
+#include "wavebalance/solvers/resolution_ladder.hpp"
+#include "wavebalance/solvers/shooting.hpp"
+
+namespace wavebalance::tolerance {
+
+/// Numbers that are the same with every standard library.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : bits_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(bits_() >> 11), -53);
+  }
+  double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+/// The largest displacement of the tip without contact, m.
+inline double free_amplitude(const reproduce::Scene& scene) {
+  reproduce::Scene linear = scene;
+  linear.time = {.trial = "fourier", .weight = "fourier", .functions = 3, .quadrature_points = 64};
+  return reproduce::make_problem(linear).free_response().maxCoeff();
+}
+
+/// A bar driven at 40 to 4000 Hz, damped by 1e-5 to 1e-3 s, against a linear or an exponential stop. The gap
+/// is -0.3 to 1 times the amplitude without contact, in one motion of four close to grazing (to 1e-4 of it).
+inline reproduce::Scene random_scene(std::uint64_t seed) {
+  Dice dice(seed);
+  reproduce::Scene scene;
+  scene.structure = {.youngs_modulus = 70e9, .density = 2700.0, .area = 25e-4, .length = 1.0, .elements = 25};
+  scene.structure.stiffness_damping = dice.logarithmic(1e-5, 1e-3);
+  scene.forcing = {.amplitude = 250e3, .frequency = dice.logarithmic(40.0, 4000.0)};
+  const double amplitude = free_amplitude(scene);
+  const bool grazing = dice.uniform(0.0, 1.0) < 0.25;
+  scene.contact.gap = amplitude * (grazing ? 1.0 - dice.logarithmic(1e-4, 1e-1) : dice.uniform(-0.3, 1.0));
+  if (dice.uniform(0.0, 1.0) < 0.5) {
+    scene.contact.law = reproduce::ContactLawType::linear;
+    scene.contact.stiffness = dice.logarithmic(1e7, 1e11);
+  } else {
+    scene.contact.law = reproduce::ContactLawType::exponential;
+    scene.contact.exponent = dice.logarithmic(0.05, 5.0) / amplitude;
+    scene.contact.constant = dice.logarithmic(1e7, 1e11) / scene.contact.exponent;
+  }
+  return scene;
+}
+
+/// A scene without a time basis, its structure and its law.
+struct RandomMotion {
+  explicit RandomMotion(std::uint64_t seed)
+      : scene(random_scene(seed)),
+        model(reproduce::make_model(scene)),
+        law(reproduce::make_law(scene.contact)) {}
+
+  /// Stops after the rung that `go_on`, when there is one, says no to.
+  solvers::LadderResponse climb(double tolerance,
+                                std::function<bool(const solvers::LadderRung&)> go_on = {}) const {
+    const auto make = [this](int functions, int points) {
+      reproduce::Scene rung = scene;
+      rung.time = {
+          .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
+      return reproduce::make_problem(rung, model);
+    };
+    solvers::LadderOptions options;
+    options.tolerance = tolerance;
+    options.observer = std::move(go_on);
+    return solvers::response_to_tolerance(make, law, options);
+  }
+
+  reproduce::Scene scene;
+  reproduce::StructureModel model;
+  solvers::AnyContactLaw law;
+};
+
+/// The tip of the periodic motion that shooting finds from the state that `found` has at t = 0, `points`
+/// times; nothing when shooting does not converge. It needs no stable motion: no period is integrated before.
+inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion,
+                                                      solvers::LadderResponse& found, int points) {
+  const auto field =
+      solvers::periodic_field(*found.problem, found.response.contact_force, 4 * found.problem->points());
+  solvers::ShootingOptions options;
+  options.output_points = points;
+  options.settling_periods = 0;
+  options.initial_displacement = field.displacement.col(0);
+  options.initial_velocity = field.velocity.col(0);
+  const auto shot =
+      solvers::shoot(motion.model.structure, motion.law, motion.scene.forcing.frequency, options);
+  if (shot.status != solvers::ShootingStatus::converged) return std::nullopt;
+  return shot.samples.displacement.col(0);
+}
+
+/// The relative rms distance of the ladder's motion from `exact`.
+inline double true_error(solvers::LadderResponse& found, const Eigen::VectorXd& exact) {
+  solvers::MotionEvaluator motion(found.problem->pair().trial(), static_cast<int>(exact.size()));
+  const Eigen::VectorXd u = motion.displacement(Eigen::VectorXcd(found.response.coefficients.col(0)));
+  return (u - exact).norm() / exact.norm();
+}
+
+}  // namespace wavebalance::tolerance
