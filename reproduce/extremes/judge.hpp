@@ -18,12 +18,14 @@ struct Residuals {
   /// What rounding each sample to the next double may make of `motion`: far above the natural frequencies
   /// inertia makes much of it.
   double motion_rounding = 0.0;
-  /// The largest of: force below zero or on an open gap over the largest force; penetration of a rigid
-  /// obstacle over the largest displacement with or without it.
+  /// Of a law: force outside of what it gives within a billionth of the motion about its displacement, over
+  /// the largest force. Of a rigid obstacle the largest of: force below zero over the largest force;
+  /// penetration over the largest displacement with or without it; their product.
   double complementarity = std::numeric_limits<double>::quiet_NaN();
   /// Change of displacement and velocity, in the energy norm over their own, over one period of time stepping
   /// from the response at t = 0: the error of the time basis shows here, amplified by the multipliers of the
-  /// motion. Not where the period is above a hundred times the passage of a wave through the bar.
+  /// motion. Not where the period is above a hundred times the passage of a wave through the bar, nor
+  /// where the law is above ten thousand times as stiff as an element.
   double periodicity = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -130,6 +130,10 @@ ContactMotion sample_response(const solvers::CondensedProblem& problem,
                               const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
                               int points) {
   ContactMotion motion = sample_motion(problem, response, points);
+  if (response.force_by_balance) {
+    motion.force = nearest_forces(response, problem.contacts(), points);
+    return motion;
+  }
   motion.force =
       Eigen::MatrixXd::NullaryExpr(motion.contacts(), points, [&](Eigen::Index contact, Eigen::Index l) {
         return laws[static_cast<int>(contact)].force(motion.displacement(contact, l));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "condensation_method.hpp"
+#include "safe_norm.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -96,13 +97,13 @@ double StiffnessScale::condition(const StiffnessFactors& factors, double solutio
                                  double right_norm) const {
   const double scale = std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
                        std::abs(factors[2]) * largest_[2];
-  return right_norm > 0.0 ? scale * solution_norm / right_norm : 0.0;
+  return right_norm > 0.0 ? scale * (solution_norm / right_norm) : 0.0;
 }
 
 double StiffnessScale::require_regular(const StiffnessFactors& factors,
                                        const Eigen::Ref<const Eigen::VectorXcd>& solution,
                                        double right_norm) const {
-  const double found = condition(factors, solution.norm(), right_norm);
+  const double found = condition(factors, safe_norm(solution), right_norm);
   constexpr double largest_condition = 0.1 / std::numeric_limits<double>::epsilon();
   if (found <= largest_condition) return found;
   throw SingularSystem(

@@ -1,5 +1,7 @@
 #include "condensation_direct.hpp"
 
+#include "safe_norm.hpp"
+
 namespace wavebalance::solvers {
 
 CondensedPoint DirectMethod::at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
@@ -21,7 +23,7 @@ Eigen::VectorXcd DirectMethod::recover(const StiffnessFactors& factors, std::com
   Eigen::VectorXcd force = structure_.load * load_amplitude;
   force(structure_.contact_dofs) -= contact_forces;
   const Eigen::VectorXcd response = solve(force);
-  scale_.require_regular(factors, response, force.norm());
+  scale_.require_regular(factors, response, safe_norm(force));
   return response;
 }
 

@@ -3,6 +3,7 @@
 
 #include "condensation_method.hpp"
 #include "pivot_recursion.hpp"
+#include "safe_norm.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -91,7 +92,7 @@ class TridiagonalMethod final : public Condensation::Method {
     if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_forces);
     Eigen::VectorXcd response = load_ * load_amplitude;
     response(contacts_) -= contact_forces;
-    const double force = response.norm();
+    const double force = safe_norm(response);
     solve(response);
     scale_.require_regular(factors, response, force);
     return response;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "law_force.hpp"
 #include "wavebalance/solvers/arc_length.hpp"
 
 namespace wavebalance::solvers {
@@ -59,6 +60,78 @@ void require_start(const CondensedProblem& problem, const Eigen::VectorXd& guess
                                 std::to_string(problem.samples()));
 }
 
+// One response from several starts: what the best of them gave so far.
+class Attempts {
+ public:
+  Attempts(ContactSystem& system, const ForcedResponseOptions& options)
+      : system_(system), options_(options) {}
+
+  bool converged() const { return result_.status == SolveStatus::converged; }
+  int iterations() const { return iterations_; }
+
+  // Newton from u; of two that do not converge the one with the smaller residual is kept.
+  void start_at(Eigen::VectorXd u) {
+    NewtonResult result = newton(system_, u, options_.newton);
+    iterations_ += result.iterations;
+    if (u_.size() != 0 && !(result.residual < result_.residual)) return;
+    result_ = std::move(result);
+    u_ = std::move(u);
+  }
+
+  // By complementarity; false when the observer has stopped it.
+  bool from_obstacles() {
+    bool go_on = true;
+    int corner = 0;
+    const LawForce found = law_force(system_, [&](double height) {
+      go_on = !options_.observer || options_.observer("homotopy", corner++, height);
+      return go_on;
+    });
+    iterations_ += found.corners;
+    if (!found.found) return go_on;
+    if (found.rounding <= largest_rounding) start_at(found.displacement);
+    if (converged() || found.defect > largest_defect) return go_on;
+    result_.status = SolveStatus::converged;
+    result_.residual = found.defect;
+    result_.residual_history.push_back(found.defect);
+    result_.condition = found.condition;
+    u_ = found.displacement;
+    force_ = found.force;
+    return go_on;
+  }
+
+  void along_stiffness() {
+    Eigen::VectorXd u;
+    const bool found = follow_stiffness(system_, u, options_, iterations_);
+    system_.set_stiffness_factor(1.0);
+    if (found) start_at(std::move(u));
+  }
+
+  void write(PeriodicResponse& response) {
+    if (force_.size() == 0) system_.evaluate(u_);
+    response.force_by_balance = force_.size() != 0;
+    response.contact_force = response.force_by_balance ? force_ : system_.force();
+    response.status = result_.status;
+    response.residual = result_.residual;
+    response.residual_history = std::move(result_.residual_history);
+    response.condition = result_.condition;
+    response.iterations = iterations_;
+    response.coefficients = system_.problem().coefficients(response.contact_force);
+    response.displacement = std::move(u_);
+  }
+
+ private:
+  // Of the size of a motion: as far as a stiff law may be from its displacements.
+  static constexpr double largest_defect = 1e-9;
+  // Of a law's force: what Newton seeks, and beyond which it takes rounding for descent.
+  static constexpr double largest_rounding = 1e-9;
+
+  ContactSystem& system_;
+  const ForcedResponseOptions& options_;
+  NewtonResult result_;
+  Eigen::VectorXd u_, force_;
+  int iterations_ = 0;
+};
+
 }  // namespace
 
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
@@ -67,31 +140,13 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   ContactSystem system(problem, laws);
   PeriodicResponse response;
   response.frequency = problem.frequency();
-  Eigen::VectorXd u = guess.size() != 0 ? guess : problem.free_response();
-  NewtonResult result = newton(system, u, options.newton);
-  response.iterations = result.iterations;
-  if (result.status != SolveStatus::converged && options.homotopy) {
+  Attempts attempts(system, options);
+  attempts.start_at(guess.size() != 0 ? guess : problem.free_response());
+  if (!attempts.converged() && options.homotopy) {
     response.used_homotopy = true;
-    Eigen::VectorXd followed;
-    const bool found = follow_stiffness(system, followed, options, response.iterations);
-    system.set_stiffness_factor(1.0);
-    if (found) {
-      NewtonResult retry = newton(system, followed, options.newton);
-      response.iterations += retry.iterations;
-      if (retry.residual < result.residual) {
-        result = std::move(retry);
-        u = followed;
-      }
-    }
-    system.evaluate(u);
+    if (attempts.from_obstacles() && !attempts.converged()) attempts.along_stiffness();
   }
-  response.status = result.status;
-  response.residual = result.residual;
-  response.residual_history = std::move(result.residual_history);
-  response.condition = result.condition;
-  response.contact_force = system.force();
-  response.coefficients = problem.coefficients(system.force());
-  response.displacement = std::move(u);
+  attempts.write(response);
   return response;
 }
 

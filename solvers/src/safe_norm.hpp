@@ -5,7 +5,8 @@
 namespace wavebalance::solvers {
 
 /// The Euclidean norm, also where the squares leave the range of numbers.
-inline double safe_norm(const Eigen::VectorXd& values) {
+template <class Derived>
+double safe_norm(const Eigen::MatrixBase<Derived>& values) {
   const double norm = values.norm();
   return norm > 1e-140 && std::isfinite(norm) ? norm : values.stableNorm();
 }

@@ -120,24 +120,33 @@ TEST_P(ManyContacts, LaterLoadShiftsTheResponse) {
 
 INSTANTIATE_TEST_SUITE_P(PairKinds, ManyContacts, ::testing::Range(0, testing::pair_kind_count));
 
-// Two oscillators that nothing couples, in one structure and each alone.
-TEST(ManyContactsResponse, OfUncoupledOscillatorsIsThatOfEach) {
-  testing::Oscillator one, two;
-  two.mass = 3.0;
-  two.load = -70.0;
-  two.stiffness = 1.1e5;
+// Two oscillators that nothing couples, in one structure and each alone; the contact of `first` comes first.
+struct Uncoupled {
+  testing::Oscillator first, second;
   LinearStructure both;
-  Eigen::Matrix2d mass = Eigen::Vector2d(one.mass, two.mass).asDiagonal(),
-                  damping = Eigen::Vector2d(one.damping, two.damping).asDiagonal(),
-                  stiffness = Eigen::Vector2d(one.stiffness, two.stiffness).asDiagonal();
-  both.mass = mass.sparseView();
-  both.damping = damping.sparseView();
-  both.stiffness = stiffness.sparseView();
-  both.load = Eigen::Vector2d(one.load, two.load);
-  both.contact_dofs = {1, 0};
+
+  Uncoupled() {
+    first.mass = 3.0;
+    first.load = -70.0;
+    first.stiffness = 1.1e5;
+    const auto diagonal = [](double a, double b) -> Eigen::SparseMatrix<double> {
+      const Eigen::Matrix2d matrix = Eigen::Vector2d(a, b).asDiagonal();
+      return matrix.sparseView();
+    };
+    both.mass = diagonal(second.mass, first.mass);
+    both.damping = diagonal(second.damping, first.damping);
+    both.stiffness = diagonal(second.stiffness, first.stiffness);
+    both.load = Eigen::Vector2d(second.load, first.load);
+    both.contact_dofs = {1, 0};
+  }
+};
+
+TEST(ManyContactsResponse, OfUncoupledOscillatorsIsThatOfEach) {
+  const Uncoupled structures;
   const TimePair pair = testing::fourier_pair(31, 64);
-  auto together = make_problem(pair, both, 27.0), first = make_problem(pair, two.structure(), 27.0),
-       second = make_problem(pair, one.structure(), 27.0);
+  auto together = make_problem(pair, structures.both, 27.0),
+       first = make_problem(pair, structures.first.structure(), 27.0),
+       second = make_problem(pair, structures.second.structure(), 27.0);
   const LinearContact law_first{4e4, 0.3e-3}, law_second{9e4, 0.4e-3};
   const PeriodicResponse a = forced_response(together, std::vector<AnyContactLaw>{law_first, law_second}, {});
   const PeriodicResponse b = forced_response(first, law_first, {}),
@@ -147,19 +156,31 @@ TEST(ManyContactsResponse, OfUncoupledOscillatorsIsThatOfEach) {
   EXPECT_LE((a.displacement.head(64) - b.displacement).norm(), 1e-9 * b.displacement.norm());
   EXPECT_LE((a.displacement.tail(64) - c.displacement).norm(), 1e-9 * c.displacement.norm());
   EXPECT_LE((a.coefficients.col(1) - c.coefficients).norm(), 1e-9 * c.coefficients.norm());
+}
+
+// Rigid obstacles have several responses at this resolution: that of each oscillator in the structure must be
+// one of its own.
+TEST(ManyContactsResponse, AgainstRigidObstaclesUncoupledOscillatorsSolveTheirOwnProblems) {
+  const Uncoupled structures;
+  const TimePair pair = testing::fourier_pair(31, 64);
+  auto together = make_problem(pair, structures.both, 27.0);
   const RigidResponse rigid = rigid_response(together, Eigen::Vector2d(0.3e-3, 0.4e-3), {});
-  const RigidResponse rigid_first = rigid_response(first, 0.3e-3, {}),
-                      rigid_second = rigid_response(second, 0.4e-3, {});
-  ASSERT_TRUE(rigid.response.converged() && rigid_first.response.converged() &&
-              rigid_second.response.converged());
-  ASSERT_TRUE(std::isinf(rigid.stiffness) && std::isinf(rigid_first.stiffness) &&
-              std::isinf(rigid_second.stiffness))
-      << "not an exact active set";
-  EXPECT_EQ(rigid.active_samples, rigid_first.active_samples + rigid_second.active_samples);
-  EXPECT_LE((rigid.response.displacement.head(64) - rigid_first.response.displacement).norm(),
-            1e-9 * rigid_first.response.displacement.norm());
-  EXPECT_LE((rigid.response.displacement.tail(64) - rigid_second.response.displacement).norm(),
-            1e-9 * rigid_second.response.displacement.norm());
+  ASSERT_TRUE(rigid.response.converged());
+  ASSERT_TRUE(std::isinf(rigid.stiffness)) << "not an exact active set";
+  for (const int c : {0, 1}) {
+    auto alone = make_problem(pair, (c == 0 ? structures.first : structures.second).structure(), 27.0);
+    const Eigen::VectorXd force = rigid.response.contact_force.segment(64 * c, 64),
+                          u = rigid.response.displacement.segment(64 * c, 64);
+    Eigen::VectorXd product;
+    alone.apply(force, product);
+    const double size = alone.free_response().cwiseAbs().maxCoeff();
+    EXPECT_LE((u - alone.free_response() + product).cwiseAbs().maxCoeff(), 1e-12 * size);
+    const Complementarity found = complementarity(u, force, c == 0 ? 0.3e-3 : 0.4e-3);
+    EXPECT_GT(force.maxCoeff(), 0.0);
+    EXPECT_GE(found.min_force, 0.0);
+    EXPECT_LE(found.max_penetration, 1e-9 * size);
+    EXPECT_LE(found.product, 1e-9);
+  }
 }
 
 TEST(ManyContactsResponse, DoesNotDependOnTheOrderOfContacts) {

@@ -95,8 +95,8 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
 Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
 
 /// The motion of all contacts in a solution of `problem` at `points` uniform times; velocities as
-/// solvers::MotionEvaluator defines them, contact forces by the laws from the displacements. O(C points
-/// log(points)).
+/// solvers::MotionEvaluator defines them, contact forces by the laws from the displacements, or where these
+/// do not resolve a stiff law, those of the nearest quadrature points. O(C points log(points)).
 ContactMotion sample_response(const solvers::CondensedProblem& problem,
                               const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
                               int points);

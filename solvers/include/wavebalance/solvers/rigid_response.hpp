@@ -10,7 +10,8 @@ namespace wavebalance::solvers {
 struct Complementarity {
   double max_penetration = 0.0;  ///< max(u - gap), m; negative when nothing touches
   double min_force = 0.0;        ///< N
-  double product = 0.0;  ///< max |force (gap - u)| over max force and max |gap - u|; 0 without contact
+  /// max |force (gap - u)| over max force and the larger of max |gap - u| and max |u|; 0 without contact.
+  double product = 0.0;
 };
 
 Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
@@ -20,21 +21,19 @@ Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen
                                 const Eigen::VectorXd& gaps);
 
 struct RigidResponseOptions {
-  double tolerance = 1e-6;  ///< penetration at the N points over the largest |u0| that counts as rigid
-  double stiffest = 1e8;    ///< spring stiffness times the largest compliance, at which the path ends
-  int max_steps = 4000;     ///< of the path
-  NewtonOptions newton;
+  /// Penetration at the N points that counts as rigid, over the largest of |u0| and u0 - gap.
+  double tolerance = 1e-6;
   SolveObserver observer;
 };
 
 /// A response with rigid (Signorini) contact. `response.status` is converged only when complementarity holds
-/// at every sample of every contact to the tolerance; otherwise the stiffest spring reached is what it
-/// describes.
+/// at every sample of every contact to the tolerance; otherwise the stiffest obstacle that was solved for is
+/// what it describes.
 struct RigidResponse {
   PeriodicResponse response;
   Complementarity complementarity;                       ///< overall
   std::vector<Complementarity> contact_complementarity;  ///< of each contact
-  double stiffness = 0.0;  ///< N/m of the last spring; infinity when the active set was solved exactly
+  double stiffness = 0.0;  ///< N/m of the last obstacle; infinity when the active set was solved exactly
   int active_samples = 0;
 };
 
@@ -43,12 +42,11 @@ struct RigidResponse {
 ///
 ///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at all samples.
 ///
-/// An active set started from the contact-free response cycles in nearly every case. A unilateral spring is
-/// stiffened by arc length instead, from one that hardly acts to one whose penetration meets the tolerance,
-/// through folds and corners; its active samples are then solved with u = gap, which is accepted when every
-/// sign holds. Throws std::invalid_argument for gaps that are not finite or not one a contact. O(steps
-/// (active^3
-/// + N log N)).
+/// An active set started from the contact-free response cycles in nearly every case. Obstacles that yield a
+/// little are lowered and stiffened along piecewise linear paths instead; their active samples are then
+/// solved with u = gap, which is accepted when every sign holds. With as many points as functions there may
+/// be no solution, or several. Throws std::invalid_argument for gaps that are not finite or not one a
+/// contact. O(corners (active^2 + C N log N + C^2 M)).
 RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& gaps,
                              const RigidResponseOptions& options);
 /// With one gap for all contacts.
