@@ -26,9 +26,6 @@ class Family {
  public:
   explicit Family(const std::filesystem::path& scenes) : scenes_(scenes) {}
 
-  void add(const std::string& group, const std::string& scene, Overrides overrides, Outcome must) {
-    cases_.push_back({group, scene, std::move(overrides), must, ""});
-  }
   void solves(const std::string& group, const std::string& scene, Overrides overrides) {
     cases_.push_back({group, scene, std::move(overrides), Outcome::solved, ""});
   }

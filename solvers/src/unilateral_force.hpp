@@ -8,10 +8,10 @@ namespace wavebalance::solvers {
 constexpr double least_flexibility = 1e-12;
 
 /// Solves the complementarity problem of obstacles by paths, one after the other until one arrives. The
-/// shortest comes first: obstacles about as stiff as the structure are lowered, which takes about one corner
-/// a sample in contact, and then stiffened by factors. Lowered at their stiffness they may take a hundred
-/// times as many corners but lead to infinity in fewer cases; and where both do, obstacles lowered unevenly,
-/// with a fixed seed, take other ways.
+/// nearest comes first: obstacles about as stiff as the structure are lowered, which takes about one corner a
+/// sample in contact, and then stiffened by factors, smaller ones where a leg is long. Then longer legs are
+/// allowed, the obstacles are lowered at their own stiffness, and last they are lowered unevenly (fixed
+/// seed), from other stiffnesses by other factors.
 class UnilateralForce {
  public:
   UnilateralForce(CondensedProblem& problem, ComplementarityPath::Observer observer);
@@ -23,7 +23,7 @@ class UnilateralForce {
   bool follow(const Obstacles& goal);
 
   const Eigen::VectorXd& force() const { return force_; }  ///< N
-  double flexibility() const { return reached_; }          ///< the largest of those solved for, m/N
+  double flexibility() const { return reached_; }          ///< m/N, down to which obstacles were stiffened
   double condition() const { return condition_; }          ///< of its last system, see ComplementarityPath
   int corners() const { return path_.corners(); }
 
