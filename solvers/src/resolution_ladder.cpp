@@ -79,18 +79,18 @@ class Ladder {
     CondensedProblem problem = make_problem_(size_.functions, size_.points);
     PeriodicResponse response = find(problem, rung);
     rung.residual = response.residual;
-    const bool found = response.converged();
-    if (found && solved_) estimate(rung, problem, response);
-    if (found || !solved_) {
+    found_ = response.converged();
+    if (found_ && solved_) estimate(rung, problem, response);
+    if (found_ || !solved_) {
       result_.problem = std::move(problem);
       result_.response = std::move(response);
     }
     rung.seconds = seconds_since(start);
-    if (found)
+    if (found_)
       failures_ = 0;
     else if (rung.points >= screening_points && !may_step_back())
       ++failures_;
-    if (found) solved_ = rung;
+    if (found_) solved_ = rung;
     result_.ladder.push_back(rung);
     const bool told_to_stop = options_.observer && !options_.observer(rung);
     const std::optional<LadderStatus> end = ending(told_to_stop);
@@ -280,7 +280,7 @@ class Ladder {
     return next;
   }
 
-  bool failed() const { return !(result_.ladder.back().residual <= options_.solver.newton.tolerance); }
+  bool failed() const { return !found_; }
 
   /// Distances near the residual that Newton stops at do not fall any more.
   bool has_stagnated() const {
@@ -301,6 +301,7 @@ class Ladder {
   LadderResponse result_;
   std::optional<LadderRung> solved_;  // the last with a response, which is that of result_
   double sums_ = 0.0;                 // estimated error of its sums over the points
+  bool found_ = false;                // whether the rung just solved has a response
   int failures_ = 0;                  // rungs without one since
 };
 
