@@ -179,19 +179,19 @@ bool ArcLength::step_far() {
   CurvePoint candidate;
   int corrections = 0;
   double nearest = options_.largest_step;
-  const double tried = step_;
   crossing_ahead(nearest);
   for (; step_ >= options_.smallest_step; step_ *= 0.5) {
     const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
     if (found && candidate.orientation * point_.orientation >= 0) {
       if (options_.corners != Corners::where_needed && turns_unseen(candidate)) {
-        pieces_left_ = watched_ = step_;
+        const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
+        if (turns && sides_of(point_).any()) pieces_left_ = watched_ = step_;
         return false;
       }
       accept(std::move(candidate), Sides());
-      const double growth = corrections > comfortable_corrections                     ? 0.6
-                            : corrections == comfortable_corrections || step_ < tried ? 1.1
-                                                                                      : 1.6;
+      const double growth = corrections < comfortable_corrections    ? 1.6
+                            : corrections == comfortable_corrections ? 1.1
+                                                                     : 0.6;
       step_ = std::clamp(step_ * growth, options_.smallest_step, options_.largest_step);
       return true;
     }

@@ -58,16 +58,16 @@ class Sweep {
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   FrequencySweep run() {
-    problem_.set_frequency(options_.from);
-    const PeriodicResponse first = forced_response(problem_, system_.laws(), options_.start);
-    result_.condition = std::max(problem_.condensation().condition(), first.condition);
-    if (!first.converged()) return result_;
-    const FrequencyParameter parameter;
-    ArcLength curve(system_, parameter, scaled_options(first));
-    const double direction = options_.to > options_.from ? 1.0 : -1.0;
-    if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced)
-      return result_;
-    result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
+    // Long steps pass a narrow resonance without damping, or do not, by where they land.
+    for (const double share : {1.0, 0.7, 1.4}) {
+      step_share_ = share;
+      largest_free_ = 0.0;
+      result_ = {};
+      trace();
+      const bool again =
+          result_.status == SweepStatus::unbounded && options_.arc_length.corners != Corners::every;
+      if (!again) break;
+    }
     const double interval = std::abs(options_.to - options_.from);
     leave_out_small_returns(result_.turning_points,
                             options_.smallest_return > 0.0 ? options_.smallest_return : 1e-3 * interval);
@@ -75,12 +75,25 @@ class Sweep {
   }
 
  private:
+  void trace() {
+    problem_.set_frequency(options_.from);
+    const PeriodicResponse first = forced_response(problem_, system_.laws(), options_.start);
+    result_.condition = std::max(problem_.condensation().condition(), first.condition);
+    if (!first.converged()) return;
+    const FrequencyParameter parameter;
+    ArcLength curve(system_, parameter, scaled_options(first));
+    const double direction = options_.to > options_.from ? 1.0 : -1.0;
+    if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced) return;
+    result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
+  }
+
   ArcLengthOptions scaled_options(const PeriodicResponse& first) const {
     ArcLengthOptions arc = options_.arc_length;
     const double gap = system_.laws().largest_gap();
     const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
     if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : rms;
     if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
+    arc.largest_step *= step_share_;
     return arc;
   }
 
@@ -148,6 +161,7 @@ class Sweep {
   TrialEvaluator evaluator_;
   FrequencySweep result_;
   double largest_free_ = 0.0;
+  double step_share_ = 1.0;  // of the largest step asked for
 };
 
 }  // namespace

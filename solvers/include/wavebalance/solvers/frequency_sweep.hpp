@@ -53,7 +53,8 @@ struct FrequencySweepOptions {
   /// `from`; parameter_scale 0 stands for a 20th of the interval.
   ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
   ForcedResponseOptions start;  ///< the solver of the first point
-  /// Told of each accepted point; returns false to stop.
+  /// Told of each accepted point; returns false to stop. A curve that ends as unbounded is followed again
+  /// from its start with largest steps of other lengths, twice at most, unless every corner is asked for.
   std::function<bool(const SweepPoint&)> observer;
 };
 
