@@ -71,6 +71,7 @@ ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p
   last_step_ = 0.0;
   crossed_ = false;
   pieces_left_ = watched_ = 0.0;
+  last_operation_ = system_.operations() + options_.most_operations;
   return tangent_at(point_, along) ? Status::advanced : Status::no_point;
 }
 
@@ -88,7 +89,7 @@ bool ArcLength::solve_in(const Plane& plane, const Sides* sides, CurvePoint& poi
   double parameter_change = 0.0;
   const int most = sides ? options_.max_corrections : (options_.max_corrections + 1) / 2;
   for (corrections = 0; corrections <= most; ++corrections) {
-    if (!parameter_.contains(point.parameter)) return false;
+    if (!parameter_.contains(point.parameter) || system_.operations() > last_operation_) return false;
     point.residual = evaluate(point, sides);
     if (!std::isfinite(point.residual)) return false;
     const double miss = plane.miss(point);

@@ -65,6 +65,8 @@ bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double r
   return jacobian_->solve(*problem_, r, reduction, x);
 }
 
+double ContactSystem::operations() const { return jacobian_->operations(); }
+
 double ContactSystem::condition() { return jacobian_->condition(*problem_); }
 
 bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {

@@ -20,6 +20,7 @@ ArcLengthOptions homotopy_options(ContactSystem& system) {
   options.smallest_step = 1e-5;
   options.largest_angle = 0.6;
   options.corners = Corners::where_needed;
+  options.most_operations = 5e10;  // some twenty seconds: thousands of samples in stiff contact are lost here
   return options;
 }
 

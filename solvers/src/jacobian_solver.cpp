@@ -1,5 +1,7 @@
 #include "jacobian_solver.hpp"
 
+#include <cmath>
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -30,10 +32,21 @@ void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::Vector
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
   used_ = krylov ? Used::krylov : Used::dense;
+  if (!krylov) count_dense();
 }
 
 bool JacobianSolver::may_fall_back() const {
   return method_ == LinearSolver::automatic && active_ <= largest_dense;
+}
+
+void JacobianSolver::count_dense() {
+  const auto active = static_cast<double>(active_);
+  operations_ += 2.0 / 3.0 * active * active * active;
+}
+
+void JacobianSolver::count_krylov(const CondensedProblem& problem, int iterations) {
+  const double points = problem.points();
+  operations_ += 10.0 * iterations * problem.contacts() * points * std::log2(points + 1.0);
 }
 
 bool JacobianSolver::factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent) {
@@ -46,8 +59,11 @@ bool JacobianSolver::factorize(CondensedProblem& problem, const Eigen::VectorXd&
 bool JacobianSolver::solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction,
                            Eigen::VectorXd& x) {
   if (used_ == Used::krylov) {
-    if (krylov_.solve(compliance_of(problem), r, reduction, x).solved) return true;
+    const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(problem), r, reduction, x);
+    count_krylov(problem, outcome.iterations);
+    if (outcome.solved) return true;
     krylov_failed_ = true;
+    count_dense();
     if (!may_fall_back() || !dense_.factorize(problem, tangent_)) return false;
     used_ = Used::dense;
   }
@@ -69,8 +85,12 @@ bool JacobianSolver::factorize_bordered(CondensedProblem& problem, const Eigen::
 bool JacobianSolver::solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s,
                                     double reduction, Eigen::VectorXd& x, double& y) {
   if (used_ == Used::krylov) {
-    if (krylov_.solve_bordered(compliance_of(problem), r, s, reduction, x, y).solved) return true;
+    const KrylovBlock::Outcome outcome =
+        krylov_.solve_bordered(compliance_of(problem), r, s, reduction, x, y);
+    count_krylov(problem, outcome.iterations);
+    if (outcome.solved) return true;
     krylov_failed_ = true;
+    count_dense();
     if (!may_fall_back() ||
         !dense_.factorize_bordered(problem, tangent_, border_column_, border_row_, border_corner_))
       return false;

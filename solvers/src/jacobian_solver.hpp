@@ -26,6 +26,9 @@ class JacobianSolver {
   /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
   int determinant_sign() const { return used_ == Used::dense ? dense_.determinant_sign() : 0; }
 
+  /// Floating-point operations so far: 2/3 active^3 an LU, four transforms an iteration of GMRES.
+  double operations() const { return operations_; }
+
   /// Condition of what was factorized last: see NewtonResult. 0 before.
   double condition(CondensedProblem& problem);
 
@@ -33,11 +36,14 @@ class JacobianSolver {
   enum class Used { none, dense, krylov };
   void choose(const CondensedProblem& problem, const Eigen::VectorXd& tangent);
   bool may_fall_back() const;
+  void count_dense();
+  void count_krylov(const CondensedProblem& problem, int iterations);
 
   LinearSolver method_ = LinearSolver::automatic;
   Used used_ = Used::none;
   Eigen::Index active_ = 0;
   bool krylov_failed_ = false;
+  double operations_ = 0.0;
   ActiveBlock dense_;
   KrylovBlock krylov_;
   Eigen::VectorXd tangent_, border_column_, border_row_;  // of the last factorisation, to fall back on

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "wavebalance/solvers/contact_system.hpp"
@@ -52,6 +53,8 @@ struct ArcLengthOptions {
   int max_corrections = 8;      ///< of a point; half as many after a long step
   double tolerance = 1e-10;     ///< on the relative residual
   Corners corners = Corners::at_turns;
+  /// Of the linear systems of all points; the curve ends with no_point where they are used up.
+  double most_operations = std::numeric_limits<double>::infinity();
 };
 
 /// A point of a solution curve with its unit tangent in the scaled inner product
@@ -136,11 +139,12 @@ class ArcLength {
   ArcLengthOptions options_;
   CurvePoint point_, previous_;
   double step_ = 0.0;
-  double last_step_ = 0.0;    // from previous_ to point_, along the tangent of previous_
-  Sides last_sides_;          // of the piece that both lie on; empty when it may be several
-  double watched_ = 0.0;      // the length of the long step that saw the last turn
-  double pieces_left_ = 0.0;  // arc length that is to be followed piece by piece
-  bool crossed_ = false;      // whether curves have crossed: the orientation then tells nothing on long steps
+  double last_step_ = 0.0;       // from previous_ to point_, along the tangent of previous_
+  Sides last_sides_;             // of the piece that both lie on; empty when it may be several
+  double watched_ = 0.0;         // the length of the long step that saw the last turn
+  double last_operation_ = 0.0;  // of the system, where this curve may not go on
+  double pieces_left_ = 0.0;     // arc length that is to be followed piece by piece
+  bool crossed_ = false;  // whether curves have crossed: the orientation then tells nothing on long steps
   Eigen::VectorXd slope_, change_;
 };
 

@@ -77,6 +77,9 @@ class ContactSystem {
   /// Condition of what was factorized last, as NewtonResult says; 0 before any.
   double condition();
 
+  /// Floating-point operations that linear systems have taken so far.
+  double operations() const;
+
  private:
   double evaluate_residual(const Eigen::VectorXd& displacement);
 
