@@ -52,9 +52,14 @@ Errors errors(const Pair& pair, int functions) {
   for (int l = 0; l < fine_points; ++l)
     for (int n = 0; n < exact.size(); ++n)
       expected[l] += (exact[n] * std::polar(1.0, 2.0 * std::numbers::pi * n * l / fine_points)).real();
+  // Harmonics past half the functions carry the coefficients of those that they alias with.
+  const auto coefficient = [&](int n) -> Complex {
+    const int k = n % functions;
+    return k < coefficients.size() ? coefficients[k] : std::conj(coefficients[functions - k]);
+  };
   double harmonics = 0.0;
   for (int n = 1; n < exact.size(); ++n) {
-    const Complex found = 2.0 * coefficients[n] * problem.pair().trial().fourier_coefficient(n);
+    const Complex found = 2.0 * coefficient(n) * problem.pair().trial().fourier_coefficient(n);
     harmonics += std::norm(found - exact[n]);
   }
   return {(u - expected).norm() / expected.norm(), std::sqrt(harmonics) / exact.norm()};
