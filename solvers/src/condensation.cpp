@@ -18,21 +18,22 @@ bool is_tridiagonal(const Eigen::SparseMatrix<double>& matrix) {
   return true;
 }
 
-void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name) {
-  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
-  constexpr double tolerance = 1e-12;
-  if ((matrix - transposed).norm() <= tolerance * matrix.norm()) return;
-  throw std::invalid_argument("Condensation: " + std::string(name) +
-                              " is not symmetric (relative asymmetry " +
-                              std::to_string((matrix - transposed).norm() / matrix.norm()) + ")");
-}
-
 double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
   double largest = 0.0;
   for (int column = 0; column < matrix.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
       largest = std::max(largest, std::abs(entry.value()));
   return largest;
+}
+
+void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name) {
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  const double asymmetry = largest_entry(matrix - transposed), size = largest_entry(matrix);
+  constexpr double tolerance = 1e-12;
+  if (asymmetry <= tolerance * size) return;
+  throw std::invalid_argument("Condensation: " + std::string(name) +
+                              " is not symmetric (relative asymmetry " + std::to_string(asymmetry / size) +
+                              ")");
 }
 
 bool is_tridiagonal(const LinearStructure& structure) {
@@ -63,11 +64,7 @@ MethodPointer choose_method(const LinearStructure& structure, CondensationMethod
   return chosen == CondensationMethod::dense ? make_dense_method(structure) : make_sparse_method(structure);
 }
 
-MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method) {
-  structure.validate();
-  require_symmetric(structure.mass, "mass");
-  require_symmetric(structure.damping, "damping");
-  require_symmetric(structure.stiffness, "stiffness");
+MethodPointer make_unscaled_method(const LinearStructure& structure, CondensationMethod& method) {
   switch (method) {
     case CondensationMethod::automatic:
       return choose_method(structure, method);
@@ -87,17 +84,30 @@ MethodPointer make_method(const LinearStructure& structure, CondensationMethod& 
   throw std::invalid_argument("Condensation: unknown method");
 }
 
+// `method` becomes the one taken.
+MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method) {
+  structure.validate();
+  require_symmetric(structure.mass, "mass");
+  require_symmetric(structure.damping, "damping");
+  require_symmetric(structure.stiffness, "stiffness");
+  return make_scaled_method(
+      structure, [&method](const LinearStructure& scaled) { return make_unscaled_method(scaled, method); });
+}
+
 }  // namespace
 
 StiffnessScale::StiffnessScale(const LinearStructure& structure)
     : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
                largest_entry(structure.stiffness)} {}
 
+double StiffnessScale::size(const StiffnessFactors& factors) const {
+  return std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
+         std::abs(factors[2]) * largest_[2];
+}
+
 double StiffnessScale::condition(const StiffnessFactors& factors, double solution_norm,
                                  double right_norm) const {
-  const double scale = std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
-                       std::abs(factors[2]) * largest_[2];
-  return right_norm > 0.0 ? scale * (solution_norm / right_norm) : 0.0;
+  return right_norm > 0.0 ? size(factors) * (solution_norm / right_norm) : 0.0;
 }
 
 double StiffnessScale::require_regular(const StiffnessFactors& factors,

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 
 #include "wavebalance/solvers/condensation.hpp"
@@ -36,6 +37,10 @@ class Condensation::Method {
 class StiffnessScale {
  public:
   explicit StiffnessScale(const LinearStructure& structure);
+  /// Largest entries of M, C and K.
+  const std::array<double, 3>& largest() const { return largest_; }
+  /// |s2| max|M| + |s1| max|C| + |s0| max|K|.
+  double size(const StiffnessFactors& factors) const;
   /// scale ||x|| / ||b|| for Z x = b: what the size of x says of the condition number of Z.
   double condition(const StiffnessFactors& factors, double solution_norm, double right_norm) const;
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
@@ -44,9 +49,15 @@ class StiffnessScale {
                          double right_norm) const;
 
  private:
-  std::array<double, 3> largest_;  // entry of M, C, K
+  std::array<double, 3> largest_;
 };
 
+using MethodMaker = std::function<std::unique_ptr<Condensation::Method>(const LinearStructure&)>;
+/// Another method in units in which matrices and dynamic stiffnesses beyond 1e100 or below 1e-100 have
+/// entries near 1, so that no square of a pivot overflows; it sees ordinary ones as they are. `make` is
+/// called once.
+std::unique_ptr<Condensation::Method> make_scaled_method(const LinearStructure& structure,
+                                                         const MethodMaker& make);
 /// For symmetric tridiagonal M, C, K.
 std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStructure& structure);
 /// For symmetric M, C, K whose undamped modes decouple them, K or M positive definite; null for any other.

@@ -60,6 +60,64 @@ void expect_equal(const CondensedPoint& a, const CondensedPoint& b, double toler
 constexpr CondensationMethod all_methods[] = {CondensationMethod::tridiagonal, CondensationMethod::modal,
                                               CondensationMethod::dense, CondensationMethod::sparse};
 
+// M, C, K times 2^entries and the factors times 2^(total - entries), seen in the old units.
+struct Rescaled {
+  Condensation condensation;
+  double factor, unit;
+
+  Rescaled(LinearStructure structure, CondensationMethod method, int entries, int total)
+      : condensation(times(std::move(structure), std::ldexp(1.0, entries)), method),
+        factor(std::ldexp(1.0, total - entries)),
+        unit(std::ldexp(1.0, total)) {}
+
+  static LinearStructure times(LinearStructure structure, double factor) {
+    for (auto* matrix : {&structure.mass, &structure.damping, &structure.stiffness}) *matrix *= factor;
+    return structure;
+  }
+  StiffnessFactors in_units(const StiffnessFactors& s) const {
+    return {s[0] * factor, s[1] * factor, s[2] * factor};
+  }
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+    const CondensedPoint point = condensation.at(in_units(factors), in_units(rates));
+    return {point.compliance * unit, point.load_response * unit, point.compliance_slope * unit,
+            point.load_response_slope * unit};
+  }
+  Complex spectrum_at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+    const Eigen::VectorXcd one = Eigen::VectorXcd::Constant(1, factor);
+    CondensedSpectrum result;
+    condensation.condense({one * factors[0], one * factors[1], one * factors[2]},
+                          {one * rates[0], one * rates[1], one * rates[2]}, result);
+    return result.compliance_slope(0, 0) * unit;
+  }
+};
+
+// Numbers whose squares overflow or vanish, as entries of the matrices and as factors.
+TEST(Condensation, StiffnessesBeyondTheRangeOfSquaresAreOnlyAnotherUnit) {
+  std::mt19937 generator(7);
+  LinearStructure chain = testing::random_chain(12, generator);
+  chain.load = Eigen::VectorXd::Unit(12, 11) * 2.0;
+  chain.contact_dofs = {11};
+  const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  const Eigen::VectorXcd force = Eigen::VectorXcd::Constant(1, Complex(0.3, -0.4));
+  for (const CondensationMethod method : all_methods) {
+    Rescaled ordinary(chain, method, 0, 0);
+    const CondensedPoint expected = ordinary.at(factors, rates);
+    const Eigen::VectorXcd full = ordinary.condensation.recover(factors, Complex(1.0, 2.0), force);
+    for (const int entries : {-900, -520, 0, 520, 900})
+      for (const int total : {-520, 0, 520, 900}) {
+        if (std::abs(total - entries) > 1000) continue;  // factors out of range
+        Rescaled rescaled(chain, method, entries, total);
+        expect_equal(rescaled.at(factors, rates), expected, 1e-13);
+        EXPECT_LE(std::abs(rescaled.spectrum_at(factors, rates) - expected.compliance_slope(0, 0)),
+                  1e-13 * std::abs(expected.compliance_slope(0, 0)));
+        const Eigen::VectorXcd recovered =
+            rescaled.condensation.recover(rescaled.in_units(factors), Complex(1.0, 2.0), force);
+        EXPECT_LE((recovered * rescaled.unit - full).norm(), 1e-13 * full.norm());
+      }
+  }
+}
+
 // Of one to three contacts: the chain, whose damping its modes decouple, by every method.
 TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
   std::mt19937 generator(1);
