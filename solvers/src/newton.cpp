@@ -48,7 +48,7 @@ double forcing_term(double residual, double tolerance) {
 
 // Bounds of force_defect(): what is sought, and beyond which a stiff law has made too much of a small
 // residual.
-constexpr double sought_defect = 1e-9, largest_defect = 1e-6;
+constexpr double sought_defect = 1e-9, largest_defect = 1e-7;
 
 // The force makes the motion u - R, whose own force is f - D R, and u is rounded: how far the law's force at
 // the motion may be from the force that makes it, over the largest force, times the share that it has in the
