@@ -51,8 +51,7 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
     problem_->apply(force_, product_);
   }
   residual_ = displacement - free + product_;
-  const double scale = safe_norm(free) + safe_norm(product_);
-  relative_residual_ = scale > 0.0 ? safe_norm(residual_) / scale : safe_norm(residual_);
+  relative_residual_ = relative_to(safe_norm(free) + safe_norm(product_), safe_norm(residual_));
   if (!std::isfinite(relative_residual_)) relative_residual_ = std::numeric_limits<double>::infinity();
   return relative_residual_;
 }

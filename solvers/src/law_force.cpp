@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "safe_norm.hpp"
 #include "unilateral_force.hpp"
 
 namespace wavebalance::solvers {
@@ -75,7 +76,7 @@ class LawObstacles {
       worst = std::isnan(miss) ? std::numeric_limits<double>::infinity() : std::max(worst, miss);
     }
     const double scale = free_.cwiseAbs().maxCoeff() + product.cwiseAbs().maxCoeff();
-    found.defect = scale > 0.0 ? worst / scale : worst;
+    found.defect = relative_to(scale, worst);
     const double largest = found.force.maxCoeff();
     constexpr double eps = std::numeric_limits<double>::epsilon();
     found.rounding = largest > 0.0 ? eps * found.displacement.cwiseAbs().maxCoeff() * (slope / largest) : 0.0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "dense_solve.hpp"
+#include "safe_norm.hpp"
 #include "spans.hpp"
 #include "wavebalance/solvers/adaptive_wavelet.hpp"
 
@@ -31,8 +32,7 @@ class SelectedSystem {
     displacement_.noalias() = balance_.values * a;
     contract();
     residual_ = a - balance_.free + response_;
-    const double scale = balance_.free.norm() + response_.norm();
-    const double relative = scale > 0.0 ? residual_.norm() / scale : residual_.norm();
+    const double relative = relative_to(balance_.free.norm() + response_.norm(), residual_.norm());
     return std::isfinite(relative) ? relative : std::numeric_limits<double>::infinity();
   }
 

@@ -50,7 +50,7 @@ class ContactSystem {
   const Eigen::VectorXd& force() const { return force_; }        ///< s f_c(u), N
   const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
   const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
-  /// ||R|| / (||u0|| + ||K f||); infinity when not finite.
+  /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
   double relative_residual() const { return relative_residual_; }
 
   /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
