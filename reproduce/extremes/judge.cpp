@@ -41,6 +41,15 @@ Eigen::MatrixXcd coefficients(const solvers::TimePair& pair, const Eigen::Matrix
   return result;
 }
 
+/// Standard deviation of a coefficient's spectrum, M/2 + 1 values, by that projection of samples with errors
+/// of deviation one: large where a trial function has little of a harmonic.
+Eigen::VectorXd projected_noise(const solvers::TimePair& pair) {
+  const solvers::TranslateIndex index{pair.functions(), pair.points()};
+  Eigen::VectorXcd gram;
+  index.fold(pair.trial_spectrum(), pair.trial_spectrum(), gram);
+  return (double(pair.points()) * gram.real().cwiseInverse()).cwiseSqrt();
+}
+
 double largest(const Eigen::SparseMatrix<double>& matrix) {
   return matrix.nonZeros() == 0
              ? 0.0
@@ -71,7 +80,9 @@ void measure_motion(const Scene& scene, const reproduce::Response& response, Res
   const double f = scene.forcing.frequency;
   const double mass = largest(structure.mass), damping = largest(structure.damping),
                stiffness = largest(structure.stiffness);
-  const double sample = std::numeric_limits<double>::epsilon() * samples.displacements.cwiseAbs().maxCoeff();
+  constexpr double deviations = 4.0;  // hardly a coefficient in ten thousand has a larger error
+  const Eigen::VectorXd noise = deviations * std::numeric_limits<double>::epsilon() *
+                                samples.displacements.cwiseAbs().maxCoeff() * projected_noise(pair);
   double worst = 0.0, scale = 0.0, rounding = 0.0;
   for (Eigen::Index k = 0; k < a.cols(); ++k) {
     const std::array<Eigen::VectorXcd, 3> terms{structure.mass * (pair.symbol(2)[k] * f * f * a.col(k)),
@@ -85,9 +96,9 @@ void measure_motion(const Scene& scene, const reproduce::Response& response, Res
     worst = std::max(worst, residual.cwiseAbs().maxCoeff());
     if (std::isnan(residual.cwiseAbs().sum())) worst = std::numeric_limits<double>::infinity();
     scale = std::max(scale, size);
-    rounding = std::max(rounding, sample * (std::abs(pair.symbol(2)[k]) * f * f * mass +
-                                            std::abs(pair.symbol(1)[k]) * f * damping +
-                                            std::abs(pair.symbol(0)[k]) * stiffness));
+    rounding = std::max(rounding, noise[k] * (std::abs(pair.symbol(2)[k]) * f * f * mass +
+                                              std::abs(pair.symbol(1)[k]) * f * damping +
+                                              std::abs(pair.symbol(0)[k]) * stiffness));
   }
   result.motion = scale > 0.0 ? worst / scale : worst;
   result.motion_rounding = scale > 0.0 ? rounding / scale : rounding;

@@ -22,8 +22,8 @@ RC_GTEST_PROP(RandomScenes, ConvergeToWhatHoldsOrSayWhyNot, ()) {
   RC_LOG() << reproduce::write_scene(scene);
   const extremes::Verdict verdict = extremes::judge(scene, 0);
   RC_LOG() << to_string(verdict.outcome) << ": " << verdict.text << "\nmotion " << verdict.residuals.motion
-           << "\ncomplementarity " << verdict.residuals.complementarity << "\nseconds " << verdict.seconds
-           << "\n";
+           << "\nits rounding " << verdict.residuals.motion_rounding << "\ncomplementarity "
+           << verdict.residuals.complementarity << "\nseconds " << verdict.seconds << "\n";
   RC_ASSERT(verdict.outcome != extremes::Outcome::wrong);
   RC_ASSERT(verdict.outcome == extremes::Outcome::solved || !verdict.text.empty());
   RC_TAG(to_string(verdict.outcome));
