@@ -93,15 +93,7 @@ std::vector<FixedChoice> ToleranceStudy::fixed_choices(double goal) const {
 }
 
 solvers::LadderResponse ToleranceStudy::climb(double tolerance) const {
-  const auto make = [this](int functions, int points) {
-    reproduce::Scene scene = scene_;
-    scene.time = {
-        .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
-    return reproduce::make_problem(scene, model_);
-  };
-  solvers::LadderOptions options;
-  options.tolerance = tolerance;
-  return solvers::response_to_tolerance(make, law_, options);
+  return tolerance::climb(scene_, model_, law_, {.tolerance = tolerance});
 }
 
 Asked ToleranceStudy::ask(double tolerance) const {

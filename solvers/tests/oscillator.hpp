@@ -49,6 +49,11 @@ struct Oscillator {
   }
 };
 
+/// m = k = 1.
+inline LinearStructure unit_oscillator(double damping, double load) {
+  return Oscillator{.mass = 1.0, .damping = damping, .stiffness = 1.0, .load = load}.structure();
+}
+
 /// f_c = max(stiffness (u - start), 0).
 struct LinearContact {
   double stiffness;  ///< N/m

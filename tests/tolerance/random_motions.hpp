@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "tolerance_scenes.hpp"
 #include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/scene.hpp"
 #include "wavebalance/solvers/periodic_field.hpp"
@@ -67,16 +68,10 @@ struct RandomMotion {
   /// Stops after the rung that `go_on`, when there is one, says no to.
   solvers::LadderResponse climb(double tolerance,
                                 std::function<bool(const solvers::LadderRung&)> go_on = {}) const {
-    const auto make = [this](int functions, int points) {
-      reproduce::Scene rung = scene;
-      rung.time = {
-          .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
-      return reproduce::make_problem(rung, model);
-    };
     solvers::LadderOptions options;
     options.tolerance = tolerance;
     options.observer = std::move(go_on);
-    return solvers::response_to_tolerance(make, law, options);
+    return tolerance::climb(scene, model, law, options);
   }
 
   reproduce::Scene scene;

@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/reproduce/compose.hpp"
 #include "wavebalance/reproduce/response.hpp"
 #include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/reproduce/structure_model.hpp"
+#include "wavebalance/solvers/resolution_ladder.hpp"
 
 namespace wavebalance::tolerance {
 
@@ -54,6 +57,19 @@ inline reproduce::Scene scene(const Motion& motion, const std::string& folder, d
   reproduce::Scene result = reproduce::load_scene(folder + "/tolerance/" + motion.file, changes);
   result.time.tolerance = tolerance;
   return result;
+}
+
+/// The ladder of a scene's structure and law, whose own [time] is not read.
+inline solvers::LadderResponse climb(const reproduce::Scene& scene, const reproduce::StructureModel& model,
+                                     const solvers::AnyContactLaw& law,
+                                     const solvers::LadderOptions& options) {
+  const auto make = [&](int functions, int points) {
+    reproduce::Scene rung = scene;
+    rung.time = {
+        .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
+    return reproduce::make_problem(rung, model);
+  };
+  return solvers::response_to_tolerance(make, law, options);
 }
 
 /// The displacement by shooting, whose own error is below 1e-10. A mass matrix that is not positive definite

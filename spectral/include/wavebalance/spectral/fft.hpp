@@ -12,8 +12,8 @@ namespace wavebalance::spectral {
 ///
 /// Neither is normalised: forward then inverse multiplies by N. For a period sampled at l/N, c(n)/N
 /// approximates the Fourier coefficient of harmonic n. O(N log N) for every N, primes included. Plans are
-/// made by the first transform of that size each way, without timing, so that results are the same bit for bit
-/// every time; they are shared by all objects of one size and kept up to 2^20 points in all.
+/// made by the first transform of that size each way, without timing, so that results are the same bit for
+/// bit every time; they are shared by all objects of one size and kept up to 2^20 points in all.
 ///
 /// The object owns work buffers: one object must not be used from two threads at the same time (hence no
 /// const transforms), different objects may. Making and destroying objects is thread-safe. Movable, not
