@@ -90,8 +90,9 @@ std::vector<Point> time_stepping_points(const Study& study, const std::vector<do
   const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
   const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
   return reference_points("time_stepping", study, tolerances, [&](double tolerance) {
-    const solvers::TimeSteppingOptions options{.period_tolerance = tolerance,
-                                               .step_tolerance = 1e-3 * tolerance};
+    solvers::TimeSteppingOptions options;
+    options.period_tolerance = tolerance;
+    options.step_tolerance = 1e-3 * tolerance;
     return solvers::integrate_to_periodic(structure, law, study.scene.forcing.frequency, options);
   });
 }
@@ -100,8 +101,9 @@ std::vector<Point> shooting_points(const Study& study, const std::vector<double>
   const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
   const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
   return reference_points("shooting", study, tolerances, [&](double tolerance) {
-    const solvers::ShootingOptions options{.tolerance = std::max(1e-11, 1e-2 * tolerance),
-                                           .step_tolerance = tolerance};
+    solvers::ShootingOptions options;
+    options.tolerance = std::max(1e-11, 1e-2 * tolerance);
+    options.step_tolerance = tolerance;
     return solvers::shoot(structure, law, study.scene.forcing.frequency, options);
   });
 }
