@@ -219,7 +219,7 @@ void Family::blades() {
 
 /// Scenes of the random search that were answered wrongly once.
 void Family::found() {
-  for (const char* name : {"squares", "preload", "stiff", "long", "haar", "still"})
+  for (const char* name : {"squares", "preload", "stiff", "long", "haar", "still", "steep", "vanishing"})
     solves("found at random", "found_" + std::string(name) + ".toml", {});
 }
 

@@ -12,12 +12,15 @@ namespace wavebalance::solvers {
 namespace {
 
 // An update of the inverse loses digits: it is made anew after this many, more where that is dear.
-Eigen::Index most_updates(Eigen::Index size) { return std::max<Eigen::Index>(50, size / 2); }
+Eigen::Index most_updates(Eigen::Index size) { return std::max<Eigen::Index>(50, 2 * size); }
+
+// Corners from one correction of force and slope by the whole inverse to the next.
+constexpr int corners_a_correction = 8;
 
 }  // namespace
 
 ComplementarityPath::ComplementarityPath(CondensedProblem& problem)
-    : problem_(problem), corners_a_leg_(10 * problem.samples()), operations_(1e10) {}
+    : problem_(problem), inverse_(problem.samples()), corners_a_leg_(10 * problem.samples()) {}
 
 // The column of a point is that of the point modulo the shift period, shifted by the rest.
 double ComplementarityPath::entry(int row, int column) const {
@@ -29,64 +32,61 @@ double ComplementarityPath::entry(int row, int column) const {
   return row == column ? k + state_.obstacles.flexibility[row] : k;
 }
 
-Eigen::MatrixXd ComplementarityPath::block() const {
-  Eigen::MatrixXd result(count(), count());
-  fill_active_compliance(problem_, state_.active, result);
-  result.diagonal() += state_.obstacles.flexibility(state_.active);
+Eigen::MatrixXd ComplementarityPath::block(const std::vector<int>& samples) const {
+  const auto n = static_cast<Eigen::Index>(samples.size());
+  Eigen::MatrixXd result(n, n);
+  fill_active_compliance(problem_, samples, result);
+  result.diagonal() += state_.obstacles.flexibility(samples);
   return result;
 }
 
-void ComplementarityPath::invert() {
-  updates_ = 0;
-  const Eigen::Index n = count();
-  if (n == 0) return;
-  if (inverse_.rows() < n) inverse_.resize(2 * n, 2 * n);
-  inverse() = block().partialPivLu().inverse();
-  operations_ -= 0.5 * double(n) * double(n) * double(n);  // blocked, at several times the rate of updates
+void ComplementarityPath::invert(const std::vector<int>& samples) {
+  inverse_.assign(samples, block(samples).partialPivLu().inverse());
+  const auto n = static_cast<double>(samples.size());
+  operations_ -= 2.0 * n * n * n;
 }
 
 double ComplementarityPath::condition() {
-  if (count() == 0) return 1.0;
+  if (inverse_.size() == 0) return 1.0;
   const auto norm = [](const auto& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); };
-  return norm(block()) * norm(inverse());
+  const double inverse = norm(inverse_.matrix());
+  return norm(block(inverse_.ascending())) * inverse;
 }
 
-// The inverse of the bordered block by its Schur complement.
+void ComplementarityPath::turn(int sample) {
+  inverse_.tidy();
+  const auto n = static_cast<double>(inverse_.size());
+  operations_ -= (inverse_.contains(sample) ? 2.0 : 6.0) * n * n;
+  inverse_.contains(sample) ? leave(sample) : enter(sample);
+}
+
 void ComplementarityPath::enter(int sample) {
-  const Eigen::Index n = count();
-  if (inverse_.rows() <= n) inverse_.conservativeResize(2 * n + 16, 2 * n + 16);
-  Eigen::VectorXd column(n), row(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    column[i] = entry(state_.active[static_cast<std::size_t>(i)], sample);
-    row[i] = entry(sample, state_.active[static_cast<std::size_t>(i)]);
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(inverse_.size()), row = column;
+  for (Eigen::Index i = 0; i < inverse_.size(); ++i) {
+    const int member = inverse_.members()[static_cast<std::size_t>(i)];
+    if (member < 0) continue;
+    column[i] = entry(member, sample);
+    row[i] = entry(sample, member);
   }
-  const Eigen::VectorXd right = inverse() * column, left = inverse().transpose() * row;
+  const Eigen::VectorXd right = inverse_.times(column), left = inverse_.transposed_times(row);
   const double pivot = entry(sample, sample) - row.dot(right);
-  inverse().noalias() += (right / pivot) * left.transpose();
-  inverse_.col(n).head(n) = -right / pivot;
-  inverse_.row(n).head(n) = -left.transpose() / pivot;
-  inverse_(n, n) = 1.0 / pivot;
-  state_.place[static_cast<std::size_t>(sample)] = static_cast<int>(n);
-  state_.active.push_back(sample);
-  ++updates_;
+  const double slope = (cover_[sample] - row.dot(inverse_.gather(slope_))) / pivot;
+  subtract(slope * right, slope_);
+  slope_[sample] = slope;
+  inverse_.enter(sample, right, left, pivot);
 }
 
 void ComplementarityPath::leave(int sample) {
-  const Eigen::Index n = count(), last = n - 1;
-  int& place = state_.place[static_cast<std::size_t>(sample)];
-  if (place != last) {
-    inverse_.col(place).head(n).swap(inverse_.col(last).head(n));
-    inverse_.row(place).head(n).swap(inverse_.row(last).head(n));
-    state_.active[static_cast<std::size_t>(place)] = state_.active.back();
-    state_.place[static_cast<std::size_t>(state_.active.back())] = place;
-  }
-  state_.active.pop_back();
-  place = -1;
-  state_.force[sample] = 0.0;
-  const Eigen::VectorXd column = inverse_.col(last).head(last) / inverse_(last, last);
-  const Eigen::RowVectorXd row = inverse_.row(last).head(last);
-  inverse().noalias() -= column * row;
-  ++updates_;
+  const Eigen::VectorXd column = inverse_.leave(sample);
+  subtract(slope_[sample] * column, slope_);
+  slope_[sample] = state_.force[sample] = distance_[sample] = 0.0;
+}
+
+// `values` in slots from those of all samples.
+void ComplementarityPath::subtract(const Eigen::VectorXd& values, Eigen::VectorXd& all) const {
+  for (Eigen::Index slot = 0; slot < inverse_.size(); ++slot)
+    if (const int member = inverse_.members()[static_cast<std::size_t>(slot)]; member >= 0)
+      all[member] -= values[slot];
 }
 
 void ComplementarityPath::measure() {
@@ -95,18 +95,32 @@ void ComplementarityPath::measure() {
   distance_ = obstacles.opening + z_ * cover_ + obstacles.flexibility.cwiseProduct(state_.force) + product_;
 }
 
-// Takes from the force what it leaves of a distance in contact.
+// Takes from the force what it leaves of a distance in contact, and rounding from its slope.
 void ComplementarityPath::correct() {
-  if (updates_ > most_updates(count())) invert();
+  if (inverse_.updates() > most_updates(inverse_.size())) invert(inverse_.ascending());
   measure();
-  const Eigen::VectorXd left = distance_(state_.active);
-  state_.force(state_.active) -= inverse() * left;
-  distance_(state_.active).setZero();
+  Eigen::MatrixXd right(inverse_.size(), 2);
+  right.col(0) = inverse_.gather(distance_);
+  right.col(1) = inverse_.gather(cover_);
+  const Eigen::MatrixXd found = inverse_.times(right);
+  operations_ -= 4.0 * double(inverse_.size()) * double(inverse_.size());
+  subtract(found.col(0), state_.force);
+  slope_.setZero(cover_.size());
+  subtract(-found.col(1), slope_);
+  keep_in_contact(distance_);
+}
+
+// Zero at the samples that press.
+void ComplementarityPath::keep_in_contact(Eigen::VectorXd& distance) const {
+  for (const int member : inverse_.members())
+    if (member >= 0) distance[member] = 0.0;
 }
 
 // At the end of a leg, to rounding of the terms that make a distance.
 bool ComplementarityPath::holds() {
   constexpr double rounding = 1e-10;
+  correct();
+  state_.active = inverse_.ascending();
   state_.force = state_.force.cwiseMax(0.0);
   measure();
   double size = product_.cwiseAbs().maxCoeff(), worst = 0.0;
@@ -120,14 +134,12 @@ bool ComplementarityPath::holds() {
 
 // By z, in the direction in which the sample that has just turned goes away from its bound.
 void ComplementarityPath::set_rates(int turned) {
-  const Eigen::VectorXd raised = cover_(state_.active);
-  force_rate_.setZero(state_.force.size());
-  force_rate_(state_.active) = -(inverse() * raised);
+  force_rate_ = -slope_;
   problem_.apply(force_rate_, product_);
   distance_rate_ = cover_ + state_.obstacles.flexibility.cwiseProduct(force_rate_) + product_;
-  distance_rate_(state_.active).setZero();
+  keep_in_contact(distance_rate_);
   if (turned >= 0) {
-    const bool presses = state_.place[static_cast<std::size_t>(turned)] >= 0;
+    const bool presses = inverse_.contains(turned);
     direction_ = (presses ? force_rate_[turned] : distance_rate_[turned]) > 0.0 ? 1.0 : -1.0;
   }
   force_rate_ *= direction_;
@@ -139,7 +151,7 @@ int ComplementarityPath::next_corner(double& length) const {
   int sample = -1;
   length = direction_ < 0.0 ? z_ : std::numeric_limits<double>::infinity();
   for (int l = 0; l < state_.force.size(); ++l) {
-    const bool presses = state_.place[static_cast<std::size_t>(l)] >= 0;
+    const bool presses = inverse_.contains(l);
     const double rate = presses ? force_rate_[l] : distance_rate_[l];
     if (!(rate < 0.0)) continue;
     const double ahead = std::max(0.0, presses ? state_.force[l] : distance_[l]) / -rate;
@@ -152,14 +164,15 @@ int ComplementarityPath::next_corner(double& length) const {
 
 ComplementarityPath::End ComplementarityPath::run(int sample) {
   for (int corner = 0; corner < corners_a_leg_ && operations_ > 0.0; ++corner, ++corners_) {
-    if (sample >= 0) state_.place[static_cast<std::size_t>(sample)] < 0 ? enter(sample) : leave(sample);
-    correct();
+    if (sample >= 0) turn(sample);
+    if (corner % corners_a_correction == 0) correct();
     set_rates(sample);
     double length = 0.0;
     sample = next_corner(length);
-    operations_ -= 10.0 * double(count()) * double(count()) + 100.0 * double(state_.force.size());
+    operations_ -= 300.0 * double(state_.force.size());  // transforms, at a fraction of the rate of products
     if (!std::isfinite(length) || !state_.force.allFinite()) return End::ray;
     state_.force += length * force_rate_;
+    distance_ += length * distance_rate_;
     z_ = sample < 0 ? 0.0 : z_ + length * direction_;
     if (sample < 0) return holds() ? End::reached : End::lost;
     if (observer_ && !observer_(z_ / first_z_)) return End::stopped;
@@ -168,12 +181,11 @@ ComplementarityPath::End ComplementarityPath::run(int sample) {
 }
 
 ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen::VectorXd& cover) {
-  state_.obstacles = std::move(goal);
+  state_ = {std::move(goal), {}, Eigen::VectorXd::Zero(cover.size())};
   cover_ = cover;
-  state_.active.clear();
-  state_.place.assign(static_cast<std::size_t>(cover.size()), -1);
-  state_.force.setZero(cover.size());
-  updates_ = 0;
+  inverse_.assign({}, Eigen::MatrixXd());
+  slope_.setZero(cover.size());
+  distance_.setZero(cover.size());
   direction_ = -1.0;
   int sample = 0;
   z_ = first_z_ = (-state_.obstacles.opening.cwiseQuotient(cover_)).maxCoeff(&sample);
@@ -187,7 +199,7 @@ ComplementarityPath::End ComplementarityPath::follow(Obstacles goal) {
   state_.obstacles = std::move(goal);
   z_ = first_z_ = 1.0;
   direction_ = -1.0;
-  invert();
+  invert(state_.active);
   return run(-1);
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
+#include "active_inverse.hpp"
 #include "wavebalance/solvers/condensed_problem.hpp"
 
 namespace wavebalance::solvers {
@@ -26,7 +29,8 @@ struct Obstacles {
 /// With exact inner products and damping no path of obstacles lowered evenly leads to infinity: a motion
 /// without load would do work. Sums over points may do some, and then it can.
 ///
-/// The inverse over the samples that press is updated: O(active^2 + C N log N + C^2 M) a corner. A path on
+/// The inverse over the samples that press and the slope of the path are updated, and corrected from time to
+/// time: O(active^2 + C N log N + C^2 M) a corner. A path on
 /// which digits were lost is told by what its end leaves of the problem.
 class ComplementarityPath {
  public:
@@ -38,8 +42,8 @@ class ComplementarityPath {
 
   /// Corners of one leg at most.
   void set_longest_leg(int corners) { corners_a_leg_ = corners; }
-  /// Floating-point operations of all legs together at most.
-  void set_operations(double operations) { operations_ = operations; }
+  /// Floating-point operations of all legs to come at most.
+  void limit_operations(double most) { operations_ = std::min(operations_, most); }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
 
   /// Lowers the obstacles, raised by z cover, from where they touch first to z = 0. `cover` > 0.
@@ -50,8 +54,8 @@ class ComplementarityPath {
   /// A solution to come back to.
   struct State {
     Obstacles obstacles;
-    std::vector<int> active, place;  ///< samples that press; the place of each sample among them or -1
-    Eigen::VectorXd force;           ///< N
+    std::vector<int> active;  ///< samples that press, ascending
+    Eigen::VectorXd force;    ///< N
   };
   const State& state() const { return state_; }
   void restore(State state) { state_ = std::move(state); }
@@ -63,15 +67,16 @@ class ComplementarityPath {
   bool may_go_on() const { return operations_ > 0.0; }
 
  private:
-  Eigen::Index count() const { return static_cast<Eigen::Index>(state_.active.size()); }
-  auto inverse() { return inverse_.topLeftCorner(count(), count()); }
   double entry(int row, int column) const;
-  Eigen::MatrixXd block() const;
-  void invert();
+  Eigen::MatrixXd block(const std::vector<int>& samples) const;
+  void invert(const std::vector<int>& samples);
+  void turn(int sample);
   void enter(int sample);
   void leave(int sample);
+  void subtract(const Eigen::VectorXd& values, Eigen::VectorXd& all) const;
   void measure();
   void correct();
+  void keep_in_contact(Eigen::VectorXd& distance) const;
   bool holds();
   void set_rates(int turned);
   int next_corner(double& length) const;
@@ -80,11 +85,12 @@ class ComplementarityPath {
   CondensedProblem& problem_;
   State state_;
   Eigen::VectorXd cover_;
-  Eigen::MatrixXd inverse_;  // of K + flexibility over the active samples, in a larger array
+  ActiveInverse inverse_;  // of K + flexibility over the samples that press
+  Eigen::VectorXd slope_;  // how force falls with z: the inverse times the cover there, elsewhere zero
   Eigen::VectorXd distance_, force_rate_, distance_rate_, product_;
   double z_ = 0.0, direction_ = -1.0, first_z_ = 1.0;
-  int corners_ = 0, corners_a_leg_ = 0, updates_ = 0;
-  double operations_ = 0.0;
+  int corners_ = 0, corners_a_leg_ = 0;
+  double operations_ = std::numeric_limits<double>::infinity();  // left
   Observer observer_;
 };
 

@@ -11,21 +11,25 @@
 namespace wavebalance::solvers {
 namespace {
 
-// The displacement at which a law gives `force` > 0, by bisection and Newton; not a number when it does not.
+// The displacement at which a law gives `force` > 0; not a number when it does not. By Newton within a
+// bracket, and by bisection where its steps do not fall by half: a steep exponential would take thousands of
+// equal ones.
 double inverse(const AnyContactLaw& law, double force) {
   constexpr int most = 200;
   double low = law.gap(), width = force / law.tangent(low);
   int doublings = 0;
   while (law.force(low + width) < force && ++doublings < most) width *= 2.0;
   if (doublings == most) return std::numeric_limits<double>::quiet_NaN();
-  double high = low + width, u = high;
+  double high = low + width, u = high, step = width;
   for (int i = 0; i < most && high > low; ++i) {
     const double excess = law.force(u) - force;
     if (excess == 0.0) return u;
     (excess > 0.0 ? high : low) = u;
     const double next = u - excess / law.tangent(u);
-    const double before = std::exchange(u, next > low && next < high ? next : 0.5 * (low + high));
-    if (u == before) return u;
+    const bool falls = next > low && next < high && std::abs(next - u) <= 0.5 * step;
+    const double before = std::exchange(u, falls ? next : 0.5 * (low + high));
+    step = std::abs(u - before);
+    if (step == 0.0) return u;
   }
   return u;
 }

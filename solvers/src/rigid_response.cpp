@@ -30,13 +30,15 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   Eigen::MatrixXd matrix(count, count);
   fill_active_compliance(problem, active, matrix);
   const Eigen::VectorXd right = (problem.free_response() - gap)(active);
-  const Eigen::VectorXd values = matrix.completeOrthogonalDecomposition().solve(right);
+  const double unit = matrix.cwiseAbs().maxCoeff();  // compliances below 1e-154 m/N have squares that vanish
+  const Eigen::VectorXd values = (matrix / unit).completeOrthogonalDecomposition().solve(right) / unit;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(start.size());
   force(active) = values;
   Eigen::VectorXd product(start.size());
   problem.apply(force, product);
-  const double excess = (problem.free_response() - product - gap).maxCoeff();
-  if (!force.allFinite() || values.minCoeff() < 0.0 || excess > tolerance) return std::nullopt;
+  const Eigen::VectorXd excess = problem.free_response() - product - gap;
+  const double worst = std::max(excess.maxCoeff(), excess(active).cwiseAbs().maxCoeff());
+  if (!force.allFinite() || values.minCoeff() < 0.0 || !(worst <= tolerance)) return std::nullopt;
   return force;
 }
 
@@ -74,7 +76,9 @@ void solve_contact(CondensedProblem& problem, const Eigen::VectorXd& gap, const 
   Eigen::VectorXd product;
   problem.apply(response.contact_force, product);
   response.displacement = free - product;
-  if ((response.displacement - gap).maxCoeff() <= options.tolerance * size)
+  const Eigen::ArrayXd excess = response.displacement - gap;
+  const Eigen::ArrayXd share = response.contact_force / response.contact_force.maxCoeff();
+  if (std::max(excess.maxCoeff(), (share * excess).abs().maxCoeff()) <= options.tolerance * size)
     response.status = SolveStatus::converged;
 }
 

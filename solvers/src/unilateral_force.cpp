@@ -10,11 +10,12 @@ namespace {
 
 using End = ComplementarityPath::End;
 
-// About four seconds; a path that is lost runs through its corners to no avail.
-constexpr double most_operations = 1e10;
+// About eight seconds, in which 800 samples in rigid contact arrive, and of those at most two for the last
+// attempts: a path that is lost runs through its corners to no avail.
+constexpr double most_operations = 7e10, most_operations_unevenly = 1e10;
 constexpr int uneven_attempts = 200;
 
-int short_leg(int samples) { return samples / 4 + 50; }
+int short_leg(int samples) { return samples / 16 + 50; }
 int uneven_leg(int samples) { return samples + 100; }
 int long_leg(int samples) { return 10 * samples + 200; }
 
@@ -31,7 +32,7 @@ UnilateralForce::UnilateralForce(CondensedProblem& problem, ComplementarityPath:
     : path_(problem),
       largest_compliance_(problem.columns().cwiseAbs().maxCoeff()),
       least_(least_flexibility * largest_compliance_) {
-  path_.set_operations(most_operations);
+  path_.limit_operations(most_operations);
   if (observer)
     path_.set_observer([this, observer = std::move(observer)](double z) {
       stopped_ = !observer(z);
@@ -72,8 +73,8 @@ bool UnilateralForce::stiffen(const Obstacles& goal, double factor, double small
       continue;
     }
     factor = std::sqrt(factor);
-    if (stopped_ || !path_.may_go_on() || factor < smallest) return false;
     path_.restore(before);
+    if (stopped_ || !path_.may_go_on() || factor < smallest) return false;
   }
   condition_ = path_.condition();
   return true;
@@ -85,8 +86,10 @@ bool UnilateralForce::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
   path_.set_longest_leg(long_leg(samples));
   if (lower(goal, soft, even)) {
     const ComplementarityPath::State start = path_.state();
-    path_.set_longest_leg(short_leg(samples));
-    if (stiffen(goal, 3.0, 1.02)) return true;
+    for (const auto& [longer, smallest] : {std::pair{1, 1.2}, {4, 1.2}, {16, 1.2}, {1, 1.02}}) {
+      path_.set_longest_leg(longer * short_leg(samples));
+      if (stiffen(goal, 3.0, smallest)) return true;
+    }
     path_.set_longest_leg(long_leg(samples));
     for (const double factor : {3.0, 10.0, 100.0}) {
       path_.restore(start);
@@ -99,6 +102,7 @@ bool UnilateralForce::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
 
 bool UnilateralForce::uneven_paths(const Obstacles& goal, const Eigen::VectorXd& even) {
   path_.set_longest_leg(uneven_leg(static_cast<int>(even.size())));
+  path_.limit_operations(most_operations_unevenly);
   std::mt19937 generator(20140817);
   const auto power = [&](double low, double high) {
     return std::pow(10.0, std::uniform_real_distribution<double>(low, high)(generator));

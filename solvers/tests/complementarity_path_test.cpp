@@ -119,7 +119,7 @@ TEST(ComplementarityPath, EndsWhereItIsToldToAndSaysSo) {
   EXPECT_EQ(path.lower(obstacles, even), End::stopped);
   EXPECT_EQ(told, 4);
   path.set_observer({});
-  path.set_operations(1.0);
+  path.limit_operations(1.0);
   EXPECT_EQ(path.lower(obstacles, even), End::limit);
   EXPECT_FALSE(path.may_go_on());
   const Obstacles away{Eigen::VectorXd::Constant(64, 2.0 * free.maxCoeff()) - free, obstacles.flexibility};
