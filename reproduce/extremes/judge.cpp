@@ -147,17 +147,18 @@ bool is_slow(const Scene& scene) {
 }
 
 /// They also follow the contact: against a law far stiffer than the bar's elements they take too many.
-bool is_stiff(const Scene& scene) {
+bool is_stiff(const Scene& scene, double displacement) {
   const auto& bar = scene.structure;
   const double element = bar.youngs_modulus * bar.area / bar.length * bar.elements;
-  return reproduce::make_law(scene.contact).tangent(scene.contact.gap) > 1e4 * element;
+  return !(reproduce::make_law(scene.contact).tangent(std::max(displacement, scene.contact.gap)) <=
+           1e4 * element);
 }
 
-bool can_be_stepped(const Scene& scene, int stepped_elements) {
+bool can_be_stepped(const Scene& scene, const solvers::PeriodSamples& samples, int stepped_elements) {
   return scene.structure.type == reproduce::StructureType::bar && !is_slow(scene) &&
-         scene.contact.law != ContactLawType::rigid && !is_stiff(scene) && !scene.structure.massless_tip &&
-         scene.structure.elements <= stepped_elements && scene.time.trial != "haar" &&
-         scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
+         scene.contact.law != ContactLawType::rigid && !is_stiff(scene, samples.displacement.maxCoeff()) &&
+         !scene.structure.massless_tip && scene.structure.elements <= stepped_elements &&
+         scene.time.trial != "haar" && scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
 }
 
 double periodicity(const Scene& scene, const solvers::PeriodSamples& samples) {
@@ -257,7 +258,8 @@ Residuals residuals(const Scene& scene, const reproduce::Response& response, int
   Residuals result;
   measure_motion(scene, response, result);
   result.complementarity = complementarity(scene, response.contacts);
-  if (can_be_stepped(scene, stepped_elements)) result.periodicity = periodicity(scene, response.samples);
+  if (can_be_stepped(scene, response.samples, stepped_elements))
+    result.periodicity = periodicity(scene, response.samples);
   return result;
 }
 
