@@ -15,8 +15,8 @@ struct Residuals {
   /// max over k of |Z(k) a(k) - load(k) + e contact(k)| over the largest sum of the sizes of its terms, the
   /// motion of every degree of freedom and the contact force being those of the record.
   double motion = std::numeric_limits<double>::quiet_NaN();
-  /// What rounding each sample to the next double may make of `motion`: far above the natural frequencies
-  /// inertia makes much of it.
+  /// What rounding each sample to the next double may make of `motion`, four standard deviations: far above
+  /// the natural frequencies inertia makes much of it.
   double motion_rounding = 0.0;
   /// Of a law: force outside of what it gives within a billionth of the motion about its displacement, over
   /// the largest force. Of a rigid obstacle the largest of: force below zero over the largest force;

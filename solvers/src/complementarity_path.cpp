@@ -56,8 +56,13 @@ double ComplementarityPath::condition() {
 void ComplementarityPath::turn(int sample) {
   inverse_.tidy();
   const auto n = static_cast<double>(inverse_.size());
-  operations_ -= (inverse_.contains(sample) ? 2.0 : 6.0) * n * n;
-  inverse_.contains(sample) ? leave(sample) : enter(sample);
+  if (inverse_.contains(sample)) {
+    operations_ -= 2.0 * n * n;
+    leave(sample);
+  } else {
+    operations_ -= 6.0 * n * n;
+    enter(sample);
+  }
 }
 
 void ComplementarityPath::enter(int sample) {
@@ -82,7 +87,7 @@ void ComplementarityPath::leave(int sample) {
   slope_[sample] = state_.force[sample] = distance_[sample] = 0.0;
 }
 
-// `values` in slots from those of all samples.
+// Takes `values`, which are in the slots of the inverse, from those of all samples.
 void ComplementarityPath::subtract(const Eigen::VectorXd& values, Eigen::VectorXd& all) const {
   for (Eigen::Index slot = 0; slot < inverse_.size(); ++slot)
     if (const int member = inverse_.members()[static_cast<std::size_t>(slot)]; member >= 0)
@@ -116,8 +121,8 @@ void ComplementarityPath::keep_in_contact(Eigen::VectorXd& distance) const {
     if (member >= 0) distance[member] = 0.0;
 }
 
-// At the end of a leg, to rounding of the terms that make a distance.
-bool ComplementarityPath::holds() {
+// At the end of a leg: the solution, if it holds to rounding of the terms that make a distance.
+ComplementarityPath::End ComplementarityPath::arrive() {
   constexpr double rounding = 1e-10;
   correct();
   state_.active = inverse_.ascending();
@@ -129,7 +134,7 @@ bool ComplementarityPath::holds() {
     if (std::isfinite(opening)) size = std::max(size, opening);
     worst = std::max(worst, state_.force[l] > 0.0 ? std::abs(distance_[l]) : -distance_[l]);
   }
-  return std::isfinite(size) && worst <= rounding * size;
+  return std::isfinite(size) && worst <= rounding * size ? End::reached : End::lost;
 }
 
 // By z, in the direction in which the sample that has just turned goes away from its bound.
@@ -174,7 +179,7 @@ ComplementarityPath::End ComplementarityPath::run(int sample) {
     state_.force += length * force_rate_;
     distance_ += length * distance_rate_;
     z_ = sample < 0 ? 0.0 : z_ + length * direction_;
-    if (sample < 0) return holds() ? End::reached : End::lost;
+    if (sample < 0) return arrive();
     if (observer_ && !observer_(z_ / first_z_)) return End::stopped;
   }
   return End::limit;

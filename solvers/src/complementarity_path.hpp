@@ -77,7 +77,7 @@ class ComplementarityPath {
   void measure();
   void correct();
   void keep_in_contact(Eigen::VectorXd& distance) const;
-  bool holds();
+  End arrive();
   void set_rates(int turned);
   int next_corner(double& length) const;
   End run(int sample);

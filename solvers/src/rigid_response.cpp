@@ -18,6 +18,13 @@ Eigen::VectorXd sample_gaps(const Eigen::VectorXd& gaps, int points) {
   return gaps.transpose().replicate(points, 1).reshaped();
 }
 
+// What `force` leaves of the complementarity with displacements `excess` beyond the gaps, m: penetration, and
+// distance from the gap by the share of the largest force that presses there.
+double violation(const Eigen::VectorXd& excess, const Eigen::VectorXd& force) {
+  const double largest = force.maxCoeff();
+  return std::max(excess.maxCoeff(), (force / largest).cwiseProduct(excess).cwiseAbs().maxCoeff());
+}
+
 // Force with u = gap at the samples where `start` presses, by least squares: K is singular on more samples
 // than there are functions. Nothing when a sign fails.
 std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eigen::VectorXd& gap,
@@ -36,9 +43,8 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   force(active) = values;
   Eigen::VectorXd product(start.size());
   problem.apply(force, product);
-  const Eigen::VectorXd excess = problem.free_response() - product - gap;
-  const double worst = std::max(excess.maxCoeff(), excess(active).cwiseAbs().maxCoeff());
-  if (!force.allFinite() || values.minCoeff() < 0.0 || !(worst <= tolerance)) return std::nullopt;
+  if (!force.allFinite() || values.minCoeff() < 0.0) return std::nullopt;
+  if (!(violation(problem.free_response() - product - gap, force) <= tolerance)) return std::nullopt;
   return force;
 }
 
@@ -76,9 +82,7 @@ void solve_contact(CondensedProblem& problem, const Eigen::VectorXd& gap, const 
   Eigen::VectorXd product;
   problem.apply(response.contact_force, product);
   response.displacement = free - product;
-  const Eigen::ArrayXd excess = response.displacement - gap;
-  const Eigen::ArrayXd share = response.contact_force / response.contact_force.maxCoeff();
-  if (std::max(excess.maxCoeff(), (share * excess).abs().maxCoeff()) <= options.tolerance * size)
+  if (violation(response.displacement - gap, response.contact_force) <= options.tolerance * size)
     response.status = SolveStatus::converged;
 }
 
