@@ -1,22 +1,17 @@
 #include "wavebalance/wavelets/bspline.hpp"
 
-#include <gsl/gsl_integration.h>
-
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
-#include "refinable.hpp"
+#include "require.hpp"
 
 namespace wavebalance::wavelets {
 
 Eigen::VectorXd bspline_values(int degree, double fraction, int derivative) {
   detail::require_in_range("bspline_values: derivative", derivative, 0, degree);
   if (!(fraction >= 0.0 && fraction < 1.0))
-    throw std::invalid_argument("bspline_values: fraction = " + std::to_string(fraction) +
-                                ", allowed: [0, 1)");
+    detail::reject("bspline_values: fraction", std::to_string(fraction), "in [0, 1)");
   Eigen::VectorXd values = Eigen::VectorXd::Zero(degree + 1);
   values[0] = 1.0;
   for (int n = 1; n <= degree - derivative; ++n)
@@ -36,22 +31,6 @@ double cubic_gram_symbol(double cosine) {
 
 Eigen::VectorXd orthonormal_cubic_coefficients(int largest) {
   detail::require_in_range("orthonormal_cubic_coefficients: largest", largest, 0, 100);
-  constexpr int points = 512;
-  const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> rule(
-      gsl_integration_glfixed_table_alloc(points), gsl_integration_glfixed_table_free);
-  if (!rule) throw std::bad_alloc();
-  Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(largest + 1);
-  for (int i = 0; i < points; ++i) {
-    double xi = 0.0, weight = 0.0;
-    gsl_integration_glfixed_point(0.0, std::numbers::pi, i, &xi, &weight, rule.get());
-    const double value = weight / (std::numbers::pi * std::sqrt(cubic_gram_symbol(std::cos(xi))));
-    for (int k = 0; k <= largest; ++k) coefficients[k] += value * std::cos(k * xi);
-  }
-  return coefficients;
-}
-
-Eigen::VectorXd orthonormal_cubic_coefficients_by_symbol(int largest) {
-  detail::require_in_range("orthonormal_cubic_coefficients_by_symbol: largest", largest, 0, 100);
   constexpr int points = 512;
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(largest + 1);
   for (int i = 0; i < points; ++i) {

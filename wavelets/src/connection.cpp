@@ -7,6 +7,7 @@
 
 #include "memo.hpp"
 #include "refinable.hpp"
+#include "require.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
@@ -36,8 +37,8 @@ detail::ExtendedVector divided_filter(const ScalingFunction& function, int remov
   return detail::extended_daubechies_filter(static_cast<int>(function.filter().size()), removed);
 }
 
-// C^(derivative) at the integers, with the zeros at pi taken from both filters alike as far as they have
-// them.
+// C^(derivative) at the integers. The zeros at pi that have to be divided out are taken in equal numbers from
+// both filters, as far as each has them.
 Eigen::VectorXd correlation_values(const ScalingFunction& trial, const ScalingFunction& weight,
                                    int derivative) {
   const int of_trial = std::min(zeros(trial), std::max(derivative - zeros(weight), (derivative + 1) / 2));
@@ -46,7 +47,7 @@ Eigen::VectorXd correlation_values(const ScalingFunction& trial, const ScalingFu
   return detail::values_at_integers(mask, derivative);
 }
 
-// The families are known by the degree of a spline or by the length of a filter, taken negative.
+// Key of a family: the degree of a spline, which is at least 0, or minus the length of a Daubechies filter.
 int family(const ScalingFunction& function) {
   return function.spline_degree() ? *function.spline_degree() : -static_cast<int>(function.filter().size());
 }
@@ -60,9 +61,10 @@ const Eigen::VectorXd& known_correlation_values(const ScalingFunction& trial, co
 
 std::string describe(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
   return "the inner product of " + weight.name() + " with derivative " + std::to_string(derivative) + " of " +
-         trial.name() + " does not exist: Sobolev exponents " + std::to_string(weight.sobolev_exponent()) +
-         " + " + std::to_string(trial.sobolev_exponent()) + ", allowed: a sum above " +
-         std::to_string(derivative);
+         trial.name() + " does not exist: the sum of their Sobolev exponents " +
+         std::to_string(weight.sobolev_exponent()) + " and " + std::to_string(trial.sobolev_exponent()) +
+         " is " + std::to_string(weight.sobolev_exponent() + trial.sobolev_exponent()) +
+         "; it must be above " + std::to_string(derivative);
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ InadmissiblePairError::InadmissiblePairError(const ScalingFunction& trial, const
       derivative_(derivative) {}
 
 bool connection_exists(const ScalingFunction& trial, const ScalingFunction& weight, int derivative) {
-  // The exponents are computed to about 1e-9; a sum that is an integer is critical and excluded.
+  // A sum equal to the derivative is the critical case and excluded; the margin covers rounding.
   return trial.sobolev_exponent() + weight.sobolev_exponent() > derivative + 1e-6;
 }
 
@@ -97,9 +99,9 @@ ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, con
 Eigen::VectorXd periodic_inner_products(const PeriodicBasis& trial, const PeriodicBasis& weight,
                                         int derivative) {
   if (trial.level() != weight.level())
-    throw std::invalid_argument("periodic_inner_products: trial has " + std::to_string(trial.functions()) +
-                                " functions and weight " + std::to_string(weight.functions()) +
-                                ", allowed: the same number");
+    detail::reject("periodic_inner_products: the number of weight functions",
+                   std::to_string(weight.functions()),
+                   "that of the trial functions, " + std::to_string(trial.functions()));
   const ConnectionCoefficients line =
       connection_coefficients(trial.scaling_function(), weight.scaling_function(), derivative);
   const int period = trial.functions();

@@ -1,10 +1,10 @@
 #include <complex>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "memo.hpp"
 #include "refinable.hpp"
+#include "require.hpp"
 #include "wavebalance/wavelets/filter.hpp"
 
 namespace wavebalance::wavelets {
@@ -49,9 +49,10 @@ std::vector<Extended> daubechies_polynomial(int zeros) {
   return coefficients;
 }
 
-// All roots at once by Durand-Kerner sweeps, until no root moves by more than the square root of `enough`.
+// Improves all roots at once by Durand-Kerner sweeps, until the square of the largest step is below
+// `tolerance`.
 template <class Real>
-void improve_roots(const std::vector<Extended>& coefficients, Real enough,
+void improve_roots(const std::vector<Extended>& coefficients, Real tolerance,
                    std::vector<ComplexOf<Real>>& root) {
   using Number = ComplexOf<Real>;
   const auto coefficient = [&](std::size_t k) { return Number{static_cast<Real>(coefficients[k]), 0}; };
@@ -68,7 +69,7 @@ void improve_roots(const std::vector<Extended>& coefficients, Real enough,
       root[i] = root[i] - step;
       if (squared_modulus(step) > change) change = squared_modulus(step);
     }
-    if (change < enough) return;
+    if (change < tolerance) return;
   }
 }
 
@@ -112,8 +113,7 @@ std::vector<Complex> minimum_phase_factor(int zeros) {
 
 detail::ExtendedVector detail::extended_daubechies_filter(int coefficients, int removed) {
   if (coefficients < 2 || coefficients > 40 || coefficients % 2 != 0)
-    throw std::invalid_argument("daubechies_filter: coefficients = " + std::to_string(coefficients) +
-                                ", allowed: even numbers 2..40");
+    reject("daubechies_filter: coefficients", std::to_string(coefficients), "even and in 2..40");
   const int zeros = coefficients / 2;
   static Memo<int, std::vector<Complex>> factors;
   std::vector<Complex> product = factors.get(zeros, [&] { return minimum_phase_factor(zeros); });

@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
+
+#include "require.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
@@ -19,18 +20,16 @@ bool orthonormal(const Eigen::VectorXd& filter) {
 
 void check_levels(Eigen::Index length, int levels) {
   if (levels < 0 || levels > 30 || length < 1 || length % (Eigen::Index{1} << levels) != 0)
-    throw std::invalid_argument("FastWaveletTransform: levels = " + std::to_string(levels) +
-                                " of a signal of length " + std::to_string(length) +
-                                ", allowed: levels >= 0 with 2^levels dividing the length");
+    detail::reject("FastWaveletTransform: levels", std::to_string(levels),
+                   "at least 0, and 2^levels must divide the signal's length, " + std::to_string(length));
 }
 
 }  // namespace
 
 FastWaveletTransform::FastWaveletTransform(const Eigen::VectorXd& filter) {
   if (filter.size() < 2 || filter.size() % 2 != 0 || !orthonormal(filter))
-    throw std::invalid_argument(
-        "FastWaveletTransform: filter of length " + std::to_string(filter.size()) +
-        " is not orthonormal, allowed: even length and sum_l p_l p_{l+2k} = 2 delta_k");
+    detail::reject("FastWaveletTransform: filter", "a vector of length " + std::to_string(filter.size()),
+                   "of even length and orthonormal, sum_l p_l p_{l+2k} = 2 delta_k");
   low_pass_ = filter / std::numbers::sqrt2;
   high_pass_ = low_pass_.reverse();
   for (Eigen::Index l = 1; l < filter.size(); l += 2) high_pass_[l] = -high_pass_[l];

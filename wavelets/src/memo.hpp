@@ -5,12 +5,12 @@
 
 namespace wavebalance::wavelets::detail {
 
-/// What was made once for a key, kept for as long as the memo lives: for values that depend on nothing but a
-/// key from a small set, as families and orders of derivatives are. Thread-safe; references stay valid.
+/// Values that are computed once per key and kept for the lifetime of the memo. Meant for keys from a small
+/// set, such as families and orders of derivatives. Thread-safe; references stay valid.
 template <class Key, class Value>
 class Memo {
  public:
-  /// The value of `key`, by `make()` when it is asked for first. A throw of make() keeps nothing.
+  /// The value of `key`, computed by `make()` at the first call. If make() throws, nothing is stored.
   template <class Make>
   const Value& get(const Key& key, const Make& make) {
     const std::lock_guard lock(mutex_);

@@ -2,11 +2,10 @@
 
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "refinable.hpp"
+#include "require.hpp"
 #include "wavebalance/wavelets/bspline.hpp"
 
 namespace wavebalance::wavelets {
@@ -29,11 +28,9 @@ PeriodicBasis::PeriodicBasis(ScalingFunction scaling_function, int level)
 }
 
 Eigen::VectorXd PeriodicBasis::samples(int points, int derivative) const {
-  if (points < 1)
-    throw std::invalid_argument("PeriodicBasis::samples: points = " + std::to_string(points) +
-                                ", allowed: >= 1");
-  detail::require_in_range(("PeriodicBasis::samples: derivative of " + scaling_function_.name()).c_str(),
-                           derivative, 0, pointwise_derivatives());
+  if (points < 1) detail::reject("PeriodicBasis::samples: points", std::to_string(points), "at least 1");
+  detail::require_in_range("PeriodicBasis::samples: derivative of " + scaling_function_.name(), derivative, 0,
+                           pointwise_derivatives());
   const Eigen::VectorXd values = scaling_function_.spline_degree() ? spline_samples(points, derivative)
                                                                    : dyadic_samples(points, derivative);
   return values * std::ldexp(1.0, level_ * derivative);
@@ -45,10 +42,10 @@ Eigen::VectorXd PeriodicBasis::spline_samples(int points, int derivative) const 
   const Eigen::Index period = functions();
   const int degree = *scaling_function_.spline_degree();
   const Eigen::VectorXd wrapped = wrapped_coefficients(scaling_function_, functions());
-  Eigen::VectorXd preceded(period + degree);  // c~ with the degree values before its first
+  Eigen::VectorXd preceded(period + degree);  // c~ after the `degree` values that precede it on the circle
   for (Eigen::Index i = 0; i < preceded.size(); ++i) preceded[i] = wrapped[modulo(i - degree, period)];
   const Eigen::Index common = std::gcd(period, Eigen::Index{points});
-  Eigen::MatrixXd values(degree + 1, points / common);  // B(x - i + j), j falling
+  Eigen::MatrixXd values(degree + 1, points / common);  // B(x - i + j) with j descending
   for (Eigen::Index f = 0; f < values.cols(); ++f)
     values.col(f) = bspline_values(degree, static_cast<double>(f * common) / points, derivative).reverse();
   Eigen::VectorXd result(points);
@@ -61,14 +58,15 @@ Eigen::VectorXd PeriodicBasis::spline_samples(int points, int derivative) const 
 
 Eigen::VectorXd PeriodicBasis::dyadic_samples(int points, int derivative) const {
   if ((points & (points - 1)) != 0)
-    throw std::invalid_argument("PeriodicBasis::samples: points = " + std::to_string(points) + " for " +
-                                scaling_function_.name() +
-                                ", which is known on dyadic points only; allowed: powers of two");
+    detail::reject(
+        "PeriodicBasis::samples: points", std::to_string(points),
+        "a power of two for " + scaling_function_.name() + ", which is known at dyadic points only");
   const int period = functions();
   int refinement = 0;
   while ((static_cast<long long>(period) << refinement) < points) ++refinement;
   const Eigen::VectorXd table = scaling_function_.values(refinement, derivative);
-  // x = n 2^-refinement is t = n / fine on the circle; fewer points than functions keep every stride-th.
+  // x = n 2^-refinement is t = n / fine on the circle. With fewer points than functions only every stride-th
+  // value is kept.
   const Eigen::Index fine = static_cast<Eigen::Index>(period) << refinement, stride = fine / points;
   Eigen::VectorXd result = Eigen::VectorXd::Zero(points);
   for (Eigen::Index n = 0; n < table.size(); ++n) {

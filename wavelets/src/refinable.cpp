@@ -1,9 +1,6 @@
 #include "refinable.hpp"
 
 #include <Eigen/QR>
-#include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "wavebalance/wavelets/filter.hpp"
 
@@ -26,7 +23,7 @@ ExtendedVector eigenvector_at_integers(const ExtendedVector& mask) {
   return values;
 }
 
-// Values at twice the points: the old ones, and by the refinement equation those between.
+// Values at twice as many points: the given values, and between them those of the refinement equation.
 Eigen::VectorXd refine(const Eigen::VectorXd& table, const Eigen::VectorXd& mask, Eigen::Index one) {
   Eigen::VectorXd finer = Eigen::VectorXd::Zero(2 * table.size() - 1);
   for (Eigen::Index n = 0; n < table.size(); ++n) finer[2 * n] = table[n];
@@ -39,7 +36,7 @@ Eigen::VectorXd refine(const Eigen::VectorXd& table, const Eigen::VectorXd& mask
   return finer;
 }
 
-// values - values(. - stride), `times` times; the support grows by as many strides.
+// Applies values - values(. - stride) `times` times; each time the support grows by one stride.
 template <class Vector>
 Vector backward_differences(const Vector& values, Eigen::Index stride, int times) {
   Vector result = Vector::Zero(values.size() + times * stride);
@@ -68,12 +65,6 @@ Eigen::VectorXd values_at_dyadics(const Refinable& phi, int level, int derivativ
   Eigen::VectorXd table = phi.integers;
   for (int j = 0; j < level; ++j) table = refine(table, phi.mask, Eigen::Index{1} << j);
   return backward_differences(table, Eigen::Index{1} << level, derivative);
-}
-
-void require_in_range(const char* name, int value, int lowest, int highest) {
-  if (value < lowest || value > highest)
-    throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) +
-                                ", allowed: " + std::to_string(lowest) + ".." + std::to_string(highest));
 }
 
 }  // namespace wavebalance::wavelets::detail

@@ -1,19 +1,20 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "require.hpp"
 #include "wavebalance/wavelets/filter.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
 
 using Polynomial = std::vector<long double>;
+using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
-// p(w) / (1 + w)^zeros. Each half is divided from its own end, which keeps the rounding of the large
+// p(w) / (1 + w)^zeros. The two halves are divided from opposite ends. This keeps the rounding of the large
 // coefficients of a minimum-phase filter out of the small ones.
 Polynomial quotient(const Eigen::VectorXd& filter, int zeros) {
   const int length = static_cast<int>(filter.size()) - zeros;
@@ -30,8 +31,7 @@ Polynomial quotient(const Eigen::VectorXd& filter, int zeros) {
 int checked_zeros(const Eigen::VectorXd& filter, const char* caller) {
   const int zeros = zeros_at_pi(filter);
   if (zeros < 1)
-    throw std::invalid_argument(std::string(caller) + ": filter has no zero at pi (alternating sum not 0), " +
-                                "allowed: at least one");
+    detail::reject(std::string(caller) + ": the number of the filter's zeros at pi", "0", "at least 1");
   return zeros;
 }
 
@@ -55,6 +55,19 @@ std::vector<double> subdivide(const std::vector<double>& mask, const std::vector
   return next;
 }
 
+// Gelfand's formula, radius = lim |A^n|^(1/n), with n = 2^k by repeated squaring: the distance to the limit
+// falls like 1/n, and rounding of the k-th square changes the logarithm by about eps / 2^k only.
+double log2_spectral_radius(ExtendedMatrix power) {
+  long double logarithm = 0;
+  for (int k = 0; k < 60; ++k) {
+    const long double scale = power.cwiseAbs().maxCoeff();
+    logarithm += std::ldexp(std::log2(scale), -k);
+    power /= scale;
+    power = power.lazyProduct(power).eval();
+  }
+  return static_cast<double>(logarithm);
+}
+
 }  // namespace
 
 double sobolev_exponent(const Eigen::VectorXd& filter) {
@@ -62,26 +75,21 @@ double sobolev_exponent(const Eigen::VectorXd& filter) {
   Polynomial q = quotient(filter, zeros);
   for (auto& value : q) value *= std::ldexp(1.0L, zeros - 1);
   const int size = static_cast<int>(q.size());
-  // |q|^2 = sum_n square[|n|] cos(n xi), halves of the coefficients for n > 0 on either side.
+  // |q|^2 = sum_n square[|n|] cos(n xi), where n runs over all integers.
   Polynomial square(size, 0.0L);
   for (int n = 0; n < size; ++n)
     for (int k = 0; k + n < size; ++k) square[n] += q[k] * q[k + n];
-  const auto at = [&](int n) {
-    return std::abs(n) < size ? static_cast<double>(2 * square[std::abs(n)]) : 0.0;
-  };
-  // Even trigonometric polynomials hold the positive eigenfunction of the spectral radius.
-  Eigen::MatrixXd transfer(size, size);
+  const auto at = [&](int n) { return std::abs(n) < size ? 2 * square[std::abs(n)] : 0.0L; };
+  // In the basis of cosines: the operator maps even functions to even functions, and the eigenfunction of the
+  // spectral radius is even.
+  ExtendedMatrix transfer(size, size);
   for (int k = 0; k < size; ++k)
     for (int l = 0; l < size; ++l) transfer(k, l) = l == 0 ? at(2 * k) : at(2 * k - l) + at(2 * k + l);
-  const double radius =
-      Eigen::EigenSolver<Eigen::MatrixXd>(transfer, false).eigenvalues().cwiseAbs().maxCoeff();
-  return zeros - 0.5 * std::log2(radius);
+  return zeros - 0.5 * log2_spectral_radius(std::move(transfer));
 }
 
 double hoelder_lower_bound(const Eigen::VectorXd& filter, int iterations) {
-  if (iterations < 1 || iterations > 20)
-    throw std::invalid_argument("hoelder_lower_bound: iterations = " + std::to_string(iterations) +
-                                ", allowed: 1..20");
+  detail::require_in_range("hoelder_lower_bound: iterations", iterations, 1, 20);
   const Polynomial divided = quotient(filter, checked_zeros(filter, "hoelder_lower_bound"));
   const std::vector<double> mask(divided.begin(), divided.end());
   double best = -std::numeric_limits<double>::infinity();

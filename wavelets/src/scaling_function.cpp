@@ -3,19 +3,19 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "memo.hpp"
 #include "refinable.hpp"
+#include "require.hpp"
 #include "wavebalance/wavelets/bspline.hpp"
 #include "wavebalance/wavelets/filter.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
 
-// exp(-2 pi i x) with x reduced to one turn first, which is exact.
-std::complex<double> turn(double x) {
+// exp(-2 pi i x), with x first reduced to one period, which is exact.
+std::complex<double> unit_phase(double x) {
   return std::polar(1.0, -2.0 * std::numbers::pi * std::remainder(x, 1.0));
 }
 
@@ -51,7 +51,7 @@ Eigen::VectorXd daubechies_table(int coefficients, int level, int derivative) {
 std::complex<double> spline_transform(int degree, double cycles) {
   if (cycles == 0.0) return 1.0;
   const double sine = std::sin(std::numbers::pi * std::remainder(cycles, 2.0)) / (std::numbers::pi * cycles);
-  return std::pow(sine, degree + 1) * turn(std::remainder(cycles, 2.0) * 0.5 * (degree + 1));
+  return std::pow(sine, degree + 1) * unit_phase(std::remainder(cycles, 2.0) * 0.5 * (degree + 1));
 }
 
 std::complex<double> refinement_product(const Eigen::VectorXd& filter, double cycles) {
@@ -60,7 +60,7 @@ std::complex<double> refinement_product(const Eigen::VectorXd& filter, double cy
   const double negligible =
       0.01 * std::numeric_limits<double>::epsilon() / static_cast<double>(filter.size());
   for (double x = 0.5 * cycles; std::abs(x) > negligible; x *= 0.5) {
-    const std::complex<double> w = turn(x);
+    const std::complex<double> w = unit_phase(x);
     std::complex<double> symbol = 0.0;
     for (Eigen::Index l = filter.size() - 1; l >= 0; --l) symbol = symbol * w + filter[l];
     product *= 0.5 * symbol;
@@ -116,7 +116,7 @@ ScalingFunction ScalingFunction::orthonormal_bspline() {
 
 Eigen::VectorXd ScalingFunction::values(int level, int derivative) const {
   detail::require_in_range("ScalingFunction::values: level", level, 0, 24);
-  detail::require_in_range(("ScalingFunction::values: derivative of " + name_).c_str(), derivative, 0,
+  detail::require_in_range("ScalingFunction::values: derivative of " + name_, derivative, 0,
                            pointwise_derivatives_);
   const Eigen::VectorXd table = spline_degree_
                                     ? spline_table(*spline_degree_, level, derivative)
@@ -135,8 +135,7 @@ std::complex<double> ScalingFunction::fourier_transform(double xi) const {
 
 std::complex<double> ScalingFunction::fourier_transform_at_cycles(double cycles) const {
   if (!std::isfinite(cycles))
-    throw std::invalid_argument("ScalingFunction::fourier_transform: frequency = " + std::to_string(cycles) +
-                                ", allowed: finite values");
+    detail::reject("ScalingFunction::fourier_transform: frequency", std::to_string(cycles), "finite");
   if (!spline_degree_) return refinement_product(filter_, cycles);
   const std::complex<double> spline = spline_transform(*spline_degree_, cycles);
   if (coefficients_.size() == 1) return spline;

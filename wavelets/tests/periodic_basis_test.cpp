@@ -18,9 +18,9 @@ TEST(PeriodicBasis, IsTheConstantAtLevelZero) {
                           ScalingFunction::daubechies(40), ScalingFunction::orthonormal_bspline()}) {
     const PeriodicBasis basis(phi, 0);
     EXPECT_EQ(basis.functions(), 1);
-    EXPECT_LT((basis.samples(32, 0).array() - 1.0).abs().maxCoeff(), 1e-13) << phi.name();
-    EXPECT_NEAR(std::abs(basis.fourier_coefficient(0) - 1.0), 0.0, 1e-14);
-    EXPECT_NEAR(std::abs(basis.fourier_coefficient(3)), 0.0, 1e-14);
+    EXPECT_LT((basis.samples(32, 0).array() - 1.0).abs().maxCoeff(), 512 * eps) << phi.name();
+    EXPECT_NEAR(std::abs(basis.fourier_coefficient(0) - 1.0), 0.0, 64 * eps);
+    EXPECT_NEAR(std::abs(basis.fourier_coefficient(3)), 0.0, 64 * eps);
   }
 }
 
@@ -44,7 +44,7 @@ TEST(PeriodicBasis, WrapsTheValuesOfTheLine) {  // g(l/P) = sum_n phi(M (l/P - n
           expected[((at % points) + points) % points] += table[n];
         }
         expected *= std::pow(basis.functions(), d);
-        EXPECT_LT((g - expected).cwiseAbs().maxCoeff(), 1e-13 * (1 + expected.cwiseAbs().maxCoeff()))
+        EXPECT_LT((g - expected).cwiseAbs().maxCoeff(), 512 * eps * (1 + expected.cwiseAbs().maxCoeff()))
             << phi.name() << " level " << level << " d " << d;
       }
 }
@@ -56,7 +56,7 @@ TEST(PeriodicBasis, FewerPointsThanFunctionsAreASubsample) {
     for (const int points : {1, 2, 8, 16}) {
       const Eigen::VectorXd some = basis.samples(points, 1);
       for (int l = 0; l < points; ++l)
-        EXPECT_NEAR(some[l], all[l * 32 / points], 1e-13 * all.cwiseAbs().maxCoeff()) << phi.name();
+        EXPECT_NEAR(some[l], all[l * 32 / points], 512 * eps * all.cwiseAbs().maxCoeff()) << phi.name();
     }
   }
 }
@@ -87,9 +87,9 @@ TEST(PeriodicBasis, FourierCoefficientsVanishAtMultiplesOfM) {
        {ScalingFunction::haar(), ScalingFunction::daubechies(8), ScalingFunction::orthonormal_bspline()}) {
     const PeriodicBasis basis(phi, 4);
     EXPECT_NEAR(std::abs(basis.fourier_coefficient(0) - 1.0 / 16), 0.0, eps);
-    for (const int n : {-48, -16, 16, 32, 1600}) EXPECT_LT(std::abs(basis.fourier_coefficient(n)), 1e-15);
+    for (const int n : {-48, -16, 16, 32, 1600}) EXPECT_LT(std::abs(basis.fourier_coefficient(n)), 8 * eps);
     for (const int n : {1, 5, 23})
-      EXPECT_LT(std::abs(basis.fourier_coefficient(-n) - std::conj(basis.fourier_coefficient(n))), 1e-15);
+      EXPECT_LT(std::abs(basis.fourier_coefficient(-n) - std::conj(basis.fourier_coefficient(n))), 8 * eps);
   }
 }
 
@@ -113,6 +113,11 @@ TEST(PeriodicBasis, ReachesLargeSizes) {
   }
 }
 
+TEST(PeriodicBasis, SamplesAreValuesUnlessADerivativeIsNamed) {
+  const PeriodicBasis basis(ScalingFunction::orthonormal_bspline(), 3);
+  EXPECT_EQ(basis.samples(24), basis.samples(24, 0));
+}
+
 TEST(PeriodicBasisErrors, NameTheArgumentTheValueAndWhatIsAllowed) {
   EXPECT_THROW(PeriodicBasis(ScalingFunction::haar(), -1), std::invalid_argument);
   EXPECT_THROW(PeriodicBasis(ScalingFunction::haar(), 25), std::invalid_argument);
@@ -125,8 +130,8 @@ TEST(PeriodicBasisErrors, NameTheArgumentTheValueAndWhatIsAllowed) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("points = 48 for daubechies6"), std::string::npos) << message;
-    EXPECT_NE(message.find("powers of two"), std::string::npos) << message;
+    EXPECT_NE(message.find("points is 48; it must be a power of two for daubechies6"), std::string::npos)
+        << message;
   }
 }
 

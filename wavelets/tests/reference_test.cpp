@@ -67,8 +67,8 @@ void expect_coefficients(const ConnectionCoefficients& r, std::initializer_list<
                          double parity) {
   int l = 0;
   for (const double expected : from_zero) {
-    EXPECT_NEAR(r(l), expected, 1e-14 * (1 + std::abs(expected))) << "l = " << l;
-    EXPECT_NEAR(r(-l), parity * expected, 1e-14 * (1 + std::abs(expected))) << "l = -" << l;
+    EXPECT_NEAR(r(l), expected, 64 * eps * (1 + std::abs(expected))) << "l = " << l;
+    EXPECT_NEAR(r(-l), parity * expected, 64 * eps * (1 + std::abs(expected))) << "l = -" << l;
     ++l;
   }
   EXPECT_EQ(r(l), 0.0);

@@ -15,13 +15,10 @@ Eigen::VectorXd bspline_values(int degree, double fraction, int derivative = 0);
 double cubic_gram_symbol(double cosine);
 
 /// Coefficients c_0..c_largest (c_{-k} = c_k) of the orthonormal cubic B-spline phi = sum_k c_k B_3(. - k),
-/// by Gauss-Legendre quadrature of [JL14, eq. (30)] (GSL, 512 points: the integrand is analytic, so the
-/// rule's error is below rounding for largest <= 100). They decay like 0.53528^k. Throws
-/// std::invalid_argument outside 0..100.
+/// by the trapezoidal rule with 512 points for the integral of [JL14, eq. (30)], which is a discrete Fourier
+/// sum of 1/sqrt(p_3(cos xi)). The integrand is periodic and analytic, so the error of the rule is the
+/// aliased coefficient c_{512 - k}, below rounding. The coefficients decay like 0.53528^k. Returns
+/// largest + 1 values. Cost O(512 largest). Throws std::invalid_argument unless 0 <= largest <= 100.
 Eigen::VectorXd orthonormal_cubic_coefficients(int largest = 50);
-
-/// The same coefficients as a discrete Fourier sum of the symbol 1/sqrt(p_3(cos xi)) on 512 points; the
-/// aliasing error is of the size of c_{512 - k}, below rounding. Throws std::invalid_argument outside 0..100.
-Eigen::VectorXd orthonormal_cubic_coefficients_by_symbol(int largest = 50);
 
 }  // namespace wavebalance::wavelets

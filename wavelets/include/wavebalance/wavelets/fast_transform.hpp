@@ -13,23 +13,19 @@ namespace wavebalance::wavelets {
 class FastWaveletTransform {
  public:
   /// `filter` has even length and sum 2 [JL14, eq. (32)]. Throws std::invalid_argument when it is not
-  /// orthonormal, sum_l p_l p_{l+2k} = 2 delta_k, to 1e-10.
+  /// orthonormal, sum_l p_l p_{l+2k} = 2 delta_k, to an absolute error of 1e-10.
   explicit FastWaveletTransform(const Eigen::VectorXd& filter);
 
-  /// Coefficients in the order [s_levels | d_levels | .. | d_1], as long as the signal. Cost O(L M), whatever
-  /// the levels: less than 4 L M operations. Throws std::invalid_argument unless levels >= 0 and 2^levels
+  /// Coefficients in the order [s_levels | d_levels | .. | d_1], as long as the signal. Less than
+  /// 4 L M operations for any number of levels. Throws std::invalid_argument unless levels >= 0 and 2^levels
   /// divides the length of the signal (M >= 1).
   Eigen::VectorXd analysis(const Eigen::VectorXd& signal, int levels) const;
   /// The inverse of analysis, and its transpose. Same cost and errors.
   Eigen::VectorXd synthesis(const Eigen::VectorXd& coefficients, int levels) const;
 
-  /// h and g.
-  const Eigen::VectorXd& low_pass() const { return low_pass_; }
-  const Eigen::VectorXd& high_pass() const { return high_pass_; }
-
  private:
-  Eigen::VectorXd low_pass_;
-  Eigen::VectorXd high_pass_;
+  Eigen::VectorXd low_pass_;   // h
+  Eigen::VectorXd high_pass_;  // g
 };
 
 }  // namespace wavebalance::wavelets

@@ -26,7 +26,7 @@ class PeriodicBasis {
   /// 1, the Daubechies functions of four coefficients and more any power of two (dyadic points). Cost O(L
   /// (support + 1) max(points / M, 1) + points). Throws std::invalid_argument for other points, and for a
   /// derivative outside 0..pointwise_derivatives().
-  Eigen::VectorXd samples(int points, int derivative) const;
+  Eigen::VectorXd samples(int points, int derivative = 0) const;
 
   /// \int_0^1 g(t) exp(-2 pi i harmonic t) dt = phi^(2 pi harmonic / M) / M. Cost O(L) times some 60 factors
   /// for Daubechies, O(1) for the splines.

@@ -13,7 +13,8 @@ namespace wavebalance::wavelets {
 class ScalingFunction {
  public:
   /// Daubechies function with `coefficients` = L filter coefficients (even, 2..40), support [0, L - 1]; L = 2
-  /// is haar(). Made once a process and copied. Throws std::invalid_argument as daubechies_filter does.
+  /// is haar(). Computed once per process, then copied. Throws std::invalid_argument as daubechies_filter
+  /// does.
   static ScalingFunction daubechies(int coefficients);
   /// 1 on [0, 1), left-closed [JL14, eq. (33)].
   static ScalingFunction haar();
@@ -39,8 +40,8 @@ class ScalingFunction {
 
   /// Largest d for which phi^(d) has pointwise values: continuous, except for Haar, whose values are the
   /// left-closed ones. Daubechies: decided by the Sobolev exponent s where floor(s) and ceil(s - 1/2) - 1
-  /// agree (embedding and its converse for compact support), else by hoelder_lower_bound; a derivative that
-  /// neither proves is taken not to exist. DB4 0, DB6 1 (Hoelder exponent 1.0878), cubic B-spline 2.
+  /// agree (embedding and its converse for compact support), else by hoelder_lower_bound. A derivative that
+  /// neither proves is treated as nonexistent. DB4 0, DB6 1 (Hoelder exponent 1.0878), cubic B-spline 2.
   int pointwise_derivatives() const { return pointwise_derivatives_; }
   /// s: phi is in H^r exactly when r < s.
   double sobolev_exponent() const { return sobolev_exponent_; }
@@ -56,8 +57,8 @@ class ScalingFunction {
   /// rounding (absolute error a few eps); B-spline: closed form. Throws std::invalid_argument when xi is not
   /// finite.
   std::complex<double> fourier_transform(double xi) const;
-  /// The same at xi = 2 pi cycles, with the phases reduced exactly, so that large dyadic `cycles` lose
-  /// nothing.
+  /// The same at xi = 2 pi cycles. Phases are reduced exactly, so that large dyadic `cycles` lose no
+  /// accuracy.
   std::complex<double> fourier_transform_at_cycles(double cycles) const;
 
  private:
@@ -73,11 +74,11 @@ class ScalingFunction {
   double sobolev_exponent_ = 0.0;
 };
 
-/// Filter p of phi itself, phi(x) = sum_l p_l phi(2x - l - first) with an even `first`, of even length: what
-/// FastWaveletTransform takes. Its coarse functions are then numbered first / 2 lower than the translates of
-/// phi. Daubechies: filter(), first 0. The orthonormal B-spline: 2^(-3) (1 + w)^4 C(w^2) / C(w) with C the
-/// symbol of c, by a discrete Fourier sum; it decays like 0.732^|l| and is cut to 224 values, orthonormal to
-/// 1e-13. O(1e5).
+/// Filter p of phi itself, phi(x) = sum_l p_l phi(2x - l - first), of even length and with an even `first`:
+/// the argument of FastWaveletTransform. The numbers of its coarse functions are then lower by first / 2 than
+/// those of the translates of phi. Daubechies: filter(), first 0. For the orthonormal B-spline the filter is
+/// 2^(-3) (1 + w)^4 C(w^2) / C(w) with C the symbol of c, computed by a discrete Fourier sum. It decays like
+/// 0.732^|l| and is truncated to 224 values, which are orthonormal to 1e-13. Cost O(1e5).
 struct TwoScaleFilter {
   int first = 0;
   Eigen::VectorXd values;
