@@ -1,25 +1,25 @@
 #include "refinable.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include "wavebalance/wavelets/filter.hpp"
 
 namespace wavebalance::wavelets::detail {
 namespace {
 
+// The vector v = T v with sum 1, T[k, m] = mask[2k - m]. The mask has a zero at pi, so the columns of T sum to
+// 1, and the equations are equivalent to (T - I + E) v = (1, .., 1) with E the matrix of ones.
 ExtendedVector eigenvector_at_integers(const ExtendedVector& mask) {
   using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   const Eigen::Index length = mask.size(), interior = length - 2;
   ExtendedVector values = ExtendedVector::Unit(length, 0);
   if (interior == 0) return values;
-  Matrix equations = -Matrix::Identity(interior + 1, interior);
+  Matrix equations = Matrix::Ones(interior, interior) - Matrix::Identity(interior, interior);
   for (Eigen::Index k = 1; k <= interior; ++k)
     for (Eigen::Index m = 1; m <= interior; ++m)
       if (2 * k - m >= 0 && 2 * k - m < length) equations(k - 1, m - 1) += mask[2 * k - m];
-  equations.row(interior).setOnes();
   values[0] = 0.0L;
-  values.segment(1, interior) =
-      equations.colPivHouseholderQr().solve(ExtendedVector::Unit(interior + 1, interior));
+  values.segment(1, interior) = equations.partialPivLu().solve(ExtendedVector::Ones(interior));
   return values;
 }
 
