@@ -2,28 +2,35 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 
-namespace wavebalance::contact {
+namespace wavebalance::contact::detail {
 
-/// Throws std::invalid_argument naming the law, the argument, its value and what is allowed.
-void require_positive(const char* law, const char* argument, double value);
-void require_finite(const char* law, const char* argument, double value);
-void require_equal_lengths(const char* law, std::size_t displacement, std::size_t force, std::size_t tangent);
+/// The number with 17 digits.
+std::string text(double value);
+
+/// Throws std::invalid_argument "<where>: <argument> is <value>; it must be <allowed>".
+[[noreturn]] void reject(const std::string& where, const std::string& argument, double value,
+                         const std::string& allowed);
+
+void require_positive(const char* where, const char* argument, double value);
+void require_finite(const char* where, const char* argument, double value);
 
 enum class Bound { open, closed };
-/// Finite, and above the bound (open) or not below it (closed).
-void require_at_least(const char* law, const char* argument, double value, double least, Bound bound);
+/// Finite, and above `least` (open) or not below it (closed).
+void require_at_least(const char* where, const char* argument, double value, double least, Bound bound);
 
-/// Throws std::invalid_argument naming the function and the array, unless its length is that expected.
-void require_length(const char* function, const char* array, std::size_t length, std::size_t expected);
+/// Throws std::invalid_argument "<where>: <array> has <length> entries; it must have <expected>" for another
+/// length than that expected.
+void require_length(const char* where, const char* array, std::size_t length, std::size_t expected);
 
-/// The larger of the two; not a number as soon as one is.
+/// The larger of the two; not a number if one of them is not.
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// The value, or the largest double where it overflowed; not a number stays not a number.
+/// The value, or the largest double where the value overflowed. Not a number stays not a number.
 inline double saturate(double value) {
   constexpr double largest = std::numeric_limits<double>::max();
   return value > largest ? largest : value;
 }
 
-}  // namespace wavebalance::contact
+}  // namespace wavebalance::contact::detail

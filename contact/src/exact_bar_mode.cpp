@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "checks.hpp"
@@ -18,12 +16,10 @@ double largest_excess(int mode) { return 1.0 / (double(mode) * mode * (2.0 * mod
 double linear_omega(int mode) { return (2.0 * mode - 1.0) * std::numbers::pi / 2.0; }
 
 void require_mode(int mode) {
-  if (mode >= 1) return;
-  throw std::invalid_argument("ExactBarMode: mode is " + std::to_string(mode) +
-                              "; modes are numbered from 1");
+  if (mode < 1) detail::reject("ExactBarMode", "mode", mode, "at least 1");
 }
 
-// V over g0/L, T exceeding the shortest period by `excess`.
+// V over g0/L for a period T that exceeds the shortest one by `excess`.
 double relative_amplitude(int mode, double excess) { return 1.0 / (2.0 * mode * mode * excess); }
 
 // f' = +V over this length of each period, m T - 2.
@@ -36,7 +32,7 @@ double mean_kinetic(int mode, double excess) {
   return rising * (2.0 * mode * period - (2.0 * mode + 1.0) * rising) / period;
 }
 
-// Energy over that of linear grazing, for V = amplitude * g0/L.
+// The energy over that of linear grazing, for V = amplitude * g0/L.
 double energy_ratio_of(int mode, double excess, double amplitude, EnergyMeasure measure) {
   const double linear = linear_omega(mode);
   const double scaled = amplitude / linear;
@@ -56,7 +52,8 @@ double energy_ratio_at(int mode, double excess, EnergyMeasure measure) {
   return energy_ratio_of(mode, excess, relative_amplitude(mode, excess), measure);
 }
 
-// T - (2m+1)/m^2 of a frequency ratio, exact but for the last rounding where they nearly cancel.
+// T - (2m+1)/m^2 for a frequency ratio. The fused operation keeps it exact but for the last rounding where
+// the two nearly cancel.
 double excess_of(int mode, double frequency_ratio) {
   const double m = mode;
   const double numerator = std::fma(-frequency_ratio, 4.0 * m * m - 1.0, 4.0 * m * m);
@@ -64,32 +61,26 @@ double excess_of(int mode, double frequency_ratio) {
 }
 
 [[noreturn]] void reject_energy(int mode, double energy_ratio, double onset) {
-  std::ostringstream message;
-  message.precision(17);
-  message << "ExactBarMode: energy_ratio is " << energy_ratio << "; mode " << mode << " exists above "
-          << onset << ", up to the largest finite number";
-  throw std::invalid_argument(message.str());
+  detail::reject("ExactBarMode", "energy_ratio", energy_ratio,
+                 "above " + detail::text(onset) + " and finite for mode " + std::to_string(mode));
 }
 
 double checked_excess(int mode, double frequency_ratio) {
   const double largest = ExactBarMode::largest_frequency_ratio(mode);
   const double excess = excess_of(mode, frequency_ratio);
   if (frequency_ratio > 1.0 && frequency_ratio < largest && excess > 0.0) return excess;
-  std::ostringstream message;
-  message.precision(17);
-  message << "ExactBarMode: frequency_ratio is " << frequency_ratio << "; mode " << mode
-          << " has ratios above 1 and below " << largest;
-  throw std::invalid_argument(message.str());
+  detail::reject("ExactBarMode", "frequency_ratio", frequency_ratio,
+                 "above 1 and below " + detail::text(largest) + " for mode " + std::to_string(mode));
 }
 
 }  // namespace
 
 void RigidObstacleBar::validate() const {
-  require_positive("RigidObstacleBar", "youngs_modulus", youngs_modulus);
-  require_positive("RigidObstacleBar", "density", density);
-  require_positive("RigidObstacleBar", "area", area);
-  require_positive("RigidObstacleBar", "length", length);
-  require_positive("RigidObstacleBar", "gap", gap);
+  detail::require_positive("RigidObstacleBar", "youngs_modulus", youngs_modulus);
+  detail::require_positive("RigidObstacleBar", "density", density);
+  detail::require_positive("RigidObstacleBar", "area", area);
+  detail::require_positive("RigidObstacleBar", "length", length);
+  detail::require_positive("RigidObstacleBar", "gap", gap);
 }
 
 double ExactBarMode::largest_frequency_ratio(int mode) {
@@ -133,10 +124,10 @@ ExactBarMode ExactBarMode::at_energy(RigidObstacleBar bar, int mode, EnergyMeasu
 
 ExactBarMode ExactBarMode::zero_gap(RigidObstacleBar bar, int mode, double total_energy) {
   require_mode(mode);
-  bar.gap = 1.0;  // any that is valid
+  bar.gap = 1.0;  // not used, but it must be valid
   bar.validate();
   bar.gap = 0.0;
-  require_positive("ExactBarMode::zero_gap", "total_energy", total_energy);
+  detail::require_positive("ExactBarMode::zero_gap", "total_energy", total_energy);
   const double stiffness = bar.youngs_modulus * bar.area * bar.length;
   return {bar, mode, Excess{0.0}, std::sqrt(0.5 * total_energy / stiffness)};
 }
@@ -161,15 +152,11 @@ double ExactBarMode::contact_duration() const {
 double ExactBarMode::phase(double t) const { return std::remainder(t, period()) / period() * period_; }
 
 double ExactBarMode::position(const char* quantity, double x) const {
-  constexpr double slack = 1e-12;  // for an x that is a sum of element lengths
+  constexpr double slack = 1e-12;  // allows for rounding in an x that is a sum of element lengths
   const double position = x / bar_.length;
-  if (position < -slack || position > 1.0 + slack) {
-    std::ostringstream message;
-    message.precision(17);
-    message << "ExactBarMode::" << quantity << ": x is " << x << "; it must lie between 0 and "
-            << bar_.length;
-    throw std::invalid_argument(message.str());
-  }
+  if (position < -slack || position > 1.0 + slack)
+    detail::reject(std::string("ExactBarMode::") + quantity, "x", x,
+                   "in [0, " + detail::text(bar_.length) + "]");
   return std::isnan(position) ? position : std::clamp(position, 0.0, 1.0);
 }
 

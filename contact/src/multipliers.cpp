@@ -17,10 +17,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 void require_finite_entries(const char* array, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
-      require_finite("MultiplierUpdate", (array + ("[" + std::to_string(i) + "]")).c_str(), values[i]);
+      detail::require_finite("MultiplierUpdate", (array + ("[" + std::to_string(i) + "]")).c_str(),
+                             values[i]);
 }
 
-// Of a constraint g <= 0: positive where it is violated, negative where an open one still has a multiplier.
+// Violation of a constraint g <= 0: positive where g > 0, negative where g < 0 although the multiplier is not
+// zero.
 double violation_of(double g, double theta) { return std::isnan(g) || g > -theta ? g : -theta; }
 
 std::vector<double> products(const std::vector<double>& a, const std::vector<double>& b) {
@@ -32,25 +34,25 @@ std::vector<double> products(const std::vector<double>& a, const std::vector<dou
 }  // namespace
 
 double powell_measure(std::span<const double> g, std::span<const double> theta) {
-  require_length("powell_measure", "theta", theta.size(), g.size());
+  detail::require_length("powell_measure", "theta", theta.size(), g.size());
   double measure = 0.0;
   for (std::size_t i = 0; i < g.size(); ++i)
-    measure = larger(measure, std::abs(violation_of(g[i], theta[i])));
+    measure = detail::larger(measure, std::abs(violation_of(g[i], theta[i])));
   return measure;
 }
 
 double powell_measure(std::span<const double> h) {
   double measure = 0.0;
-  for (double value : h) measure = larger(measure, std::abs(value));
+  for (double value : h) measure = detail::larger(measure, std::abs(value));
   return measure;
 }
 
 void MultiplierOptions::validate() const {
-  require_at_least("MultiplierOptions", "improvement", improvement, 1.0, Bound::open);
-  require_at_least("MultiplierOptions", "growth", growth, 1.0, Bound::open);
-  require_positive("MultiplierOptions", "inequality_tolerance", inequality_tolerance);
-  require_positive("MultiplierOptions", "equality_tolerance", equality_tolerance);
-  require_at_least("MultiplierOptions", "largest_growth", largest_growth, 1.0, Bound::closed);
+  detail::require_at_least("MultiplierOptions", "improvement", improvement, 1.0, detail::Bound::open);
+  detail::require_at_least("MultiplierOptions", "growth", growth, 1.0, detail::Bound::open);
+  detail::require_positive("MultiplierOptions", "inequality_tolerance", inequality_tolerance);
+  detail::require_positive("MultiplierOptions", "equality_tolerance", equality_tolerance);
+  detail::require_at_least("MultiplierOptions", "largest_growth", largest_growth, 1.0, detail::Bound::closed);
 }
 
 bool MultiplierStep::converged() const {
@@ -77,8 +79,8 @@ MultiplierUpdate::Family MultiplierUpdate::make_family(const char* name,
   Family family;
   for (std::size_t i = 0; i < penalties.size(); ++i) {
     const std::string entry = std::string(name) + "[" + std::to_string(i) + "]";
-    require_positive("MultiplierUpdate", entry.c_str(), penalties[i]);
-    family.largest_penalty.push_back(saturate(penalties[i] * options_.largest_growth));
+    detail::require_positive("MultiplierUpdate", entry.c_str(), penalties[i]);
+    family.largest_penalty.push_back(detail::saturate(penalties[i] * options_.largest_growth));
   }
   family.shift.assign(penalties.size(), 0.0);
   family.penalty = std::move(penalties);
@@ -95,10 +97,10 @@ std::vector<double> MultiplierUpdate::equality_multipliers() const {
 }
 
 double MultiplierUpdate::inequality_term(std::span<const double> g) const {
-  require_length("MultiplierUpdate::inequality_term", "g", g.size(), inequality_.shift.size());
+  detail::require_length("MultiplierUpdate::inequality_term", "g", g.size(), inequality_.shift.size());
   double sum = 0.0;
   for (std::size_t i = 0; i < g.size(); ++i) {
-    const double positive = larger(0.0, g[i] + inequality_.shift[i]);
+    const double positive = detail::larger(0.0, g[i] + inequality_.shift[i]);
     sum += inequality_.penalty[i] * positive * positive;
   }
   return 0.5 * sum;
@@ -107,18 +109,18 @@ double MultiplierUpdate::inequality_term(std::span<const double> g) const {
 void MultiplierUpdate::inequality_force(std::span<const double> g, std::span<double> force,
                                         std::span<double> tangent) const {
   const std::size_t count = inequality_.shift.size();
-  require_length("MultiplierUpdate::inequality_force", "g", g.size(), count);
-  require_length("MultiplierUpdate::inequality_force", "force", force.size(), count);
-  require_length("MultiplierUpdate::inequality_force", "tangent", tangent.size(), count);
+  detail::require_length("MultiplierUpdate::inequality_force", "g", g.size(), count);
+  detail::require_length("MultiplierUpdate::inequality_force", "force", force.size(), count);
+  detail::require_length("MultiplierUpdate::inequality_force", "tangent", tangent.size(), count);
   for (std::size_t i = 0; i < count; ++i) {
     const double shifted = g[i] + inequality_.shift[i];
-    force[i] = inequality_.penalty[i] * larger(0.0, shifted);
+    force[i] = inequality_.penalty[i] * detail::larger(0.0, shifted);
     tangent[i] = shifted < 0.0 ? 0.0 : inequality_.penalty[i];
   }
 }
 
 double MultiplierUpdate::equality_term(std::span<const double> h) const {
-  require_length("MultiplierUpdate::equality_term", "h", h.size(), equality_.shift.size());
+  detail::require_length("MultiplierUpdate::equality_term", "h", h.size(), equality_.shift.size());
   double sum = 0.0;
   for (std::size_t i = 0; i < h.size(); ++i) {
     const double shifted = h[i] + equality_.shift[i];
@@ -128,14 +130,14 @@ double MultiplierUpdate::equality_term(std::span<const double> h) const {
 }
 
 void MultiplierUpdate::equality_force(std::span<const double> h, std::span<double> force) const {
-  require_length("MultiplierUpdate::equality_force", "h", h.size(), equality_.shift.size());
-  require_length("MultiplierUpdate::equality_force", "force", force.size(), equality_.shift.size());
+  detail::require_length("MultiplierUpdate::equality_force", "h", h.size(), equality_.shift.size());
+  detail::require_length("MultiplierUpdate::equality_force", "force", force.size(), equality_.shift.size());
   for (std::size_t i = 0; i < h.size(); ++i) force[i] = equality_.penalty[i] * (h[i] + equality_.shift[i]);
 }
 
 MultiplierStep MultiplierUpdate::update(std::span<const double> g, std::span<const double> h) {
-  require_length("MultiplierUpdate::update", "g", g.size(), inequality_.shift.size());
-  require_length("MultiplierUpdate::update", "h", h.size(), equality_.shift.size());
+  detail::require_length("MultiplierUpdate::update", "g", g.size(), inequality_.shift.size());
+  detail::require_length("MultiplierUpdate::update", "h", h.size(), equality_.shift.size());
   require_finite_entries("g", g);
   require_finite_entries("h", h);
   MultiplierStep step;
@@ -163,8 +165,8 @@ MultiplierAction MultiplierUpdate::advance(Family& family, std::span<const doubl
   return MultiplierAction::multipliers_updated;
 }
 
-// Of the constraints to be improved, eq. (26); the multiplier kappa theta stays. False if all of them are at
-// their largest.
+// Increases the penalties of the constraints that eq. (26) selects and keeps their multipliers kappa theta.
+// Returns false if all of these penalties are at their largest value.
 bool MultiplierUpdate::increase_penalties(Family& family, std::span<const double> violation,
                                           double threshold) const {
   bool increased = false;
@@ -182,12 +184,13 @@ void MultiplierUpdate::restart(std::span<const double> inequality_multipliers,
                                std::span<const double> equality_multipliers) {
   const bool keep = inequality_multipliers.empty() && equality_multipliers.empty();
   if (!keep) {
-    require_length("MultiplierUpdate::restart", "inequality_multipliers", inequality_multipliers.size(),
-                   inequality_.shift.size());
-    require_length("MultiplierUpdate::restart", "equality_multipliers", equality_multipliers.size(),
-                   equality_.shift.size());
+    detail::require_length("MultiplierUpdate::restart", "inequality_multipliers",
+                           inequality_multipliers.size(), inequality_.shift.size());
+    detail::require_length("MultiplierUpdate::restart", "equality_multipliers", equality_multipliers.size(),
+                           equality_.shift.size());
     for (double multiplier : inequality_multipliers)
-      require_at_least("MultiplierUpdate::restart", "inequality_multipliers", multiplier, 0.0, Bound::closed);
+      detail::require_at_least("MultiplierUpdate::restart", "inequality_multipliers", multiplier, 0.0,
+                               detail::Bound::closed);
     require_finite_entries("equality_multipliers", equality_multipliers);
     for (std::size_t i = 0; i < inequality_multipliers.size(); ++i)
       inequality_.shift[i] = inequality_multipliers[i] / inequality_.penalty[i];

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "quadratic_program.hpp"
-#include "wavebalance/contact/signorini.hpp"
 
 namespace wavebalance::contact {
 namespace {
@@ -137,10 +136,11 @@ TEST(MultiplierUpdate, FindsContactForcesOfAChain) {
     const Eigen::VectorXd expected = (Eigen::VectorXd(6) << 0, 0.75, 0, 2.5, 0.01, 0).finished();
     EXPECT_LT((run.x - Eigen::VectorXd::LinSpaced(6, -1.0, 2.0)).norm(), 1e-8) << penalty;
     EXPECT_LT((lambda - expected).norm(), 1e-7) << penalty;
-    const SignoriniMeasures measures = signorini_measures(as_span(program.g(run.x)), as_span(lambda));
-    EXPECT_LT(measures.max_penetration, 1e-10);
-    EXPECT_EQ(measures.max_adhesion, 0.0);
-    EXPECT_LT(measures.complementarity, 1e-9);
+    const Eigen::VectorXd g = program.g(run.x);
+    EXPECT_LT(g.maxCoeff(), 1e-10);
+    EXPECT_GE(lambda.minCoeff(), 0.0);
+    EXPECT_LT(lambda.cwiseProduct(g).cwiseAbs().maxCoeff(),
+              1e-9 * lambda.maxCoeff() * g.cwiseAbs().maxCoeff());
   }
 }
 

@@ -33,10 +33,10 @@ enum class EnergyMeasure {
 /// V^2 (m T - 2) (4m + 2 - m (2m-1) T) / T. Its frequency lies between the linear one, omega_m = (2m-1) pi/2,
 /// and 4 m^2 / (4 m^2 - 1) of it; m = 1: T in (3, 4), frequency ratio 4/T in (1, 4/3).
 ///
-/// The shortest period, with any V, is the motion at zero gap: see zero_gap(). All quantities below are in
-/// the units of the bar. Displacements carry an error of a few eps times the largest displacement of the
+/// A motion of the shortest period, with any V, is one at zero gap: see zero_gap(). All quantities below are
+/// in the units of the bar. Displacements carry an error of a few eps times the largest displacement of the
 /// motion, which exceeds the gap by far at high energy. Functions of (x, t) throw std::invalid_argument for x
-/// outside the bar; t may be any time, and whatever is not a number gives results that are not a number.
+/// outside the bar; t may be any time. An argument that is not a number gives results that are not a number.
 /// O(1). Immutable.
 class ExactBarMode {
  public:
@@ -46,9 +46,9 @@ class ExactBarMode {
 
   /// The mode at a given energy ratio. Each measure falls with T, from infinity to its value at the linear
   /// limit; at or below that (total: 8/pi^2 for m = 1) there is no such mode: std::invalid_argument naming
-  /// the limit. The relative error of the energy is a few eps at any size: what is solved for is the distance
-  /// of T from the shortest period. At energies above 1e30 frequency_ratio() has rounded to its supremum.
-  /// O(log 1/eps).
+  /// the limit. The relative error of the energy is a few eps at any size, because the unknown is the
+  /// difference of T from the shortest period. At energies above 1e30 frequency_ratio() has rounded to its
+  /// supremum. O(log 1/eps).
   static ExactBarMode at_energy(RigidObstacleBar bar, int mode, EnergyMeasure measure, double energy_ratio);
 
   /// The mode of the bar that touches the obstacle at rest: gap 0 (bar.gap is not used), where the period is
@@ -57,7 +57,7 @@ class ExactBarMode {
   /// u = -2 V x: the bar pulled back from the obstacle and let go. Ratios of energy are infinite.
   static ExactBarMode zero_gap(RigidObstacleBar bar, int mode, double total_energy);
 
-  /// The energy ratio that the exact branch starts from, T -> 4/(2m-1).
+  /// The energy ratio at which the exact branch starts, T -> 4/(2m-1).
   static double onset_energy(int mode, EnergyMeasure measure);
   /// The supremum of the frequency ratio, where energies grow without bound.
   static double largest_frequency_ratio(int mode);

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "wavebalance/contact/response.hpp"
+#include "wavebalance/contact/force_and_tangent.hpp"
 
 namespace wavebalance::contact {
 
@@ -9,11 +9,11 @@ namespace wavebalance::contact {
 ///
 ///     f_c(u) = max(a_c (exp(alpha (u - g0)) - 1), 0).
 ///
-/// Where alpha (u - g0) exceeds `linear_beyond` the force goes on along its tangent (once continuously
-/// differentiable), and no result exceeds the largest double: force, tangent and potential are finite for
-/// every finite displacement, and each is the derivative of the next wherever it is below that bound. A
-/// displacement that is not a number gives results that are not a number. O(1); an exponential is taken in
-/// contact only. Immutable, may be shared between threads.
+/// Where alpha (u - g0) exceeds `linear_beyond` the force is continued by its tangent (once continuously
+/// differentiable), and no result exceeds the largest double. Force, tangent and potential are thus finite
+/// for every finite displacement; below that bound the tangent is the derivative of the force and the force
+/// that of the potential. A displacement that is not a number gives results that are not a number. O(1); the
+/// exponential is evaluated in contact only. Immutable, may be shared between threads.
 class ExponentialLaw {
  public:
   /// alpha (u - g0) at which the linear continuation starts; the force is 1e130 a_c there.
@@ -40,9 +40,9 @@ class ExponentialLaw {
     return displacement <= gap_ ? 0.0 : potential_in_contact(displacement);
   }
 
-  /// Force and tangent for the price of one exponential.
-  Response evaluate(double displacement) const {
-    return displacement < gap_ ? Response{} : in_contact(displacement);
+  /// Force and tangent at the cost of one exponential.
+  ForceAndTangent evaluate(double displacement) const {
+    return displacement < gap_ ? ForceAndTangent{} : in_contact(displacement);
   }
   /// The same for arrays of one length, which must not overlap unless they are the same. O(n). Throws
   /// std::invalid_argument if the lengths differ.
@@ -50,7 +50,7 @@ class ExponentialLaw {
                 std::span<double> tangent) const;
 
  private:
-  Response in_contact(double displacement) const;
+  ForceAndTangent in_contact(double displacement) const;
   double potential_in_contact(double displacement) const;
 
   double constant_;

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "wavebalance/contact/response.hpp"
+#include "wavebalance/contact/force_and_tangent.hpp"
 
 namespace wavebalance::contact {
 
@@ -23,7 +23,7 @@ class LinearLaw {
   double tangent(double displacement) const { return evaluate(displacement).tangent; }
   double potential(double displacement) const;  ///< J, k/2 max(u - g0, 0)^2
 
-  Response evaluate(double displacement) const;
+  ForceAndTangent evaluate(double displacement) const;
   /// Force and tangent of arrays of one length. O(n). Throws std::invalid_argument if the lengths differ.
   void evaluate(std::span<const double> displacement, std::span<double> force,
                 std::span<double> tangent) const;

@@ -28,9 +28,9 @@ struct MultiplierOptions {
   void validate() const;
 };
 
-/// What one outer iteration did about the inequality or about the equality constraints.
+/// The action of one outer iteration on the inequality constraints or on the equality constraints.
 enum class MultiplierAction {
-  satisfied,                          ///< within the tolerance (or none): left alone
+  satisfied,                          ///< within the tolerance (or no constraints): unchanged
   multipliers_updated,                ///< improved enough
   multipliers_and_penalties_updated,  ///< improved, but not by alpha: both
   penalties_increased,                ///< did not improve: penalties of the worst constraints only
@@ -49,13 +49,14 @@ struct MultiplierStep {
 };
 
 /// The contact side of the augmented Lagrangian of M. J. D. Powell as [LL10] uses it, for any number of
-/// inequality constraints g <= 0 (one a contact degree of freedom and time sample) and of equality
+/// inequality constraints g <= 0 (one per contact degree of freedom and time sample) and of equality
 /// constraints h = 0 (a normalisation): the terms [LL10, eq. (18)]
 ///
 ///     1/2 sum kappa (g + theta)_+^2  +  1/2 sum kappa_e (h + theta_e)^2
 ///
-/// that the caller adds to what it minimises, or makes stationary, and the outer iteration on theta and kappa
-/// [LL10, Algorithm 3], whose fixed point has the Lagrange multipliers kappa theta >= 0 and kappa_e theta_e:
+/// that the caller adds to the functional that it makes stationary, and the outer iteration on theta and
+/// kappa [LL10, Algorithm 3]. Its fixed point has the Lagrange multipliers kappa theta >= 0 and kappa_e
+/// theta_e:
 ///
 ///     MultiplierUpdate outer(std::vector<double>(n, 100.0), {100.0});
 ///     for (int j = 0; j < j_max; ++j) {
@@ -67,16 +68,17 @@ struct MultiplierStep {
 /// Sums carry no weight: for the integral over a period multiply the terms, forces and tangents by 1/m (m
 /// samples), and the multipliers are then those of the integral.
 ///
-/// Against the printed algorithm: G^(j) is the measure of the last outer iteration that improved, set before
-/// it is compared (infinite at first); violations are |max(g, -theta)|, where (26a) lacks the sign and the
-/// modulus; S_i stands for L_i in line 18; theta is divided by beta wherever kappa is multiplied, so that a
-/// larger penalty leaves the multiplier as it is; the condition of line 25 reads |h| >= G_e/alpha.
+/// Differences from the printed algorithm: G^(j) is the measure of the last outer iteration that improved; it
+/// is set before the comparison and is infinite at first. Violations are |max(g, -theta)|, where (26a) lacks
+/// the sign and the modulus. Line 18 has S_i in place of L_i. theta is divided by beta wherever kappa is
+/// multiplied, so that a larger penalty does not change the multiplier. The condition of line 25 reads
+/// |h| >= G_e/alpha.
 ///
 /// Not to be updated from several threads. All calls are O(n).
 class MultiplierUpdate {
  public:
-  /// First penalty parameters, > 0 and finite, one an inequality and one an equality constraint; multipliers
-  /// are zero. Throws std::invalid_argument naming the entry.
+  /// First penalty parameters, > 0 and finite, one per inequality and one per equality constraint. The first
+  /// multipliers are zero. Throws std::invalid_argument naming the entry.
   explicit MultiplierUpdate(std::vector<double> inequality_penalties,
                             std::vector<double> equality_penalties = {}, MultiplierOptions options = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <limits>
 
-#include "wavebalance/contact/response.hpp"
+#include "wavebalance/contact/force_and_tangent.hpp"
 
 namespace wavebalance::contact {
 
@@ -11,7 +11,7 @@ struct NoContact {
   double tangent(double) const { return 0.0; }
   double potential(double) const { return 0.0; }
   double gap() const { return std::numeric_limits<double>::infinity(); }
-  Response evaluate(double) const { return {}; }
+  ForceAndTangent evaluate(double) const { return {}; }
 };
 
 }  // namespace wavebalance::contact

@@ -8,7 +8,6 @@
 
 #include "bar_quadrature.hpp"
 #include "quadratic_program.hpp"
-#include "wavebalance/contact/signorini.hpp"
 
 namespace wavebalance::contact {
 namespace {
@@ -102,29 +101,6 @@ RC_GTEST_PROP(MultiplierUpdateProperty, MultipliersAreTheForcesOfTheInnerProblem
   for (int i = 0; i < n; ++i)
     RC_ASSERT(std::abs(outer.inequality_multipliers()[i] - force[i]) <=
               8 * eps * (first[i] + outer.inequality_penalties()[i]));
-}
-
-RC_GTEST_PROP(SignoriniProperty, ResidualVanishesForRigidContactAndOnlyThen, ()) {
-  const double c = std::pow(10.0, any_between(-3, 6)), value = any_between(0.001, 1);
-  RC_ASSERT(signorini_residual(-value, 0.0, c).value == 0.0);
-  RC_ASSERT(signorini_residual(0.0, value, c).value == 0.0);
-  RC_ASSERT(signorini_residual(value, any_between(-1, 1), c).value != 0.0);      // penetration
-  RC_ASSERT(signorini_residual(any_between(-1, 1), -value, c).value != 0.0);     // adhesion
-  RC_ASSERT(signorini_residual(-value, any_between(0.001, 1), c).value != 0.0);  // force at a distance
-}
-
-RC_GTEST_PROP(SignoriniProperty, GeneralisedDerivativeIsTheDifferenceAwayFromTheKink, ()) {
-  const double c = std::pow(10.0, any_between(-2, 2)), g = any_between(-1, 1), force = any_between(-1, 1);
-  const double step = 1e-6;
-  RC_PRE(std::abs(force + c * g) > 2 * step * (1 + c));
-  const SignoriniResidual at = signorini_residual(g, force, c);
-  const double by_gap =
-      signorini_residual(g + step, force, c).value - signorini_residual(g - step, force, c).value;
-  const double by_force =
-      signorini_residual(g, force + step, c).value - signorini_residual(g, force - step, c).value;
-  const double rounding = 8 * eps * (1 + c) / step;
-  RC_ASSERT(std::abs(by_gap / (2 * step) - at.by_gap) <= rounding);
-  RC_ASSERT(std::abs(by_force / (2 * step) - at.by_force) <= rounding);
 }
 
 RC_GTEST_PROP(ExactBarModeProperty, MeetsRigidContactForAnyBarModeAndEnergy, ()) {

@@ -2,8 +2,8 @@
 
 namespace wavebalance::contact {
 
-/// What a law answers to one displacement.
-struct Response {
+/// Force and slope of a contact law at one displacement.
+struct ForceAndTangent {
   double force = 0.0;    ///< N
   double tangent = 0.0;  ///< N/m, d force / d displacement
 };
