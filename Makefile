@@ -1,7 +1,7 @@
 # Thin names for the CMake workflow presets of CMakePresets.json.
-.PHONY: reproduce test bench dev sanitize native clean
+.PHONY: command reproduce test bench dev sanitize native clean
 
-reproduce test bench dev sanitize native:
+command reproduce test bench dev sanitize native:
 	cmake --workflow --preset $@
 
 clean:

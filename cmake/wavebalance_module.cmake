@@ -1,6 +1,7 @@
 # wavebalance_add_module(name SOURCES <files> HEADERS <files> [MODULES <sibling modules>]
 #                        [PUBLIC <targets>] [PRIVATE <targets>] [FIND "<arguments of find_dependency>"...])
-# declares the library wavebalance::<name> and the package component <name>.
+# declares the library wavebalance::<name> and the package component <name>. Sources include private headers by their
+# path below src/.
 function(wavebalance_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 M "" "" "SOURCES;HEADERS;MODULES;PUBLIC;PRIVATE;FIND")
   set(target wavebalance_${name})
@@ -12,7 +13,11 @@ function(wavebalance_add_module name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_sources(${target} PRIVATE ${M_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
+  target_include_directories(${target} PRIVATE src)
   target_link_libraries(${target} PUBLIC ${siblings} ${M_PUBLIC} PRIVATE ${M_PRIVATE})
+  if("Eigen3::Eigen" IN_LIST M_PUBLIC)
+    wavebalance_precompile_headers(${target})
+  endif()
   wavebalance_set_warnings(${target})
 
   set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wavebalance)
@@ -30,6 +35,31 @@ function(wavebalance_add_module name)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/wavebalance_${name}.cmake "include_guard()\n${text}")
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalance_${name}.cmake DESTINATION ${package_dir} COMPONENT ${name})
   set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_INSTALLED_MODULES ${name})
+endfunction()
+
+# wavebalance_add_room(room SOURCES <names> HEADERS <names>) appends src/<room>/<name>.cpp to `sources` and
+# <include>/<room>/<name>.hpp to `headers`, where the variable `include` names the module's folder of public headers.
+function(wavebalance_add_room room)
+  cmake_parse_arguments(PARSE_ARGV 1 R "" "" "SOURCES;HEADERS")
+  list(TRANSFORM R_SOURCES REPLACE "(.+)" "src/${room}/\\1.cpp")
+  list(TRANSFORM R_HEADERS REPLACE "(.+)" "${include}/${room}/\\1.hpp")
+  set(sources ${sources} ${R_SOURCES} PARENT_SCOPE)
+  set(headers ${headers} ${R_HEADERS} PARENT_SCOPE)
+endfunction()
+
+# wavebalance_precompile_headers(target): what nearly every source of a library parses. Eigen/Core alone takes longer
+# to parse than most sources take to compile.
+function(wavebalance_precompile_headers target)
+  target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <functional> <limits>
+    <memory> <stdexcept> <string> <vector>)
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>")  # lets ccache keep the objects
+endfunction()
+
+# wavebalance_set_cold(target): compiled for its compile time, as nothing in it computes for long. At -O1 gcc 12
+# reports array bounds and uninitialised values that do not exist.
+function(wavebalance_set_cold target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 endfunction()
 
 # wavebalance_set_warnings(target): the warnings that all of our targets are held to. GCC 12 reports "literal" + string

@@ -2,41 +2,41 @@
 // [JL14] and a rigid obstacle. Writes adaptive_wavelet.csv, .svg, .png and adaptive_wavelet_selection.csv.
 #include "program.hpp"
 #include "study.hpp"
-#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
-using reproduce::Legend;
-using reproduce::Panel;
-using reproduce::Series;
-using reproduce::SeriesStyle;
+using app::Colour;
+using app::Legend;
+using app::Panel;
+using app::Series;
+using app::SeriesStyle;
 
 namespace {
 
 struct Curve {
   const char *basis, *method, *label;
   Colour colour;
-  reproduce::Dash dash;
+  app::Dash dash;
   int marker;
 };
 
 constexpr Curve wavelet_curves[] = {
-    {"daubechies6", "uniform", "DB6, uniform", Colour::orange, reproduce::Dash::dashed, 4},
-    {"daubechies6", "adaptive_residual", "DB6, adaptive", Colour::orange, reproduce::Dash::solid, 5},
-    {"bspline", "uniform", "B-spline, uniform", Colour::blue, reproduce::Dash::dashed, 6},
-    {"bspline", "whole_levels", "B-spline, whole levels", Colour::sky_blue, reproduce::Dash::dotted, 2},
-    {"bspline", "adaptive_residual", "B-spline, adaptive", Colour::blue, reproduce::Dash::solid, 7},
-    {"bspline", "stiffness_section", "B-spline, selected first", Colour::grey, reproduce::Dash::dash_dotted,
+    {"daubechies6", "uniform", "DB6, uniform", Colour::orange, app::Dash::dashed, 4},
+    {"daubechies6", "adaptive_residual", "DB6, adaptive", Colour::orange, app::Dash::solid, 5},
+    {"bspline", "uniform", "B-spline, uniform", Colour::blue, app::Dash::dashed, 6},
+    {"bspline", "whole_levels", "B-spline, whole levels", Colour::sky_blue, app::Dash::dotted, 2},
+    {"bspline", "adaptive_residual", "B-spline, adaptive", Colour::blue, app::Dash::solid, 7},
+    {"bspline", "stiffness_section", "B-spline, selected first", Colour::grey, app::Dash::dash_dotted,
      1}};
 
 constexpr Curve rigid_curves[] = {
-    {"daubechies6", "uniform", "DB6, uniform", Colour::orange, reproduce::Dash::dashed, 4},
-    {"bspline", "uniform", "B-spline, uniform", Colour::blue, reproduce::Dash::dashed, 6},
-    {"force_cells", "uniform", "force cells, uniform", Colour::green, reproduce::Dash::dashed, 8},
-    {"force_cells", "adaptive", "force cells, adaptive", Colour::green, reproduce::Dash::solid, 9}};
+    {"daubechies6", "uniform", "DB6, uniform", Colour::orange, app::Dash::dashed, 4},
+    {"bspline", "uniform", "B-spline, uniform", Colour::blue, app::Dash::dashed, 6},
+    {"force_cells", "uniform", "force cells, uniform", Colour::green, app::Dash::dashed, 8},
+    {"force_cells", "adaptive", "force cells, adaptive", Colour::green, app::Dash::solid, 9}};
 
 template <std::size_t Count>
-void add_error_panel(reproduce::Figure& figure, const std::string& title, const reproduce::Table& table,
+void add_error_panel(app::Figure& figure, const std::string& title, const app::Table& table,
                      const std::string& study, const Curve (&curves)[Count], Legend legend) {
   Panel& panel = figure.add_panel(title);
   const auto of_study = table.where("study", study).where("converged", "true");
@@ -69,8 +69,8 @@ void mark_instants(Panel& panel, const bench::Study& study) {
   panel.legend = Legend::none;
 }
 
-void add_selection_panel(reproduce::Figure& figure, const bench::Study& study,
-                         const reproduce::Table& selection) {
+void add_selection_panel(app::Figure& figure, const bench::Study& study,
+                         const app::Table& selection) {
   Panel& panel = figure.add_panel("case 2: the " + std::to_string(selection.rows()) +
                                   " B-spline functions of error 10^{-5}");
   Series series("", selection, "time_fraction", "block", SeriesStyle::points);
@@ -84,7 +84,7 @@ void add_selection_panel(reproduce::Figure& figure, const bench::Study& study,
   panel.y.ticks = {0, 1, 2, 3, 4, 5, 6};
 }
 
-void add_cell_panel(reproduce::Figure& figure, const bench::Study& study,
+void add_cell_panel(app::Figure& figure, const bench::Study& study,
                     const solvers::CellResponse& response) {
   Panel& panel = figure.add_panel("case 2, rigid: the " + std::to_string(response.cells.size()) +
                                   " cells of error 10^{-4}");
@@ -113,20 +113,20 @@ const auto& first_below(const Rounds& rounds, double bound, const Error& error) 
   return rounds.back().response;
 }
 
-void write(const std::filesystem::path& folder, const reproduce::Table& table,
-           const reproduce::Table& selection, const reproduce::Figure& figure) {
+void write(const std::filesystem::path& folder, const app::Table& table,
+           const app::Table& selection, const app::Figure& figure) {
   const std::string units = "study, basis, method; functions, cells; errors relative to the rms displacement";
-  reproduce::write_csv(folder / "adaptive_wavelet.csv", table,
+  app::write_csv(folder / "adaptive_wavelet.csv", table,
                        {"Error of the tip displacement over the number of unknowns, adaptive and uniform",
                         units,
                         "jones_legrand_2014/case1.toml, case2.toml, case1_rigid.toml, case2_rigid.toml",
                         {"cpu_ms: processor time, for adaptive methods of all rounds up to this one"}});
-  reproduce::write_csv(folder / "adaptive_wavelet_selection.csv", selection,
+  app::write_csv(folder / "adaptive_wavelet_selection.csv", selection,
                        {"Where the functions that were selected lie, and of which block they are",
                         "fractions of the period",
                         "jones_legrand_2014/case2.toml",
                         {}});
-  reproduce::write_pictures(folder / "adaptive_wavelet", figure);
+  app::write_pictures(folder / "adaptive_wavelet", figure);
 }
 
 void run(const bench::Program& program) {
@@ -134,7 +134,7 @@ void run(const bench::Program& program) {
   const auto study = [&](const char* name) { return bench::make_study(name, sizes); };
   const bench::Study case1 = study("case1"), case2 = study("case2"), rigid1 = study("case1_rigid"),
                      rigid2 = study("case2_rigid");
-  reproduce::Table table = bench::result_table();
+  app::Table table = bench::result_table();
   bench::wavelet_study(case1, "daubechies6", table);
   bench::wavelet_study(case1, "bspline", table);
   bench::wavelet_study(case2, "daubechies6", table);
@@ -143,7 +143,7 @@ void run(const bench::Program& program) {
   const auto cells = bench::rigid_study(rigid2, table);
   const auto& chosen = first_below(adapted.rounds, 1e-5, [&](const auto& u) { return case2.error(u); });
   const auto selection = bench::selection_table(case2, "bspline", chosen.selection);
-  reproduce::Figure figure;
+  app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 520;
   figure.panel_height = 380;

@@ -1,6 +1,6 @@
 #pragma once
-#include "wavebalance/solvers/adaptive_wavelet.hpp"
-#include "wavebalance/solvers/linear_structure.hpp"
+#include "adaptive_wavelet.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::bench {
 

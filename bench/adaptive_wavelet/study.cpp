@@ -8,11 +8,11 @@
 #include "rigid_reference.hpp"
 #include "stiffness_section.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
-#include "wavebalance/solvers/rigid_response.hpp"
-#include "wavebalance/solvers/shooting.hpp"
-#include "wavebalance/solvers/translate_spectrum.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
 
@@ -30,7 +30,7 @@ wavelets::ScalingFunction scaling_function(const std::string& basis) {
 solvers::MultiscaleBasis multiscale(const std::string& basis, int functions, int first, int points) {
   const auto filter = wavelets::two_scale_filter(scaling_function(basis));
   const int levels = std::countr_zero(static_cast<unsigned>(functions / first));
-  return {reproduce::make_basis(basis, functions), points, wavelets::FastWaveletTransform(filter.values),
+  return {app::make_basis(basis, functions), points, wavelets::FastWaveletTransform(filter.values),
           levels};
 }
 
@@ -45,7 +45,7 @@ class Clock {
 // Appends rows of one method; a response that did not converge has no error.
 class Rows {
  public:
-  Rows(reproduce::Table& table, const Study& study, std::string basis, std::string method)
+  Rows(app::Table& table, const Study& study, std::string basis, std::string method)
       : table_(table), study_(study), basis_(std::move(basis)), method_(std::move(method)) {}
 
   void add(std::size_t unknowns, bool converged, const Eigen::VectorXd& displacement, double estimate,
@@ -64,18 +64,18 @@ class Rows {
   }
 
  private:
-  reproduce::Table& table_;
+  app::Table& table_;
   const Study& study_;
   std::string basis_, method_;
 };
 
 // The wavelet balance of each level, by the same Newton.
 void uniform_levels(const Study& study, const std::string& basis, const solvers::AnyContactLaw& law,
-                    reproduce::Table& table) {
+                    app::Table& table) {
   Rows rows(table, study, basis, "uniform");
   for (int functions = 2 * coarsest; functions <= study.sizes.finest; functions *= 2) {
     const Clock clock;
-    auto problem = reproduce::make_problem(study.scene(basis, functions, study.sizes.points));
+    auto problem = app::make_problem(study.scene(basis, functions, study.sizes.points));
     const auto whole = multiscale(basis, functions, functions, study.sizes.points);
     const auto response =
         solvers::selected_response(solvers::selected_balance(problem, whole, whole.uniform(1)), law);
@@ -86,7 +86,7 @@ void uniform_levels(const Study& study, const std::string& basis, const solvers:
 // Whole levels under the structure's answer in the finest one: what the formulation gains without adaptivity.
 void whole_blocks(const Study& study, const std::string& basis, solvers::CondensedProblem& problem,
                   const solvers::MultiscaleBasis& fine, const solvers::AnyContactLaw& law,
-                  reproduce::Table& table) {
+                  app::Table& table) {
   Rows rows(table, study, basis, "whole_levels");
   for (int count = 2; count < fine.blocks(); ++count) {
     const Clock clock;
@@ -113,7 +113,7 @@ solvers::AdaptiveResponse adaptive(const Study& study, Rows rows, solvers::Conde
 
 void geometric(const Study& study, const std::string& basis, solvers::CondensedProblem& problem,
                const solvers::MultiscaleBasis& fine, const solvers::AnyContactLaw& law,
-               reproduce::Table& table) {
+               app::Table& table) {
   Rows rows(table, study, basis, "near_instants");
   constexpr double reach = 3.0;
   for (int complete = 2; complete + 2 <= fine.blocks() && fine.size(complete) <= 64; ++complete) {
@@ -128,10 +128,10 @@ void geometric(const Study& study, const std::string& basis, solvers::CondensedP
 // The selections found by the residual, but selected before the structure's stiffness is inverted.
 void selected_first(const Study& study, const std::string& basis, const solvers::CondensedProblem& problem,
                     const solvers::MultiscaleBasis& fine, const solvers::AnyContactLaw& law,
-                    const solvers::AdaptiveResponse& adapted, reproduce::Table& table) {
+                    const solvers::AdaptiveResponse& adapted, app::Table& table) {
   Rows rows(table, study, basis, "stiffness_section");
   const auto structure =
-      reproduce::make_structure(study.scene(basis, study.sizes.finest, study.sizes.points));
+      app::make_structure(study.scene(basis, study.sizes.finest, study.sizes.points));
   for (const auto& round : adapted.rounds) {
     if (round.response.selection.size() > 130) break;
     const Clock clock;
@@ -140,13 +140,13 @@ void selected_first(const Study& study, const std::string& basis, const solvers:
   }
 }
 
-void rigid_levels(const Study& study, const std::string& basis, double gap, reproduce::Table& table) {
+void rigid_levels(const Study& study, const std::string& basis, double gap, app::Table& table) {
   Rows rows(table, study, basis, "uniform");
   for (int functions = 2 * coarsest; functions <= study.sizes.finest / 2; functions *= 2) {
     const Clock clock;
-    auto problem = reproduce::make_problem(study.scene(basis, functions, functions));
+    auto problem = app::make_problem(study.scene(basis, functions, functions));
     const auto rigid = solvers::rigid_response(problem, gap, {});
-    solvers::TrialEvaluator evaluate(reproduce::make_basis(basis, functions), study.sizes.points, 0);
+    solvers::TrialEvaluator evaluate(app::make_basis(basis, functions), study.sizes.points, 0);
     const Eigen::VectorXcd coefficients = rigid.response.coefficients;
     rows.add(static_cast<std::size_t>(functions), rigid.response.converged(), evaluate(coefficients), missing,
              rigid.response.iterations, clock.milliseconds());
@@ -155,24 +155,24 @@ void rigid_levels(const Study& study, const std::string& basis, double gap, repr
 
 }  // namespace
 
-reproduce::Table result_table() {
-  return reproduce::Table({"study", "basis", "method", "unknowns", "converged", "rms_relative_error",
+app::Table result_table() {
+  return app::Table({"study", "basis", "method", "unknowns", "converged", "rms_relative_error",
                            "estimated_error", "iterations", "cpu_ms"});
 }
 
-reproduce::Scene Study::scene(const std::string& basis, int functions, int points) const {
+app::Scene Study::scene(const std::string& basis, int functions, int points) const {
   const std::vector<std::string> overrides{
       "time.trial=" + basis, "time.weight=" + basis, "time.functions=" + std::to_string(functions),
       "time.quadrature_points=" + std::to_string(points), "time.inner_products=exact"};
-  return reproduce::load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/" + name + ".toml", overrides);
+  return app::load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/" + name + ".toml", overrides);
 }
 
 Study make_study(const std::string& name, const Sizes& sizes) {
   Study study{name, sizes, {}, {}};
-  const reproduce::Scene scene = study.scene("fourier", 63, sizes.points);
-  const auto structure = reproduce::make_structure(scene);
+  const app::Scene scene = study.scene("fourier", 63, sizes.points);
+  const auto structure = app::make_structure(scene);
   const double frequency = scene.forcing.frequency, gap = scene.contact.gap;
-  if (scene.contact.law == reproduce::ContactLawType::rigid) {
+  if (scene.contact.law == app::ContactLawType::rigid) {
     const auto exact = reference::rigid_reference(structure, gap, frequency, sizes.points);
     if (!exact.converged) throw std::runtime_error(name + ": the reference did not settle");
     study.reference = exact.displacement;
@@ -181,7 +181,7 @@ Study make_study(const std::string& name, const Sizes& sizes) {
   }
   solvers::ShootingOptions options;
   options.output_points = sizes.points;
-  const auto shot = solvers::shoot(structure, reproduce::make_law(scene.contact), frequency, options);
+  const auto shot = solvers::shoot(structure, app::make_law(scene.contact), frequency, options);
   if (shot.status != solvers::ShootingStatus::converged)
     throw std::runtime_error(name + ": shooting did not converge");
   study.reference = shot.samples.displacement;
@@ -190,10 +190,10 @@ Study make_study(const std::string& name, const Sizes& sizes) {
 }
 
 solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& basis,
-                                        reproduce::Table& table) {
-  const reproduce::Scene scene = study.scene(basis, study.sizes.finest, study.sizes.points);
-  const auto law = reproduce::make_law(scene.contact);
-  auto problem = reproduce::make_problem(scene);
+                                        app::Table& table) {
+  const app::Scene scene = study.scene(basis, study.sizes.finest, study.sizes.points);
+  const auto law = app::make_law(scene.contact);
+  auto problem = app::make_problem(scene);
   const auto fine = multiscale(basis, study.sizes.finest, coarsest, study.sizes.points);
   uniform_levels(study, basis, law, table);
   whole_blocks(study, basis, problem, fine, law, table);
@@ -206,11 +206,11 @@ solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& b
   return adapted;
 }
 
-solvers::AdaptiveCellResponse rigid_study(const Study& study, reproduce::Table& table) {
-  const reproduce::Scene scene = study.scene("fourier", study.sizes.fourier_functions, study.sizes.points);
+solvers::AdaptiveCellResponse rigid_study(const Study& study, app::Table& table) {
+  const app::Scene scene = study.scene("fourier", study.sizes.fourier_functions, study.sizes.points);
   const double gap = scene.contact.gap;
   for (const char* basis : {"daubechies6", "bspline"}) rigid_levels(study, basis, gap, table);
-  auto problem = reproduce::make_problem(scene);
+  auto problem = app::make_problem(scene);
   Rows uniform(table, study, "force_cells", "uniform");
   for (int count = 16; count <= study.sizes.finest; count *= 2) {
     const Clock clock;
@@ -230,10 +230,10 @@ solvers::AdaptiveCellResponse rigid_study(const Study& study, reproduce::Table& 
   return result;
 }
 
-reproduce::Table selection_table(const Study& study, const std::string& basis,
+app::Table selection_table(const Study& study, const std::string& basis,
                                  const solvers::Selection& selection) {
   const auto fine = multiscale(basis, study.sizes.finest, coarsest, study.sizes.points);
-  reproduce::Table table({"study", "basis", "block", "functions_in_block", "time_fraction"});
+  app::Table table({"study", "basis", "block", "functions_in_block", "time_fraction"});
   for (const int function : selection) {
     const int block = fine.block_of(function);
     table.append_row(

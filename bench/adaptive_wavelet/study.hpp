@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/reproduce/scene.hpp"
-#include "wavebalance/reproduce/table.hpp"
-#include "wavebalance/solvers/adaptive_rigid.hpp"
-#include "wavebalance/solvers/adaptive_wavelet.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "adaptive_rigid.hpp"
+#include "adaptive_wavelet.hpp"
 
 namespace wavebalance::bench {
 
@@ -28,11 +28,11 @@ struct Study {
     return (displacement - reference).norm() / reference.norm();
   }
   /// With basis:basis of so many functions, exact inner products and so many points.
-  reproduce::Scene scene(const std::string& basis, int functions, int points) const;
+  app::Scene scene(const std::string& basis, int functions, int points) const;
 };
 
 /// study, basis, method, unknowns, converged, rms_relative_error, estimated_error, iterations, cpu_ms.
-reproduce::Table result_table();
+app::Table result_table();
 
 /// Shooting for penalty laws, two linear flows for the rigid obstacle.
 Study make_study(const std::string& name, const Sizes& sizes);
@@ -40,13 +40,13 @@ Study make_study(const std::string& name, const Sizes& sizes);
 /// Uniform levels and adaptive selections of a wavelet Galerkin pair; rows are appended to the table. Returns
 /// the adaptive rounds by the residual.
 solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& basis,
-                                        reproduce::Table& table);
+                                        app::Table& table);
 
 /// The rigid obstacle: uniform wavelet balance, uniform and adaptive cells. Returns the adaptive rounds.
-solvers::AdaptiveCellResponse rigid_study(const Study& study, reproduce::Table& table);
+solvers::AdaptiveCellResponse rigid_study(const Study& study, app::Table& table);
 
 /// The selected functions of the basis of `study`: where they lie and how fine they are.
-reproduce::Table selection_table(const Study& study, const std::string& basis,
+app::Table selection_table(const Study& study, const std::string& basis,
                                  const solvers::Selection& selection);
 
 }  // namespace wavebalance::bench

@@ -5,12 +5,12 @@
 #include "memory.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/curve_measures.hpp"
-#include "wavebalance/reproduce/plot.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
-#include "wavebalance/reproduce/table.hpp"
-#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 
 // Time and memory of one solve over the number of functions and of elements: growth.csv and its picture.
 namespace wavebalance::bench {
@@ -24,8 +24,8 @@ struct Ladder {
   std::string name, label;
   std::string variable;  ///< "functions" or "elements"
   std::vector<int> sizes;
-  reproduce::Scene scene;
-  reproduce::Colour colour;
+  app::Scene scene;
+  app::Colour colour;
   int marker;
 };
 
@@ -35,8 +35,8 @@ struct Measured {
   bool converged = false, run = false;
 };
 
-solvers::CondensedProblem condensed_problem(const reproduce::Scene& scene) {
-  return {reproduce::make_pair(scene.time), reproduce::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
+solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
+  return {app::make_pair(scene.time), app::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
 }
 
 // A homotopy would hide what Newton takes.
@@ -46,23 +46,23 @@ solvers::ForcedResponseOptions newton_only() {
   return options;
 }
 
-void solve_once(const reproduce::Scene& scene) {
+void solve_once(const app::Scene& scene) {
   solvers::CondensedProblem problem = condensed_problem(scene);
   problem.set_frequency(scene.forcing.frequency);
-  solvers::forced_response(problem, reproduce::make_law(scene.contact), newton_only());
+  solvers::forced_response(problem, app::make_law(scene.contact), newton_only());
 }
 
-reproduce::Scene smallest(reproduce::Scene scene) {
+app::Scene smallest(app::Scene scene) {
   scene.structure.elements = 5;
   scene.time.functions = 16;
   scene.time.quadrature_points = 64;
   return scene;
 }
 
-Measured measure(const reproduce::Scene& scene) {
+Measured measure(const app::Scene& scene) {
   Measured measured;
   measured.run = true;
-  const solvers::AnyContactLaw law = reproduce::make_law(scene.contact);
+  const solvers::AnyContactLaw law = app::make_law(scene.contact);
   measured.bytes = peak_bytes([&] { solve_once(smallest(scene)); }, [&] { solve_once(scene); });
   measured.construction_seconds = least_seconds([&] { condensed_problem(scene); });
   solvers::CondensedProblem problem = condensed_problem(scene);
@@ -80,8 +80,8 @@ Measured measure(const reproduce::Scene& scene) {
   return measured;
 }
 
-reproduce::Scene sized(const Ladder& ladder, int size) {
-  reproduce::Scene scene = ladder.scene;
+app::Scene sized(const Ladder& ladder, int size) {
+  app::Scene scene = ladder.scene;
   if (ladder.variable == "elements") {
     scene.structure.elements = size;
     scene.time.functions = 63;
@@ -93,7 +93,7 @@ reproduce::Scene sized(const Ladder& ladder, int size) {
 }
 
 Ladder ladder(const std::string& name, const std::string& label, const std::string& variable,
-              std::vector<int> sizes, int case_number, const std::string& basis, reproduce::Colour colour,
+              std::vector<int> sizes, int case_number, const std::string& basis, app::Colour colour,
               int marker) {
   const std::vector<std::string> overrides{"time.trial=" + basis, "time.weight=" + basis,
                                            "time.inner_products=exact", "time.functions=64"};
@@ -102,14 +102,14 @@ Ladder ladder(const std::string& name, const std::string& label, const std::stri
       label,
       variable,
       std::move(sizes),
-      reproduce::load_scene(
+      app::load_scene(
           WAVEBALANCE_SCENES "/jones_legrand_2014/case" + std::to_string(case_number) + ".toml", overrides),
       colour,
       marker};
 }
 
 std::vector<Ladder> ladders(bool quick) {
-  using reproduce::Colour;
+  using app::Colour;
   std::vector<int> functions, elements{25, 100};
   for (int size = 64; size <= (quick ? 128 : 16384); size *= 2) functions.push_back(size);
   if (!quick) elements = {25, 50, 100, 250, 500, 1000, 2500, 5000, 10000, 25000, 50000, 100000};
@@ -131,18 +131,18 @@ double slope(const std::vector<double>& sizes, const std::vector<double>& values
       x.push_back(sizes[i]);
       y.push_back(values[i]);
     }
-  return x.size() < 2 ? unknown : -reproduce::observed_order(x, y);
+  return x.size() < 2 ? unknown : -app::observed_order(x, y);
 }
 
 struct Results {
-  reproduce::Table points{std::vector<std::string>{
+  app::Table points{std::vector<std::string>{
       "ladder", "variable", "trial", "functions", "points", "elements", "construction_seconds",
       "condensation_seconds", "seconds", "peak_bytes", "iterations", "active_samples", "converged", "run"}};
-  reproduce::Table slopes{std::vector<std::string>{"ladder", "variable", "quantity", "from", "to", "slope",
+  app::Table slopes{std::vector<std::string>{"ladder", "variable", "quantity", "from", "to", "slope",
                                                    "slope_over_expected"}};
 };
 
-void append(Results& results, const Ladder& one, const reproduce::Scene& scene, const Measured& m) {
+void append(Results& results, const Ladder& one, const app::Scene& scene, const Measured& m) {
   results.points.append_row({one.name, one.variable, scene.time.trial, std::int64_t{scene.time.functions},
                              std::int64_t{scene.time.quadrature_points},
                              std::int64_t{scene.structure.elements}, m.construction_seconds,
@@ -152,7 +152,7 @@ void append(Results& results, const Ladder& one, const reproduce::Scene& scene, 
 
 // Expected: M log M for the time over functions, else proportional to the size.
 void fit(Results& results, const Ladder& one) {
-  const reproduce::Table rows = results.points.where("ladder", one.name).where("converged", "true");
+  const app::Table rows = results.points.where("ladder", one.name).where("converged", "true");
   if (rows.rows() < 3) return;
   const std::vector<double> sizes = rows.numbers(one.variable);
   for (const char* quantity : {"construction_seconds", "condensation_seconds", "seconds", "peak_bytes"}) {
@@ -169,7 +169,7 @@ void climb(Results& results, const Ladder& one) {
   Measured last;
   Patience patience(longest);
   for (std::size_t i = 0; i < one.sizes.size(); ++i) {
-    const reproduce::Scene scene = sized(one, one.sizes[i]);
+    const app::Scene scene = sized(one, one.sizes[i]);
     const double growth = i == 0 ? 1.0 : double(one.sizes[i]) / one.sizes[i - 1];
     if (!patience.allows(growth)) {
       append(results, one, scene, {});
@@ -185,19 +185,19 @@ void climb(Results& results, const Ladder& one) {
   std::fflush(stdout);
 }
 
-void draw(reproduce::Panel& panel, const std::vector<Ladder>& all, const Results& results,
+void draw(app::Panel& panel, const std::vector<Ladder>& all, const Results& results,
           const std::string& variable, const std::string& quantity, const std::string& label) {
   panel.x.label = variable == "functions" ? "Functions M, 4M points" : "Elements, 63 functions, 256 points";
   panel.y.label = label;
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = reproduce::Legend::top_left;
+  panel.legend = app::Legend::top_left;
   for (const Ladder& one : all) {
     if (one.variable != variable) continue;
     const auto rows = results.points.where("ladder", one.name).where("converged", "true");
     const auto fitted = results.slopes.where("ladder", one.name).where("quantity", quantity);
     char text[32] = "";
     if (!fitted.empty()) std::snprintf(text, sizeof text, ", slope %.2f", fitted.numbers("slope")[0]);
-    reproduce::Series series(one.label + text, rows, variable, quantity, reproduce::SeriesStyle::line_points);
+    app::Series series(one.label + text, rows, variable, quantity, app::SeriesStyle::line_points);
     series.colour = one.colour;
     series.marker = one.marker;
     panel.add(std::move(series));
@@ -208,7 +208,7 @@ void run(const Program& program) {
   Results results;
   const std::vector<Ladder> all = ladders(program.quick);
   for (const Ladder& one : all) climb(results, one);
-  reproduce::Figure figure;
+  app::Figure figure;
   figure.title = "Growth of one solve";
   figure.columns = 2;
   for (const char* variable : {"functions", "elements"}) {

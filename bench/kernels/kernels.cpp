@@ -2,8 +2,8 @@
 
 #include "limits.hpp"
 #include "solver_scenes.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/solvers/contact_system.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/balance/contact_system.hpp"
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 #include "wavebalance/wavelets/filter.hpp"
@@ -20,14 +20,14 @@ double fft_flops(double points) { return 2.5 * points * std::log2(points); }
 // Four samplings and their transforms (trial functions; weights and their first two derivatives) give three
 // symbols. Daubechies Galerkin pairs sample both generators alone and transform three columns of M values.
 void symbol_assembly(benchmark::State& state, const std::string& trial, const std::string& weight) {
-  reproduce::Time time;
+  app::Time time;
   time.trial = trial;
   time.weight = weight;
   time.functions = static_cast<int>(state.range(0));
   time.quadrature_points = 4 * time.functions;
-  for (auto _ : state) benchmark::DoNotOptimize(reproduce::make_pair(time).symbol(0).data());
+  for (auto _ : state) benchmark::DoNotOptimize(app::make_pair(time).symbol(0).data());
   const double points = time.quadrature_points, functions = time.functions;
-  const bool connection = effective_inner_products(time) == reproduce::InnerProducts::exact;
+  const bool connection = effective_inner_products(time) == app::InnerProducts::exact;
   const double flops =
       connection ? 2.0 * fft_flops(points) + 3.0 * fft_flops(functions) : 4.0 * fft_flops(points);
   set_work(state, flops,

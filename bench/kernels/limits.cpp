@@ -63,8 +63,8 @@ double LimitReporter::copy_seconds(double bytes) const {
   return nearest == nullptr ? 0.0 : nearest->seconds * bytes / nearest->bytes;
 }
 
-reproduce::Table LimitReporter::table() const {
-  reproduce::Table table(
+app::Table LimitReporter::table() const {
+  app::Table table(
       {"kernel", "size", "seconds", "flops", "bytes", "limit_seconds", "limited_by", "ratio"});
   const double rate = flop_rate();
   for (const Measured& one : measured_) {
@@ -77,17 +77,17 @@ reproduce::Table LimitReporter::table() const {
   return table;
 }
 
-reproduce::Figure ratio_figure(const reproduce::Table& table) {
-  using Align = reproduce::TextMark::Align;
+app::Figure ratio_figure(const app::Table& table) {
+  using Align = app::TextMark::Align;
   const std::vector<double> ratios = table.numbers("ratio");
   const std::vector<std::string> kernels = table.texts("kernel"), sizes = table.texts("size");
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < ratios.size(); ++i)
     if (kernels[i] != "copy" && kernels[i] != "dense_lu") rows.push_back(i);
-  reproduce::Figure figure;
+  app::Figure figure;
   figure.panel_width = 900;
   figure.panel_height = 80 + 22 * static_cast<int>(rows.size());
-  reproduce::Panel& panel =
+  app::Panel& panel =
       figure.add_panel("Time of the kernels over their limit (kernel, size: time over limit)");
   constexpr double names = 0.012, bars = 0.2;
   const double largest = *std::max_element(ratios.begin(), ratios.end());
@@ -96,9 +96,9 @@ reproduce::Figure ratio_figure(const reproduce::Table& table) {
   panel.mark_x(1.0);
   for (std::size_t j = 0; j < rows.size(); ++j) {
     const double y = double(rows.size() - j), ratio = ratios[rows[j]];
-    panel.rectangles.push_back({bars, y - 0.35, ratio, y + 0.35, reproduce::Colour::blue, 0.6});
+    panel.rectangles.push_back({bars, y - 0.35, ratio, y + 0.35, app::Colour::blue, 0.6});
     panel.texts.push_back(
-        {0.9 * bars, y, reproduce::plain(kernels[rows[j]] + "  " + sizes[rows[j]]), Align::right});
+        {0.9 * bars, y, app::plain(kernels[rows[j]] + "  " + sizes[rows[j]]), Align::right});
     panel.texts.push_back({1.1 * std::max(ratio, 1.0), y, short_text(ratio), Align::left});
   }
   return figure;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/reproduce/plot.hpp"
-#include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::bench {
 
@@ -23,7 +23,7 @@ class LimitReporter final : public benchmark::ConsoleReporter {
   /// limit is the longer of the operations at the largest rate of dense_lu and the bytes at the rate of the
   /// copy of as many bytes; the copies and factorizations themselves are rows too. Seconds are the least of
   /// the repetitions.
-  reproduce::Table table() const;
+  app::Table table() const;
 
  private:
   struct Measured {
@@ -37,6 +37,6 @@ class LimitReporter final : public benchmark::ConsoleReporter {
 };
 
 /// Ratios of time to limit as bars, a row a kernel and size.
-reproduce::Figure ratio_figure(const reproduce::Table& table);
+app::Figure ratio_figure(const app::Table& table);
 
 }  // namespace wavebalance::bench

@@ -19,7 +19,7 @@ void run(const Program& program) {
   benchmark::Initialize(&count, pointers.data());
   LimitReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
-  const reproduce::Table table = reporter.table();
+  const app::Table table = reporter.table();
   write_csv(
       program.output / "kernels.csv", table,
       {"Time of the kernels over their limit",

@@ -8,8 +8,8 @@
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
-#include "wavebalance/solvers/mode_augmented_lagrangian.hpp"
-#include "wavebalance/solvers/nonlinear_mode.hpp"
+#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
+#include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 
 // First nonlinear modes with a rigid obstacle, from contact to a largest energy, full Fourier series: the rod
 // of [LL10, section 5.1], 20 elements with half-lumped mass, and the open blade, reduced to 112 coordinates.

@@ -8,7 +8,7 @@
 #include "dense_system.hpp"
 #include "solver_scenes.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 

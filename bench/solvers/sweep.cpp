@@ -2,7 +2,7 @@
 
 #include "dense_system.hpp"
 #include "solver_scenes.hpp"
-#include "wavebalance/solvers/frequency_sweep.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 // The frequency response 1100-1700 Hz of [JL14, Fig. 12] with 63 functions and 256 points.
 namespace wavebalance::bench {

@@ -1,8 +1,8 @@
 #pragma once
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/fem/bar.hpp"
-#include "wavebalance/solvers/condensed_problem.hpp"
-#include "wavebalance/solvers/linear_structure.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 namespace wavebalance::bench {

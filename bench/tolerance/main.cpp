@@ -5,23 +5,23 @@
 
 #include "program.hpp"
 #include "study.hpp"
-#include "wavebalance/reproduce/plot.hpp"
-#include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 // What a tolerance asked for gives and costs, beside the cheapest fixed choice of the same error:
 // tolerance.csv and its picture.
 namespace wavebalance::bench {
 namespace {
 
-using reproduce::Series;
-using reproduce::SeriesStyle;
+using app::Series;
+using app::SeriesStyle;
 
 constexpr double allowed = 3.0;  // true error over tolerance, and cost over the cheapest fixed choice
 // Errors of the reference and of rounding: below it one error is as good as another.
 constexpr double reference_error = 1e-10;
 
-reproduce::Table empty_table() {
-  return reproduce::Table({"motion", "tolerance", "status", "estimated_error", "true_error",
+app::Table empty_table() {
+  return app::Table({"motion", "tolerance", "status", "estimated_error", "true_error",
                            "error_over_tolerance", "functions", "quadrature_points", "rungs", "seconds",
                            "fixed_trial", "fixed_weight", "fixed_functions", "fixed_points", "fixed_error",
                            "fixed_seconds", "cost_ratio"});
@@ -29,7 +29,7 @@ reproduce::Table empty_table() {
 
 double error_to_match(const Asked& asked) { return std::max(asked.error, reference_error); }
 
-void append(reproduce::Table& table, const std::string& motion, const Asked& asked,
+void append(app::Table& table, const std::string& motion, const Asked& asked,
             const ToleranceStudy& study, const std::vector<FixedChoice>& choices) {
   const FixedChoice* found = cheapest(choices, error_to_match(asked));
   const FixedChoice fixed = found == nullptr ? FixedChoice{.error = std::nan("")} : *found;
@@ -42,7 +42,7 @@ void append(reproduce::Table& table, const std::string& motion, const Asked& ask
                     seconds.asked / seconds.fixed});
 }
 
-void append_motion(reproduce::Table& table, const tolerance::Motion& motion, const StudySizes& sizes,
+void append_motion(app::Table& table, const tolerance::Motion& motion, const StudySizes& sizes,
                    const std::vector<double>& tolerances) {
   const ToleranceStudy study(motion, WAVEBALANCE_SCENES, sizes);
   std::vector<Asked> asked;
@@ -57,8 +57,8 @@ void append_motion(reproduce::Table& table, const tolerance::Motion& motion, con
   std::fflush(stdout);
 }
 
-reproduce::Panel& add_panel(reproduce::Figure& figure, const std::string& title, const std::string& label) {
-  reproduce::Panel& panel = figure.add_panel(title);
+app::Panel& add_panel(app::Figure& figure, const std::string& title, const std::string& label) {
+  app::Panel& panel = figure.add_panel(title);
   panel.x = {.label = "Tolerance",
              .lower = 3e-9,
              .upper = 0.3,
@@ -75,36 +75,36 @@ Series line(const std::string& label, double at_least, double at_most, bool prop
   const std::vector<double> y{factor * (proportional ? at_least : 1.0),
                               factor * (proportional ? at_most : 1.0)};
   Series one(label, x, y);
-  one.colour = reproduce::Colour::grey;
-  one.dash = factor == 1.0 ? reproduce::Dash::solid : reproduce::Dash::dashed;
+  one.colour = app::Colour::grey;
+  one.dash = factor == 1.0 ? app::Dash::solid : app::Dash::dashed;
   return one;
 }
 
-Series marks(const std::string& label, const reproduce::Table& rows, const std::string& column,
-             reproduce::Colour colour, int marker) {
+Series marks(const std::string& label, const app::Table& rows, const std::string& column,
+             app::Colour colour, int marker) {
   Series one(label, rows, "tolerance", column, SeriesStyle::points);
   one.colour = colour;
   one.marker = marker;
   return one;
 }
 
-reproduce::Figure picture(const reproduce::Table& table) {
-  const reproduce::Table met = table.where("status", "converged");
-  reproduce::Figure figure;
+app::Figure picture(const app::Table& table) {
+  const app::Table met = table.where("status", "converged");
+  app::Figure figure;
   figure.columns = 2;
   figure.title = "Scenes with a tolerance: " + std::to_string(table.rows()) + " runs";
-  reproduce::Panel& errors = add_panel(figure, "True error", "Relative rms error of the tip displacement");
+  app::Panel& errors = add_panel(figure, "True error", "Relative rms error of the tip displacement");
   errors.y.tick_format = "10^{%L}";
   errors.y.lower = 1e-15;
-  errors.legend = reproduce::Legend::top_left;
+  errors.legend = app::Legend::top_left;
   errors.add(line("three times the tolerance", 1e-8, 1e-1, true, allowed));
   errors.add(line("tolerance", 1e-8, 1e-1, true, 1.0));
-  errors.add(marks("true", met, "true_error", reproduce::Colour::blue, 1));
-  reproduce::Panel& costs = add_panel(figure, "Cost", "Cost over the cheapest fixed choice");
-  costs.legend = reproduce::Legend::none;
+  errors.add(marks("true", met, "true_error", app::Colour::blue, 1));
+  app::Panel& costs = add_panel(figure, "Cost", "Cost over the cheapest fixed choice");
+  costs.legend = app::Legend::none;
   costs.add(line("", 1e-8, 1e-1, false, allowed));
   costs.add(line("", 1e-8, 1e-1, false, 1.0));
-  costs.add(marks("", met, "cost_ratio", reproduce::Colour::vermillion, 1));
+  costs.add(marks("", met, "cost_ratio", app::Colour::vermillion, 1));
   return figure;
 }
 
@@ -121,15 +121,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void report(const reproduce::Table& table) {
+void report(const app::Table& table) {
   std::printf("%-10s %9s %9s %22s %12s %12s\n", "tolerance", "runs", "met", "largest error/tolerance",
               "median cost", "largest cost");
   std::vector<std::string> seen;
   for (const std::string& tolerance : table.texts("tolerance")) {
     if (std::find(seen.begin(), seen.end(), tolerance) != seen.end()) continue;
     seen.push_back(tolerance);
-    const reproduce::Table rows = table.where("tolerance", tolerance);
-    const reproduce::Table met = rows.where("status", "converged");
+    const app::Table rows = table.where("tolerance", tolerance);
+    const app::Table met = rows.where("status", "converged");
     if (met.empty()) continue;
     const auto costs = met.numbers("cost_ratio");
     std::printf("%-10s %9zu %9zu %22.3g %12.3g %12.3g\n", tolerance.c_str(), rows.rows(), met.rows(),
@@ -146,14 +146,14 @@ void run(const Program& program) {
     tolerances = {1e-1, 1e-2};
     motions.resize(2);
   }
-  reproduce::Table table = empty_table();
+  app::Table table = empty_table();
   for (const auto& motion : motions) append_motion(table, motion, sizes, tolerances);
-  reproduce::write_csv(program.output / "tolerance.csv", table,
+  app::write_csv(program.output / "tolerance.csv", table,
                        {"Scenes with a tolerance beside the cheapest fixed choice of the same true error",
                         "s of processor time; errors are relative rms of the contact displacement",
                         "reproduce/scenes/tolerance",
                         {"Composition of the problem is part of every time."}});
-  reproduce::write_pictures(program.output / "tolerance", picture(table));
+  app::write_pictures(program.output / "tolerance", picture(table));
   report(table);
 }
 

@@ -5,7 +5,7 @@
 #include "program.hpp"
 #include "random_motions.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 // Random motions to a tolerance beside shooting that starts from what was found: tolerance_random.csv.
 namespace wavebalance::bench {
@@ -15,13 +15,13 @@ constexpr std::uint64_t first_seed = 20140817;
 constexpr int output_points = 2048;
 constexpr double patience = 1.0;  // s: no further rung is begun after it, and the status is "cancelled"
 
-reproduce::Table empty_table() {
-  return reproduce::Table({"seed", "law", "frequency_Hz", "stiffness_damping_s", "gap_m", "tolerance",
+app::Table empty_table() {
+  return app::Table({"seed", "law", "frequency_Hz", "stiffness_damping_s", "gap_m", "tolerance",
                            "status", "estimated_error", "true_error", "error_over_tolerance", "functions",
                            "quadrature_points", "rungs", "seconds"});
 }
 
-void append(reproduce::Table& table, std::uint64_t seed, double tolerance) {
+void append(app::Table& table, std::uint64_t seed, double tolerance) {
   const tolerance::RandomMotion motion(seed);
   const double start = processor_seconds();
   auto found = motion.climb(
@@ -37,7 +37,7 @@ void append(reproduce::Table& table, std::uint64_t seed, double tolerance) {
                     static_cast<std::int64_t>(found.ladder.size()), seconds});
 }
 
-void report(const reproduce::Table& table) {
+void report(const app::Table& table) {
   int converged = 0, judged = 0, beyond = 0;
   double largest = 0.0;
   const auto errors = table.numbers("error_over_tolerance");
@@ -58,10 +58,10 @@ void report(const reproduce::Table& table) {
 
 void run(const Program& program) {
   const std::uint64_t motions = program.quick ? 4 : 200;
-  reproduce::Table table = empty_table();
+  app::Table table = empty_table();
   for (const double tolerance : {1e-2, 1e-4, 1e-6})
     for (std::uint64_t seed = first_seed; seed < first_seed + motions; ++seed) append(table, seed, tolerance);
-  reproduce::write_csv(
+  app::write_csv(
       program.output / "tolerance_random.csv", table,
       {"Random bars against stops to a tolerance, beside shooting from the motion that was found",
        "SI; s of processor time; errors are relative rms of the contact displacement",

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/measures.hpp"
-#include "wavebalance/solvers/resolution_ladder.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/solvers/response/resolution_ladder.hpp"
 
 namespace wavebalance::bench {
 namespace {
@@ -27,24 +27,24 @@ double median(std::vector<double>& values) {
 
 ToleranceStudy::ToleranceStudy(const tolerance::Motion& motion, const std::string& folder, StudySizes sizes)
     : scene_(tolerance::scene(motion, folder, 1.0, output_points)),
-      model_(reproduce::make_model(scene_)),
+      model_(app::make_model(scene_)),
       sizes_(sizes),
-      law_(reproduce::make_law(scene_.contact)),
+      law_(app::make_law(scene_.contact)),
       exact_(tolerance::reference(scene_, std::min(reference_functions, sizes.largest_functions - 1))) {}
 
 double ToleranceStudy::error_of(const solvers::CondensedProblem& problem,
                                 const solvers::PeriodicResponse& response) const {
-  const auto motion = reproduce::sample_response(problem, response, law_, output_points);
-  return reproduce::relative_rms_error(motion.displacement.row(0), exact_);
+  const auto motion = app::sample_response(problem, response, law_, output_points);
+  return app::relative_rms_error(motion.displacement.row(0), exact_);
 }
 
 ToleranceStudy::Solution ToleranceStudy::solve(const FixedChoice& choice) const {
-  reproduce::Scene scene = scene_;
+  app::Scene scene = scene_;
   scene.time = {.trial = choice.trial,
                 .weight = choice.weight,
                 .functions = choice.functions,
                 .quadrature_points = choice.points};
-  solvers::CondensedProblem problem = reproduce::make_problem(scene, model_);
+  solvers::CondensedProblem problem = app::make_problem(scene, model_);
   // A choice that Newton alone does not solve is never the cheapest of its error.
   solvers::ForcedResponseOptions options;
   options.homotopy = false;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tolerance_scenes.hpp"
-#include "wavebalance/reproduce/structure_model.hpp"
-#include "wavebalance/solvers/resolution_ladder.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/solvers/response/resolution_ladder.hpp"
 
 namespace wavebalance::bench {
 
@@ -70,8 +70,8 @@ class ToleranceStudy {
 
   double error_of(const solvers::CondensedProblem& problem, const solvers::PeriodicResponse& response) const;
 
-  reproduce::Scene scene_;
-  reproduce::StructureModel model_;
+  app::Scene scene_;
+  app::StructureModel model_;
   StudySizes sizes_;
   solvers::AnyContactLaw law_;
   Eigen::VectorXd exact_;

@@ -4,10 +4,10 @@
 #include "dense_system.hpp"
 #include "ladder.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/measures.hpp"
-#include "wavebalance/solvers/shooting.hpp"
-#include "wavebalance/solvers/time_stepping.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 // What the condensed solver is measured against: the assembled system, time stepping and shooting.
@@ -26,7 +26,7 @@ Point named(const std::string& method, double tolerance) {
 
 double error_of(const Study& study, const Eigen::VectorXd& displacement) {
   return displacement.size() == study.reference.size()
-             ? reproduce::relative_rms_error(displacement, study.reference)
+             ? app::relative_rms_error(displacement, study.reference)
              : unknown;
 }
 
@@ -39,7 +39,7 @@ Point dense_point(const Study& study, int functions, double patience) {
   const spectral::FourierBasis basis(functions);
   const Eigen::Vector2cd cosine(0.0, 1.0);
   const double start = processor_seconds();
-  dense::DenseSystem system(reproduce::make_structure(study.scene), reproduce::make_law(study.scene.contact),
+  dense::DenseSystem system(app::make_structure(study.scene), app::make_law(study.scene.contact),
                             dense::discretise(basis, basis, {.quadrature_points = point.points}, cosine));
   point.construction_seconds = processor_seconds() - start;
   dense::Solution solution;
@@ -87,8 +87,8 @@ std::vector<Point> dense_points(const Study& study, const std::vector<int>& func
 }
 
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances) {
-  const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
-  const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
+  const solvers::LinearStructure structure = app::make_structure(study.scene);
+  const solvers::AnyContactLaw law = app::make_law(study.scene.contact);
   return reference_points("time_stepping", study, tolerances, [&](double tolerance) {
     solvers::TimeSteppingOptions options;
     options.period_tolerance = tolerance;
@@ -98,8 +98,8 @@ std::vector<Point> time_stepping_points(const Study& study, const std::vector<do
 }
 
 std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances) {
-  const solvers::LinearStructure structure = reproduce::make_structure(study.scene);
-  const solvers::AnyContactLaw law = reproduce::make_law(study.scene.contact);
+  const solvers::LinearStructure structure = app::make_structure(study.scene);
+  const solvers::AnyContactLaw law = app::make_law(study.scene.contact);
   return reference_points("shooting", study, tolerances, [&](double tolerance) {
     solvers::ShootingOptions options;
     options.tolerance = std::max(1e-11, 1e-2 * tolerance);

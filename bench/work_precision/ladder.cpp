@@ -3,19 +3,19 @@
 #include <limits>
 
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/measures.hpp"
-#include "wavebalance/solvers/forced_response.hpp"
-#include "wavebalance/solvers/periodic_field.hpp"
-#include "wavebalance/solvers/rigid_response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
 
 namespace wavebalance::bench {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-solvers::CondensedProblem condensed_problem(const reproduce::Scene& scene) {
-  return {reproduce::make_pair(scene.time), reproduce::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
+solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
+  return {app::make_pair(scene.time), app::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
 }
 
 // Ends a solve that takes too long; it has not converged then.
@@ -25,21 +25,21 @@ solvers::SolveObserver deadline(double patience) {
   };
 }
 
-solvers::PeriodicResponse solve(const reproduce::Scene& scene, solvers::CondensedProblem& problem,
+solvers::PeriodicResponse solve(const app::Scene& scene, solvers::CondensedProblem& problem,
                                 double patience) {
   problem.set_frequency(scene.forcing.frequency);
-  if (scene.contact.law == reproduce::ContactLawType::rigid) {
+  if (scene.contact.law == app::ContactLawType::rigid) {
     solvers::RigidResponseOptions options;
     options.observer = deadline(patience);
     return solvers::rigid_response(problem, scene.contact.gap, options).response;
   }
   solvers::ForcedResponseOptions options;
   options.observer = deadline(patience);
-  return solvers::forced_response(problem, reproduce::make_law(scene.contact), options);
+  return solvers::forced_response(problem, app::make_law(scene.contact), options);
 }
 
-reproduce::Scene discretised(const Study& study, const Pair& pair, int functions, int points) {
-  reproduce::Scene scene = study.scene;
+app::Scene discretised(const Study& study, const Pair& pair, int functions, int points) {
+  app::Scene scene = study.scene;
   scene.time.trial = pair.trial;
   scene.time.weight = pair.weight;
   scene.time.functions = functions;
@@ -47,19 +47,19 @@ reproduce::Scene discretised(const Study& study, const Pair& pair, int functions
   return scene;
 }
 
-Point blank(const Pair& pair, const reproduce::Time& time) {
+Point blank(const Pair& pair, const app::Time& time) {
   Point point;
   point.method = "weighted_residual";
   point.trial = pair.trial;
   point.weight = pair.weight;
-  point.inner_products = name_of(reproduce::effective_inner_products(time));
+  point.inner_products = name_of(app::effective_inner_products(time));
   point.functions = time.functions;
   point.points = time.quadrature_points;
   point.construction_seconds = point.seconds = point.error = point.tolerance = unknown;
   return point;
 }
 
-Point measure(const Study& study, const Pair& pair, const reproduce::Scene& scene, double patience) {
+Point measure(const Study& study, const Pair& pair, const app::Scene& scene, double patience) {
   Point point = blank(pair, scene.time);
   point.construction_seconds = least_seconds([&] { condensed_problem(scene); }, {0.0, 2, 0.1});
   solvers::CondensedProblem problem = condensed_problem(scene);
@@ -73,7 +73,7 @@ Point measure(const Study& study, const Pair& pair, const reproduce::Scene& scen
   point.converged = response.converged();
   point.status = to_string(response.status);
   solvers::MotionEvaluator motion(problem.pair().trial(), static_cast<int>(study.reference.size()));
-  point.error = reproduce::relative_rms_error(motion.displacement(response.coefficients), study.reference);
+  point.error = app::relative_rms_error(motion.displacement(response.coefficients), study.reference);
   return point;
 }
 
@@ -82,7 +82,7 @@ void climb(const Study& study, const Pair& pair, const LadderOptions& options, i
   Patience patience(options.patience);
   for (const int functions : options.functions) {
     const int number = functions + change;
-    const reproduce::Scene scene =
+    const app::Scene scene =
         discretised(study, pair, number, std::max(number, functions) * points_per_function);
     if (patience.allows()) {
       points.push_back(measure(study, pair, scene, options.patience));

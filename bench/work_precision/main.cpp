@@ -4,19 +4,19 @@
 #include "picture.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 // Error over solve time for every pair of bases: work_precision.csv and its pictures.
 namespace wavebalance::bench {
 namespace {
 
-reproduce::Table empty_table() {
-  return reproduce::Table({"case", "method", "trial", "weight", "inner_products", "functions", "points",
+app::Table empty_table() {
+  return app::Table({"case", "method", "trial", "weight", "inner_products", "functions", "points",
                            "tolerance", "construction_seconds", "seconds", "error", "converged", "status",
                            "on_front"});
 }
 
-void append(reproduce::Table& table, const Study& study, const std::vector<Point>& points) {
+void append(app::Table& table, const Study& study, const std::vector<Point>& points) {
   for (const Point& p : points)
     table.append_row({study.name, p.method, p.trial, p.weight, p.inner_products, std::int64_t{p.functions},
                       std::int64_t{p.points}, p.tolerance, p.construction_seconds, p.seconds, p.error,
@@ -80,7 +80,7 @@ class Results {
       append(table_, study, points);
       picture.add(study, points);
       notes_.push_back("reference of " + study.name + ": " + study.reference_text + ", own error about " +
-                       reproduce::cell_text(study.reference_error));
+                       app::cell_text(study.reference_error));
       report(study, points, processor_seconds() - start);
       write_csv(program_.output / "work_precision.csv", table_,
                 {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
@@ -91,7 +91,7 @@ class Results {
 
  private:
   Program program_;
-  reproduce::Table table_ = empty_table();
+  app::Table table_ = empty_table();
   std::vector<std::string> notes_{
       "error: relative rms over 1024 points of the period; seconds: least of repeated solves, plans made",
       "status not_run: the ladder below took too long; on_front: no converged point beats it in both"};

@@ -6,8 +6,8 @@
 namespace wavebalance::bench {
 namespace {
 
-using reproduce::Series;
-using reproduce::SeriesStyle;
+using app::Series;
+using app::SeriesStyle;
 
 Series series(const std::string& label, const std::vector<Point>& points, SeriesStyle style) {
   std::vector<double> x, y;
@@ -27,7 +27,7 @@ std::vector<Point> chosen(const std::vector<Point>& points, const Predicate& pre
 
 Series front(const std::vector<Point>& points) {
   Series one = series("Pareto front", envelope(points), SeriesStyle::steps);
-  one.colour = reproduce::Colour::grey;
+  one.colour = app::Colour::grey;
   one.width = 5.0;
   return one;
 }
@@ -48,7 +48,7 @@ Series baseline(const std::string& method, const std::string& label, int marker,
   const auto own =
       chosen(points, [&](const Point& point) { return point.method == method && point.converged; });
   Series one = series(label, own, SeriesStyle::line_points);
-  one.colour = reproduce::Colour::grey;
+  one.colour = app::Colour::grey;
   one.marker = marker;
   return one;
 }
@@ -63,11 +63,11 @@ WorkPrecisionPicture::WorkPrecisionPicture(const std::string& title) {
 }
 
 void WorkPrecisionPicture::add(const Study& study, const std::vector<Point>& points) {
-  reproduce::Panel& panel = figure_.add_panel(study.title);
+  app::Panel& panel = figure_.add_panel(study.title);
   panel.x.label = "Solve time (processor seconds)";
   panel.y.label = "Relative rms error of the tip displacement";
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = reproduce::Legend::right_of_panel;
+  panel.legend = app::Legend::right_of_panel;
   panel.add(front(points));
   for (const Pair& pair : pairs()) panel.add(best_of(pair, points));
   for (Series one :

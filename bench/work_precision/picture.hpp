@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "ladder.hpp"
-#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::bench {
 
@@ -13,10 +13,10 @@ class WorkPrecisionPicture {
  public:
   explicit WorkPrecisionPicture(const std::string& title);
   void add(const Study& study, const std::vector<Point>& points);
-  const reproduce::Figure& figure() const { return figure_; }
+  const app::Figure& figure() const { return figure_; }
 
  private:
-  reproduce::Figure figure_;
+  app::Figure figure_;
 };
 
 }  // namespace wavebalance::bench

@@ -3,23 +3,23 @@
 #include <stdexcept>
 
 #include "rigid_reference.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/measures.hpp"
-#include "wavebalance/reproduce/response.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::bench {
 namespace {
 
-using reproduce::Colour;
-using reproduce::Dash;
+using app::Colour;
+using app::Dash;
 
-reproduce::Scene scene(const std::string& file) {
+app::Scene scene(const std::string& file) {
   const std::vector<std::string> overrides{"time.inner_products=exact", "analysis.output_points=1024"};
-  return reproduce::load_scene(WAVEBALANCE_SCENES "/" + file, overrides);
+  return app::load_scene(WAVEBALANCE_SCENES "/" + file, overrides);
 }
 
-reproduce::Response require_converged(reproduce::Response response, const std::string& what) {
+app::Response require_converged(app::Response response, const std::string& what) {
   if (!response.converged)
     throw std::runtime_error("the reference of " + what + " did not converge: " + response.status);
   return response;
@@ -27,7 +27,7 @@ reproduce::Response require_converged(reproduce::Response response, const std::s
 
 Study penalty_study(const std::string& name, const std::string& title, const std::string& file) {
   Study study{name, title, scene(file), {}, 1e-11, "shooting"};
-  study.reference = require_converged(reproduce::shooting_response(study.scene), name).samples.displacement;
+  study.reference = require_converged(app::shooting_response(study.scene), name).samples.displacement;
   return study;
 }
 
@@ -38,7 +38,7 @@ Study rigid_study(const std::string& name, const std::string& title, const std::
               {},   0.0,   "two linear motions joined where the contact opens and closes"};
   const int points = study.scene.analysis.output_points;
   const auto at = [&](int samples) {
-    auto found = reference::rigid_reference(reproduce::make_structure(study.scene), study.scene.contact.gap,
+    auto found = reference::rigid_reference(app::make_structure(study.scene), study.scene.contact.gap,
                                             study.scene.forcing.frequency, samples);
     if (!found.converged) throw std::runtime_error("the reference of " + name + " did not converge");
     return found.displacement;
@@ -46,7 +46,7 @@ Study rigid_study(const std::string& name, const std::string& title, const std::
   study.reference = at(points);
   const Eigen::VectorXd fine = at(2 * points);
   const Eigen::VectorXd same = fine(Eigen::seqN(0, points, 2));
-  study.reference_error = reproduce::relative_rms_error(same, study.reference);
+  study.reference_error = app::relative_rms_error(same, study.reference);
   return study;
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/reproduce/plot.hpp"
-#include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::bench {
 
@@ -12,8 +12,8 @@ namespace wavebalance::bench {
 /// dash for the weights.
 struct Pair {
   std::string trial, weight, label;
-  reproduce::Colour colour;
-  reproduce::Dash dash;
+  app::Colour colour;
+  app::Dash dash;
   int marker;
 };
 
@@ -24,7 +24,7 @@ const std::vector<Pair>& pairs();
 struct Study {
   std::string name;   ///< of the column "case"
   std::string title;  ///< of the panel
-  reproduce::Scene scene;
+  app::Scene scene;
   Eigen::VectorXd reference;     ///< tip displacement, m
   double reference_error = 0.0;  ///< estimated, relative: errors below it say nothing
   std::string reference_text;    ///< where it comes from

@@ -16,7 +16,7 @@ double apart(double a, double b) {
 
 }  // namespace
 
-std::vector<Eigen::Matrix3Xd> motion(const reproduce::ModeStudy& study, const solvers::ModePoint& point,
+std::vector<Eigen::Matrix3Xd> motion(const app::ModeStudy& study, const solvers::ModePoint& point,
                                      int times) {
   const Eigen::MatrixXd whole = study.model().recover(study.samples(point, times, true).displacements);
   std::vector<Eigen::Matrix3Xd> frames;
@@ -49,7 +49,7 @@ double twist_amplitude(const fem::Blade& blade, const std::vector<Eigen::Matrix3
   return 0.5 * (largest - least);
 }
 
-std::vector<bool> torsion_modes(const reproduce::ModeStudy& study) {
+std::vector<bool> torsion_modes(const app::ModeStudy& study) {
   const auto& model = study.model();
   const Eigen::MatrixXd shapes = model.recover(study.linear_shapes());
   std::vector<bool> torsion;
@@ -91,10 +91,10 @@ bool centred(const std::vector<double>& times, double centre, double sample) {
          std::all_of(times.begin(), times.end(), [&](double time) { return holds(2.0 * centre - time); });
 }
 
-reproduce::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements, double scale) {
+app::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements, double scale) {
   constexpr double mm = 1e3;
   const fem::SolidMesh& mesh = blade.model.mesh;
-  reproduce::Surface surface;
+  app::Surface surface;
   surface.vertices = mm * mesh.nodes;
   if (displacements.size() > 0) surface.vertices += mm * scale * displacements;
   const fem::Connectivity faces = fem::boundary_faces(mesh);

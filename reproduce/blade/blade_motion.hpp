@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "wavebalance/fem/blade.hpp"
-#include "wavebalance/reproduce/modes.hpp"
-#include "wavebalance/reproduce/surface.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/plot/surface.hpp"
 
 /// What is measured of a blade's motions and how they are drawn.
 namespace wavebalance::blade {
 
 /// Displacements of all nodes of the scene's blade, 3 x nodes (m), at `times` uniform times of a mode's
 /// period from t = 0 on. O(n r times), n unknowns and r coordinates of the reduced blade.
-std::vector<Eigen::Matrix3Xd> motion(const reproduce::ModeStudy& study, const solvers::ModePoint& point,
+std::vector<Eigen::Matrix3Xd> motion(const app::ModeStudy& study, const solvers::ModePoint& point,
                                      int times);
 
 /// The rigid motion in planes z = const that is nearest to the displacements of the tip's contact nodes
@@ -30,7 +30,7 @@ TipMotion tip_motion(const fem::Blade& blade, const Eigen::Matrix3Xd& displaceme
 double twist_amplitude(const fem::Blade& blade, const std::vector<Eigen::Matrix3Xd>& motion);
 
 /// Which linear modes are torsion: those whose tip rotates more than it translates.
-std::vector<bool> torsion_modes(const reproduce::ModeStudy& study);
+std::vector<bool> torsion_modes(const app::ModeStudy& study);
 
 /// Of the kinetic energy of a motion, mean over its period, the share in the modes of `torsion`: linear modes
 /// are orthogonal, so that the energy is the sum over harmonics n and modes j of n^2 |a_jn|^2.
@@ -46,7 +46,7 @@ EdgeContact edge_contact(const Eigen::MatrixXd& force);
 bool centred(const std::vector<double>& times, double centre, double sample);
 
 /// The blade's surface in mm. displacements: 3 x nodes, m, or empty; added `scale` times.
-reproduce::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {},
+app::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {},
                            double scale = 0.0);
 
 }  // namespace wavebalance::blade

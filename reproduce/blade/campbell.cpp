@@ -5,10 +5,10 @@
 
 #include "rotating_blade.hpp"
 #include "wavebalance/report/artefact.hpp"
-#include "wavebalance/reproduce/modes.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
+using app::Colour;
 
 namespace {
 
@@ -24,20 +24,20 @@ double rad_per_s(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 std::string column(double energy) { return "energy_" + report::number(energy); }
 
 /// Hz over rotation speed for each energy; missing where the branch was not found.
-reproduce::Table campbell(const blade::RotatingBlade& blade, const reproduce::Scene& scene,
+app::Table campbell(const blade::RotatingBlade& blade, const app::Scene& scene,
                           std::string& interruptions) {
   std::vector<std::string> columns{"rotation_rpm", "linear_Hz"};
   for (const double energy : energies) columns.push_back(column(energy));
-  reproduce::Table table(columns);
+  app::Table table(columns);
   for (int i = 0; i < speeds; ++i) {
     const double rpm = largest_rpm * i / (speeds - 1);
-    const reproduce::ModeStudy study(scene, blade.at(rad_per_s(rpm)));
+    const app::ModeStudy study(scene, blade.at(rad_per_s(rpm)));
     const auto curve = study.backbone();
     for (const auto& gap : curve.interruptions)
       interruptions += (interruptions.empty() ? "" : ", ") + report::number(rpm, 5) +
                        " 1/min: " + (gap.tongues.empty() ? gap.status : gap.tongues.front()) + " at " +
                        report::number(gap.first_ratio, 4);
-    std::vector<reproduce::Cell> row{rpm, study.linear_frequency()};
+    std::vector<app::Cell> row{rpm, study.linear_frequency()};
     for (const double energy : energies) {
       const auto point = study.at_energy(curve, energy);
       row.emplace_back(point.accepted() ? point.omega / (2.0 * std::numbers::pi) : missing);
@@ -47,8 +47,8 @@ reproduce::Table campbell(const blade::RotatingBlade& blade, const reproduce::Sc
   return table;
 }
 
-reproduce::Figure drawn(const reproduce::Table& table) {
-  reproduce::Figure figure;
+app::Figure drawn(const app::Table& table) {
+  app::Figure figure;
   figure.panel_width = 760;
   figure.panel_height = 480;
   auto& panel = figure.add_panel("first mode of the blade");
@@ -58,27 +58,27 @@ reproduce::Figure drawn(const reproduce::Table& table) {
   panel.y.label = "Frequency (Hz)";
   panel.y.lower = lowest;
   panel.y.upper = highest;
-  panel.legend = reproduce::Legend::right_of_panel;
+  panel.legend = app::Legend::right_of_panel;
   for (const double energy : energies) {
-    reproduce::Series series("energy " + report::number(energy) + (energy == 1.0 ? " (linear)" : ""), table,
-                             "rotation_rpm", column(energy), reproduce::SeriesStyle::line_points);
+    app::Series series("energy " + report::number(energy) + (energy == 1.0 ? " (linear)" : ""), table,
+                             "rotation_rpm", column(energy), app::SeriesStyle::line_points);
     series.marker = 1;
     panel.add(series);
   }
   for (const int order : {4, 5, 6, 8}) {
     const double per_rpm = order / 60.0, to = std::min(highest / per_rpm, largest_rpm);
     panel.segments.push_back(
-        {lowest / per_rpm, lowest, to, to * per_rpm, false, reproduce::Dash::dashed, Colour::grey, 1.0});
+        {lowest / per_rpm, lowest, to, to * per_rpm, false, app::Dash::dashed, Colour::grey, 1.0});
     const double label = lowest + 0.08 * (highest - lowest);
     panel.texts.push_back(
-        {label / per_rpm - 100.0, label, "EO " + std::to_string(order), reproduce::TextMark::Align::right});
+        {label / per_rpm - 100.0, label, "EO " + std::to_string(order), app::TextMark::Align::right});
   }
   return figure;
 }
 
 /// Rotation speed at which engine order `order` meets the frequencies of a column, linear between speeds; NaN
 /// outside.
-double crossing(const reproduce::Table& table, double energy, int order) {
+double crossing(const app::Table& table, double energy, int order) {
   const auto rpm = table.numbers("rotation_rpm"), hz = table.numbers(column(energy));
   for (std::size_t i = 1; i < rpm.size(); ++i) {
     const double before = hz[i - 1] - order * rpm[i - 1] / 60.0, after = hz[i] - order * rpm[i] / 60.0;
@@ -87,7 +87,7 @@ double crossing(const reproduce::Table& table, double energy, int order) {
   return missing;
 }
 
-void claims(report::Artefact& artefact, const reproduce::Table& table) {
+void claims(report::Artefact& artefact, const app::Table& table) {
   bool with_speed = true, with_energy = true;
   const auto linear = table.numbers("linear_Hz");
   for (std::size_t i = 1; i < linear.size(); ++i) with_speed = with_speed && linear[i] > linear[i - 1];

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::blade {
 namespace {
@@ -20,12 +20,12 @@ Eigen::MatrixXd rows(const Eigen::VectorXd& samples, int contacts) {
 
 }  // namespace
 
-std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduce::StructureModel& model) {
+std::vector<BladeResponse> stepped(const app::Scene& scene, const app::StructureModel& model) {
   const auto& analysis = scene.analysis;
   const double from = analysis.frequency_from, range = analysis.frequency_to - from;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(range) / analysis.largest_step - 1e-9)));
-  auto problem = reproduce::make_problem(scene, model);
-  const auto laws = reproduce::make_laws(scene);
+  auto problem = app::make_problem(scene, model);
+  const auto laws = app::make_laws(scene);
   solvers::ForcedResponseOptions nearby;
   nearby.homotopy = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
@@ -43,7 +43,7 @@ std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduc
   return responses;
 }
 
-reproduce::Scene reversed(reproduce::Scene scene) {
+app::Scene reversed(app::Scene scene) {
   std::swap(scene.analysis.frequency_from, scene.analysis.frequency_to);
   return scene;
 }

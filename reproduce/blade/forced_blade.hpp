@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::blade {
 
@@ -19,10 +19,10 @@ struct BladeResponse {
 /// apart, each from the one before, or where that branch ends from the contact-free response: upwards this
 /// stays on the branch of large responses, downwards on that of small ones. model: the scene's structure
 /// composed before. O(frequencies) periodic problems.
-std::vector<BladeResponse> stepped(const reproduce::Scene& scene, const reproduce::StructureModel& model);
+std::vector<BladeResponse> stepped(const app::Scene& scene, const app::StructureModel& model);
 
 /// The scene with frequencies from frequency_to to frequency_from.
-reproduce::Scene reversed(reproduce::Scene scene);
+app::Scene reversed(app::Scene scene);
 
 /// The one at `frequency` (Hz), to half a step. Throws std::out_of_range.
 const BladeResponse& at(const std::vector<BladeResponse>& responses, double frequency);

@@ -3,11 +3,11 @@
 
 #include "forced_blade.hpp"
 #include "wavebalance/report/artefact.hpp"
-#include "wavebalance/reproduce/analysis.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
+using app::Colour;
 
 namespace {
 
@@ -27,9 +27,9 @@ using Responses = std::vector<blade::BladeResponse>;
 
 /// The responses of forced_response.toml.
 struct Study {
-  reproduce::Scene scene;
+  app::Scene scene;
   Responses linear;               ///< without contact
-  reproduce::Sweep traced;        ///< Fourier, by arc length
+  app::Sweep traced;        ///< Fourier, by arc length
   std::vector<Responses> curves;  ///< one a pair, upwards in steps
   Responses down;                 ///< Fourier, downwards in steps
 
@@ -56,17 +56,17 @@ std::vector<double> frequencies(const Responses& responses) {
   return result;
 }
 
-reproduce::Series points_of(const std::string& label, const Responses& responses, double gap, Colour colour,
+app::Series points_of(const std::string& label, const Responses& responses, double gap, Colour colour,
                             int marker) {
-  reproduce::Series series(label, frequencies(responses),
+  app::Series series(label, frequencies(responses),
                            over_gap(blade::largest_displacements(responses), gap),
-                           reproduce::SeriesStyle::points);
+                           app::SeriesStyle::points);
   series.colour = colour;
   series.marker = marker;
   return series;
 }
 
-void add_curves(reproduce::Figure& figure, const Study& study) {
+void add_curves(app::Figure& figure, const Study& study) {
   auto& panel = figure.add_panel("frequency response");
   panel.x.label = "Frequency (Hz)";
   panel.x.lower = study.linear.front().frequency;
@@ -74,11 +74,11 @@ void add_curves(reproduce::Figure& figure, const Study& study) {
   panel.y.label = "Largest u_z at the tip over the gap";
   panel.y.lower = 0.0;
   panel.y.upper = 6.0;
-  panel.legend = reproduce::Legend::top_right;
-  reproduce::Series straight("without contact", frequencies(study.linear),
+  panel.legend = app::Legend::top_right;
+  app::Series straight("without contact", frequencies(study.linear),
                              over_gap(blade::largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
-  straight.dash = reproduce::Dash::dashed;
+  straight.dash = app::Dash::dashed;
   panel.add(straight);
   const auto& points = study.traced.curve.points;
   std::vector<double> x, y;
@@ -86,7 +86,7 @@ void add_curves(reproduce::Figure& figure, const Study& study) {
     x.push_back(point.frequency);
     y.push_back(point.max_displacement / study.gap());
   }
-  reproduce::Series traced("Fourier, by arc length", x, y);
+  app::Series traced("Fourier, by arc length", x, y);
   traced.colour = Colour::black;
   traced.width = 1.2;
   panel.add(traced);
@@ -99,12 +99,12 @@ void add_curves(reproduce::Figure& figure, const Study& study) {
 }
 
 /// Contact force over time and chord, mean of the two faces.
-void add_map(reproduce::Figure& figure, const blade::BladeResponse& response) {
+void add_map(app::Figure& figure, const blade::BladeResponse& response) {
   auto& panel = figure.add_panel("contact force, Fourier, " + report::number(response.frequency, 4) + " Hz");
   panel.x.label = "Time (fraction of a period)";
   panel.y.label = "Chord (leading to trailing edge)";
   auto& map = panel.heat_map.emplace();
-  const auto times = reproduce::time_fractions(static_cast<int>(response.force.cols()));
+  const auto times = app::time_fractions(static_cast<int>(response.force.cols()));
   map.x.assign(times.begin(), times.end());
   const Eigen::Index stations = response.force.rows() / 2;
   for (Eigen::Index station = 0; station < stations; ++station) {
@@ -114,10 +114,10 @@ void add_map(reproduce::Figure& figure, const blade::BladeResponse& response) {
   }
   map.largest = response.force.maxCoeff();
   map.label = "N";
-  panel.legend = reproduce::Legend::none;
+  panel.legend = app::Legend::none;
 }
 
-void add_history(reproduce::Figure& figure, const std::vector<Responses>& curves, double gap,
+void add_history(app::Figure& figure, const std::vector<Responses>& curves, double gap,
                  double frequency, bool force, bool leading) {
   auto& panel = figure.add_panel(std::string(leading ? "leading" : "trailing") + " edge, " +
                                  report::number(frequency, 4) + " Hz");
@@ -125,12 +125,12 @@ void add_history(reproduce::Figure& figure, const std::vector<Responses>& curves
   panel.x.lower = 0.0;
   panel.x.upper = 1.0;
   panel.y.label = force ? "Contact force (N)" : "u_z over the gap";
-  panel.legend = reproduce::Legend::none;
+  panel.legend = app::Legend::none;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& response = blade::at(curves[i], frequency);
     const Eigen::MatrixXd& samples = force ? response.force : response.displacement;
     const Eigen::VectorXd row = samples.row(leading ? 0 : samples.rows() - 1) / (force ? 1.0 : gap);
-    reproduce::Series series(pairs[i].label, reproduce::time_fractions(static_cast<int>(row.size())), row);
+    app::Series series(pairs[i].label, app::time_fractions(static_cast<int>(row.size())), row);
     series.colour = pairs[i].colour;
     series.width = width(i);
     panel.add(series);
@@ -138,10 +138,10 @@ void add_history(reproduce::Figure& figure, const std::vector<Responses>& curves
   if (!force) panel.mark_y(1.0);
 }
 
-reproduce::Table histories(const std::vector<Responses>& curves, double frequency) {
+app::Table histories(const std::vector<Responses>& curves, double frequency) {
   const auto& first = blade::at(curves[0], frequency);
-  reproduce::Table table;
-  table.add_column("time_fraction", reproduce::time_fractions(static_cast<int>(first.displacement.cols())));
+  app::Table table;
+  table.add_column("time_fraction", app::time_fractions(static_cast<int>(first.displacement.cols())));
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& response = blade::at(curves[i], frequency);
     const Eigen::Index last = response.force.rows() - 1;
@@ -216,11 +216,11 @@ Study solved(report::Artefact& artefact) {
   const std::string file = "forced_response.toml";
   Study study;
   study.scene = artefact.scene(file);
-  const auto model = reproduce::make_model(study.scene);
+  const auto model = app::make_model(study.scene);
   // A gap of 1 m is never closed; without contact eight functions are as good as any.
   study.linear = blade::stepped(
       artefact.scene(file, {"contact.gap=1.0", "time.functions=8", "analysis.largest_step=1.0"}), model);
-  study.traced = reproduce::frequency_sweep(
+  study.traced = app::frequency_sweep(
       artefact.scene(file, {"time.functions=31", "time.quadrature_points=64", "analysis.first_step=0.2",
                             "analysis.largest_step=2.5", "analysis.output_points=256"}),
       model);
@@ -231,7 +231,7 @@ Study solved(report::Artefact& artefact) {
 }
 
 void write_data(report::Artefact& artefact, const Study& study) {
-  reproduce::Table table;
+  app::Table table;
   table.add_column("frequency_Hz", frequencies(study.curves[0]));
   for (std::size_t i = 0; i < study.curves.size(); ++i)
     table.add_column(pairs[i].column, blade::largest_displacements(study.curves[i]));
@@ -239,11 +239,11 @@ void write_data(report::Artefact& artefact, const Study& study) {
   std::reverse(falling.begin(), falling.end());
   table.add_column("fourier_fourier_downwards", falling);
   artefact.data(table, "Hz; largest radial displacement of a contact node in m; missing where not converged");
-  reproduce::Table free;
+  app::Table free;
   free.add_column("frequency_Hz", frequencies(study.linear))
       .add_column("max_displacement_m", blade::largest_displacements(study.linear));
   artefact.more_data("without_contact", free, "Hz; largest radial displacement of a contact node in m");
-  artefact.more_data("curve", reproduce::sweep_table(study.traced.curve),
+  artefact.more_data("curve", app::sweep_table(study.traced.curve),
                      "Hz, m; Fourier by arc length, points in their order along the curve");
   artefact.more_data("histories", histories(study.curves, study.frequency()),
                      "one period at " + report::number(study.frequency(), 4) +
@@ -251,8 +251,8 @@ void write_data(report::Artefact& artefact, const Study& study) {
                          "leading and the last of the trailing edge");
 }
 
-reproduce::Figure drawn(const Study& study) {
-  reproduce::Figure figure;
+app::Figure drawn(const Study& study) {
+  app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 520;
   figure.panel_height = 300;

@@ -6,7 +6,7 @@
 
 namespace wavebalance::blade {
 
-RotatingBlade::RotatingBlade(const reproduce::Scene& scene) : at_rest_(reproduce::make_model(scene)) {
+RotatingBlade::RotatingBlade(const app::Scene& scene) : at_rest_(app::make_model(scene)) {
   const auto& blade = scene.structure.blade;
   if (at_rest_.blade == nullptr || !at_rest_.reduced() || blade.rotation_speed != 0.0)
     throw std::invalid_argument("RotatingBlade: the scene's structure is not a reduced blade at rest");
@@ -20,8 +20,8 @@ RotatingBlade::RotatingBlade(const reproduce::Scene& scene) : at_rest_(reproduce
   unit_displacement_ = solid.displacements(centrifugal.displacement).colwise().norm().maxCoeff();
 }
 
-reproduce::StructureModel RotatingBlade::at(double speed) const {
-  reproduce::StructureModel model = at_rest_;
+app::StructureModel RotatingBlade::at(double speed) const {
+  app::StructureModel model = at_rest_;
   const Eigen::MatrixXd stiffness = Eigen::MatrixXd(model.structure.stiffness) + speed * speed * added_;
   model.structure.stiffness = (0.5 * (stiffness + stiffness.transpose())).sparseView();
   return model;

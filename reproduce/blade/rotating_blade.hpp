@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "wavebalance/reproduce/scene.hpp"
-#include "wavebalance/reproduce/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 
 namespace wavebalance::blade {
 
@@ -11,17 +11,17 @@ namespace wavebalance::blade {
 class RotatingBlade {
  public:
   /// The scene's blade, which must not turn, about the axis of the scene. Throws std::invalid_argument.
-  explicit RotatingBlade(const reproduce::Scene& scene);
+  explicit RotatingBlade(const app::Scene& scene);
 
-  const reproduce::StructureModel& at_rest() const { return at_rest_; }
+  const app::StructureModel& at_rest() const { return at_rest_; }
   /// The reduced blade at `speed`, rad/s. Its load, gaps and damping are those at rest: the gap is what the
   /// turning blade has. O(r^2).
-  reproduce::StructureModel at(double speed) const;
+  app::StructureModel at(double speed) const;
   /// Largest static displacement under the centrifugal load at `speed`, m.
   double static_displacement(double speed) const { return speed * speed * unit_displacement_; }
 
  private:
-  reproduce::StructureModel at_rest_;
+  app::StructureModel at_rest_;
   Eigen::MatrixXd added_;           // of the reduced blade for 1 rad/s
   double unit_displacement_ = 0.0;  // m for 1 rad/s
 };

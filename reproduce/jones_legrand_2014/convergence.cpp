@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "wavebalance/reproduce/curve_measures.hpp"
-#include "wavebalance/reproduce/nyquist_resonances.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/analysis/nyquist_resonances.hpp"
 
 namespace wavebalance::jl14 {
 
@@ -67,7 +67,7 @@ double Convergence::order(int case_number, const std::string& pair_name, int sma
     numbers.push_back(functions);
     values.push_back(at(case_number, pair(pair_name), functions));
   }
-  return reproduce::observed_order(numbers, values);
+  return app::observed_order(numbers, values);
 }
 
 std::string Convergence::text(int case_number, const std::string& pair_name) const {
@@ -89,19 +89,19 @@ Convergence Convergence::mapped(const std::function<double(double)>& change) con
   return result;
 }
 
-using reproduce::Legend;
+using app::Legend;
 
-reproduce::Figure Convergence::figure(const std::string& label, bool logarithmic) const {
-  reproduce::Figure figure;
+app::Figure Convergence::figure(const std::string& label, bool logarithmic) const {
+  app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 560;
   figure.panel_height = 400;
   for (const int number : {1, 2}) {
-    reproduce::Panel& panel = figure.add_panel(number == 1 ? "150 Hz" : "1275 Hz");
+    app::Panel& panel = figure.add_panel(number == 1 ? "150 Hz" : "1275 Hz");
     const Table of_case = table_.where("case", std::to_string(number));
     for (const Pair& pair : pairs()) {
       const Table rows = of_case.where("trial", pair.trial).where("weight", pair.weight);
-      Series series(pair.label, rows, "functions", column_, reproduce::SeriesStyle::line_points);
+      Series series(pair.label, rows, "functions", column_, app::SeriesStyle::line_points);
       series.colour = pair.colour;
       series.marker = pair.marker;
       panel.add(std::move(series));
@@ -126,7 +126,7 @@ void note_nyquist_resonances(report::Artefact& artefact) {
     for (const Pair& one : pairs())
       for (const int functions : sizes())
         for (const double frequency :
-             reproduce::nyquist_resonances(study.scene_for(one, functions), 0.5 * forcing, 2.0 * forcing)) {
+             app::nyquist_resonances(study.scene_for(one, functions), 0.5 * forcing, 2.0 * forcing)) {
           if (std::abs(frequency - forcing) >= std::abs(nearest - forcing)) continue;
           nearest = frequency;
           where = one.label + " with " + std::to_string(functions) + " functions";

@@ -13,7 +13,7 @@ std::vector<int> sizes();
 /// One number for each case, pair and number of functions: what Figs. 10 and 11 draw.
 class Convergence {
  public:
-  using Measure = std::function<double(Case&, const reproduce::Response&)>;
+  using Measure = std::function<double(Case&, const app::Response&)>;
 
   /// Solves all 60 combinations; a response that has not converged is missing and noted in the artefact.
   Convergence(report::Artefact& artefact, std::string column, bool full_history, const Measure& measure);
@@ -33,7 +33,7 @@ class Convergence {
   /// The results with `change` applied to each.
   Convergence mapped(const std::function<double(double)>& change) const;
   /// Two panels, 150 Hz and 1275 Hz, one curve a pair.
-  reproduce::Figure figure(const std::string& label, bool logarithmic) const;
+  app::Figure figure(const std::string& label, bool logarithmic) const;
 
  private:
   std::string column_;
@@ -41,7 +41,7 @@ class Convergence {
 };
 
 /// Notes, a case each, which pair and number of functions has a resonance of its own Nyquist coefficient (see
-/// reproduce::nyquist_resonances) nearest to the forcing frequency.
+/// app::nyquist_resonances) nearest to the forcing frequency.
 void note_nyquist_resonances(report::Artefact& artefact);
 
 }  // namespace wavebalance::jl14

@@ -2,14 +2,14 @@
 
 namespace wavebalance::jl14 {
 
-using reproduce::Colour;
-using reproduce::Figure;
-using reproduce::Legend;
-using reproduce::Panel;
-using reproduce::SeriesStyle;
+using app::Colour;
+using app::Figure;
+using app::Legend;
+using app::Panel;
+using app::SeriesStyle;
 
-reproduce::Axis axis(const std::string& label, double lower, double upper) {
-  reproduce::Axis result;
+app::Axis axis(const std::string& label, double lower, double upper) {
+  app::Axis result;
   result.label = label;
   result.lower = lower;
   result.upper = upper;
@@ -30,7 +30,7 @@ Series periodic_series(const std::string& label, const Eigen::VectorXd& values, 
 Series reference_series(const Eigen::VectorXd& values, double from) {
   Series series = periodic_series("time stepping", values, from);
   series.colour = Colour::black;
-  series.dash = reproduce::Dash::dashed;
+  series.dash = app::Dash::dashed;
   series.width = 1.1;
   return series;
 }

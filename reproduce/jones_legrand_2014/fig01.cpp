@@ -3,7 +3,7 @@
 #include "jl14.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
+using app::Colour;
 
 namespace {
 
@@ -39,9 +39,9 @@ jl14::Table points_table(const std::vector<Polyline>& lines) {
   return table;
 }
 
-void annotate(reproduce::Panel& panel) {
+void annotate(app::Panel& panel) {
   const auto arrow = [&](double x1, double y1, double x2, double y2) {
-    panel.segments.push_back({x1, y1, x2, y2, true, reproduce::Dash::solid, Colour::black, 1.3});
+    panel.segments.push_back({x1, y1, x2, y2, true, app::Dash::solid, Colour::black, 1.3});
   };
   const auto text = [&](double x, double y, const char* words) { panel.texts.push_back({x, y, words}); };
   panel.rectangles.push_back({0, -0.08, 1, 0.08, Colour::sky_blue, 0.35});
@@ -63,14 +63,14 @@ int main(int argc, char** argv) {
       jl14::identity("Fig. 1", "Bar with unilateral contact at its tip", "fig01_system_sketch");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
     const auto lines = outline();
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.panel_width = 760;
     figure.panel_height = 270;
-    reproduce::Panel& panel = figure.add_panel();
+    app::Panel& panel = figure.add_panel();
     panel.frame = false;
     panel.x = jl14::axis("", -0.1, 1.52);
     panel.y = jl14::axis("", -0.26, 0.27);
-    panel.legend = reproduce::Legend::none;
+    panel.legend = app::Legend::none;
     for (const Polyline& line : lines) {
       Eigen::VectorXd x(line.points.size()), y(line.points.size());
       for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = line.points[i][0], y[i] = line.points[i][1];

@@ -1,5 +1,5 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/spectral/trigonometric_transform.hpp"
 
 using namespace wavebalance;
@@ -12,7 +12,7 @@ jl14::Table functions_table() {
   constexpr int points = 1024;
   spectral::TrigonometricTransform transform(static_cast<int>(names.size()), points);
   jl14::Table table;
-  table.add_column("time_fraction", reproduce::time_fractions(points));
+  table.add_column("time_fraction", app::time_fractions(points));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(static_cast<Eigen::Index>(names.size()), i);
     table.add_column("function_" + std::to_string(i + 1), transform.inverse(unit));
@@ -20,8 +20,8 @@ jl14::Table functions_table() {
   return table;
 }
 
-reproduce::Figure functions_figure(const jl14::Table& table) {
-  reproduce::Figure figure;
+app::Figure functions_figure(const jl14::Table& table) {
+  app::Figure figure;
   figure.columns = 3;
   figure.panel_width = 340;
   figure.panel_height = 240;
@@ -39,11 +39,11 @@ reproduce::Figure functions_figure(const jl14::Table& table) {
 double formulation_spread(report::Artefact& artefact) {
   const auto response = [&](const std::string& formulation) {
     const auto scene = artefact.scene("case1.toml", {"time.formulation=" + formulation});
-    return reproduce::weighted_residual_response(scene).samples.displacement;
+    return app::weighted_residual_response(scene).samples.displacement;
   };
   const Eigen::VectorXd distributional = response("distributional");
-  return std::max(reproduce::relative_rms_error(response("strong"), distributional),
-                  reproduce::relative_rms_error(response("weak"), distributional));
+  return std::max(app::relative_rms_error(response("strong"), distributional),
+                  app::relative_rms_error(response("weak"), distributional));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
     const auto table = jl14::levels_table("bspline", true);
     artefact.data(table, "time in periods, functions normalised to integral 1",
                   {"the translate whose maximum lies at t = 1/2"});
-    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", reproduce::SeriesStyle::line));
+    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
     artefact.caption("Of the 2^J translates the one whose maximum lies at t = 1/2 is drawn.");
 
     const double integral = jl14::largest_integral_error(table);

@@ -1,6 +1,6 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/curve_measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
 
 using namespace wavebalance;
@@ -10,8 +10,8 @@ namespace {
 /// max |g_{J+1}(t/2) - g_J(t)| over the circle: zero when level J + 1 is a pure dilation of level J.
 double dilation_error(int level) {
   constexpr int points = 1024;
-  const Eigen::VectorXd coarse = reproduce::make_basis("daubechies6", 1 << level).samples(points, 0);
-  const Eigen::VectorXd fine = reproduce::make_basis("daubechies6", 2 << level).samples(2 * points, 0);
+  const Eigen::VectorXd coarse = app::make_basis("daubechies6", 1 << level).samples(points, 0);
+  const Eigen::VectorXd fine = app::make_basis("daubechies6", 2 << level).samples(2 * points, 0);
   return (fine.head(points) - coarse).cwiseAbs().maxCoeff();
 }
 
@@ -34,7 +34,7 @@ void claim_levels(report::Artefact& artefact) {
 void claim_shape(report::Artefact& artefact) {
   const auto phi = wavelets::ScalingFunction::daubechies(6);
   const auto gain = [&](int level) {
-    return reproduce::refinement_gain(phi.values(level), phi.values(level + 1));
+    return app::refinement_gain(phi.values(level), phi.values(level + 1));
   };
   const double first = gain(2), middle = gain(6), last = gain(10);
   artefact.claim(
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
     const auto table = jl14::levels_table("daubechies6");
     artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
-    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", reproduce::SeriesStyle::line));
+    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
     artefact.caption("The translate k = 0; its support is 5/2^J of the period and wraps up to J = 2.");
     const double integral = jl14::largest_integral_error(table);
     artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
     const auto table = jl14::levels_table("haar");
     artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
-    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", reproduce::SeriesStyle::steps));
+    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", app::SeriesStyle::steps));
     artefact.caption("The translate k = 0, closed on the left.");
     int boxes = 0;
     for (int level = 0; level <= 5; ++level)

@@ -1,6 +1,6 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/curve_measures.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
 
@@ -10,13 +10,13 @@ constexpr double millimetres = 1e3;
 
 Eigen::VectorXd on_plateau(const jl14::Case& study, const Eigen::VectorXd& values, bool inside = true) {
   const Eigen::VectorXd force = jl14::half_turn(study.reference().contact_force);
-  return reproduce::select(jl14::half_turn(values), (force.array() > 0.0) == inside);
+  return app::select(jl14::half_turn(values), (force.array() > 0.0) == inside);
 }
 
 void claim_hbm(report::Artefact& artefact, const jl14::Case& study, const solvers::PeriodSamples& hbm) {
   const auto& reference = study.reference();
   const Eigen::VectorXd difference = on_plateau(study, hbm.displacement - reference.displacement);
-  const int changes = reproduce::sign_changes(difference);
+  const int changes = app::sign_changes(difference);
   const double swing =
       (difference.maxCoeff() - difference.minCoeff()) / (reference.displacement.maxCoeff() - study.gap());
   artefact.claim({"section 5.1",
@@ -28,7 +28,7 @@ void claim_hbm(report::Artefact& artefact, const jl14::Case& study, const solver
                   changes >= 4});
   const int steps = reference.points() / 128;
   const double kink =
-      reproduce::largest_change(hbm.velocity, steps) / reproduce::largest_change(reference.velocity, steps);
+      app::largest_change(hbm.velocity, steps) / app::largest_change(reference.velocity, steps);
   artefact.claim(
       {"section 5.1", "and rounding off of the sharp gradient changes",
        "the largest change of velocity within 1/128 of the period is smaller than in time stepping",
@@ -44,7 +44,7 @@ double share_on_plateau(const jl14::Case& study, const Eigen::VectorXd& displace
 void claim_haar(report::Artefact& artefact, jl14::Case& study, const Eigen::VectorXd& haar,
                 const Eigen::VectorXd& hbm) {
   const auto outside = [&](const Eigen::VectorXd& u) {
-    return millimetres * reproduce::rms(on_plateau(study, u - study.reference().displacement, false));
+    return millimetres * app::rms(on_plateau(study, u - study.reference().displacement, false));
   };
   artefact.claim(
       {"section 5.1",
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
         "64 functions at 150 Hz; dashed: time stepping; dotted: the gap. The force F cos 2πft puts the "
         "contact about t = 0, which stands in the middle. The panels follow the letters that the text "
         "gives.");
-    const double error = reproduce::relative_rms_error(u[0], reference);
+    const double error = app::relative_rms_error(u[0], reference);
     artefact.claim(
         {"section 5.1",
          "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "

@@ -1,5 +1,5 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
 
@@ -9,7 +9,7 @@ constexpr double millimetres = 1e3;
 
 double haar_error(jl14::Case& study) {
   const auto response = study.solve(jl14::pair("haar_fourier"), 64);
-  return reproduce::relative_rms_error(response.samples.displacement, study.reference().displacement);
+  return app::relative_rms_error(response.samples.displacement, study.reference().displacement);
 }
 
 double penetration(const jl14::Case& study) {
@@ -22,8 +22,8 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study) {
   artefact.claim({"section 5.1", "The Haar basis appears to be less suited for the response at 1275 Hz",
                   "the relative rms error of Haar:Fourier is higher than at 150 Hz",
                   report::percent(here) + " against " + report::percent(there), here > there});
-  const double share = reproduce::contact_fraction(study.reference());
-  const double other_share = reproduce::contact_fraction(other.reference());
+  const double share = app::contact_fraction(study.reference());
+  const double other_share = app::contact_fraction(other.reference());
   artefact.claim(
       {"section 5.1", "as the contact plateau is smaller and not as flat",
        "the contact takes less of the period than at 150 Hz, and its penetration is a larger part of the gap",
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
                            jl14::axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
                            study.gap(), jl14::Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
     artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
-    const double error = reproduce::relative_rms_error(u[0], reference);
+    const double error = app::relative_rms_error(u[0], reference);
     artefact.claim(
         {"section 5.1",
          "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "

@@ -1,6 +1,6 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/curve_measures.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
 
@@ -8,7 +8,7 @@ namespace {
 
 void claim_jump(report::Artefact& artefact, const Eigen::VectorXd& reference) {
   const int steps = static_cast<int>(reference.size()) / 64;
-  const double jump = reproduce::largest_change(reference, steps) / reference.cwiseAbs().maxCoeff();
+  const double jump = app::largest_change(reference, steps) / reference.cwiseAbs().maxCoeff();
   artefact.claim({"section 5.2", "there is a sharp jump in velocity due to the contact condition",
                   "within 1/64 of the period the velocity of time stepping changes by more than a quarter of "
                   "its maximum",
@@ -16,7 +16,7 @@ void claim_jump(report::Artefact& artefact, const Eigen::VectorXd& reference) {
 }
 
 void claim_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference, const jl14::Values& v) {
-  const auto excess = jl14::measured({v[0], v[1]}, reference, &reproduce::excess_variation);
+  const auto excess = jl14::measured({v[0], v[1]}, reference, &app::excess_variation);
   const std::string found =
       "excess variation " + jl14::listed(jl14::pairs_named({"fourier_fourier", "bspline_bspline"}), excess);
   artefact.claim({"section 5.2",
@@ -39,8 +39,8 @@ void claim_daubechies(report::Artefact& artefact, const Eigen::VectorXd& referen
         {"section 5.2", quote, "of the six pairs one with DB6 trial functions has the lowest " + name,
          "lowest: " + best.label + "; " + jl14::listed(jl14::pairs(), errors), best.trial == "daubechies6"});
   };
-  claim("relative rms error of the velocity", jl14::measured(v, reference, &reproduce::relative_rms_error));
-  claim("mean absolute error of the velocity", jl14::measured(v, reference, &reproduce::relative_mean_error));
+  claim("relative rms error of the velocity", jl14::measured(v, reference, &app::relative_rms_error));
+  claim("mean absolute error of the velocity", jl14::measured(v, reference, &app::relative_mean_error));
 }
 
 void claim_haar(report::Artefact& artefact, jl14::Case& study, const jl14::Values& v) {
@@ -48,7 +48,7 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study, const jl14::Value
   const Eigen::VectorXd& reference = study.reference().velocity;
   jl14::Values exact;
   for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).samples.velocity);
-  const auto errors = jl14::measured({v[3], v[5]}, reference, &reproduce::relative_rms_error);
+  const auto errors = jl14::measured({v[3], v[5]}, reference, &app::relative_rms_error);
   artefact.claim({"section 5.2",
                   "For cases involving Haar trial functions the velocity function envelope is reasonably "
                   "approximated by "
@@ -56,7 +56,7 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study, const jl14::Value
                   "relative rms error below 20 % for both Haar pairs",
                   jl14::listed(haar, errors) +
                       "; with exact inner products in place of the 256-point sums: " +
-                      jl14::listed(haar, jl14::measured(exact, reference, &reproduce::relative_rms_error)),
+                      jl14::listed(haar, jl14::measured(exact, reference, &app::relative_rms_error)),
                   errors[0] < 0.2 && errors[1] < 0.2});
 }
 

@@ -1,6 +1,6 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/curve_measures.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
 
@@ -28,7 +28,7 @@ void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference
 }
 
 void claim_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference, const jl14::Values& forces) {
-  const auto excess = jl14::measured(forces, reference, &reproduce::excess_variation);
+  const auto excess = jl14::measured(forces, reference, &app::excess_variation);
   artefact.claim(
       {"section 5.3", "The effect of Gibbs phenomenon can be seen in the HBM and Galerkin B-spline cases.",
        "the force of both varies more over the period than that of time stepping, by more than 10 %",
@@ -68,7 +68,7 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study, const std::vector
        jl14::listed(jl14::pairs_named({"fourier_fourier", "haar_fourier", "haar_bspline"}),
                     {rms[0], rms[3], rms[5]}) +
            "; with exact inner products in place of the 256-point sums: " +
-           jl14::listed(haar, jl14::measured(exact, reference, &reproduce::relative_rms_error)),
+           jl14::listed(haar, jl14::measured(exact, reference, &app::relative_rms_error)),
        std::max(rms[3], rms[5]) < 2.0 * rms[0]});
 }
 
@@ -98,8 +98,8 @@ int main(int argc, char** argv) {
         "64 functions at 150 Hz; dashed: time stepping. The force is eq. (5) of the predicted displacement.");
     claim_duration(artefact, reference, forces);
     claim_ringing(artefact, reference, forces);
-    const auto rms = jl14::measured(forces, reference, &reproduce::relative_rms_error);
+    const auto rms = jl14::measured(forces, reference, &app::relative_rms_error);
     claim_haar(artefact, study, rms);
-    claim_accuracy(artefact, rms, jl14::measured(forces, reference, &reproduce::relative_mean_error));
+    claim_accuracy(artefact, rms, jl14::measured(forces, reference, &app::relative_mean_error));
   });
 }

@@ -1,5 +1,5 @@
 #include "convergence.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
 using jl14::Convergence;
@@ -96,9 +96,9 @@ int main(int argc, char** argv) {
   const auto identity = jl14::identity("Fig. 10", "Convergence of the energy norm", "fig10_energy_norm");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
     const Convergence ratio(artefact, "energy_norm_ratio", true,
-                            [](jl14::Case& study, const reproduce::Response& response) {
-                              return reproduce::energy_norm(study.scene(), response.samples) /
-                                     reproduce::rms(study.reference_energy());
+                            [](jl14::Case& study, const app::Response& response) {
+                              return app::energy_norm(study.scene(), response.samples) /
+                                     app::rms(study.reference_energy());
                             });
     const Convergence off = ratio.mapped([](double value) { return std::abs(value - 1.0); });
     artefact.data(
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
         {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of time stepping"});
     auto figure = ratio.figure("Energy norm ratio (-)", false);
     for (auto& panel : off.figure("|ratio − 1| (-)", true).panels) {
-      panel.legend = reproduce::Legend::none;
+      panel.legend = app::Legend::none;
       figure.panels.push_back(panel);
     }
     artefact.picture(figure);

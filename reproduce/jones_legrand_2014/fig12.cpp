@@ -7,9 +7,9 @@ namespace {
 
 const char* units = "SI; a column's name ends in its unit; points in their order along the curve";
 
-reproduce::Figure drawn(const Resonance& first, const reproduce::Sweep& full, const Resonance& second,
+app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonance& second,
                         const Resonance& near) {
-  reproduce::Figure figure;
+  app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 560;
   figure.panel_height = 380;
@@ -17,7 +17,7 @@ reproduce::Figure drawn(const Resonance& first, const reproduce::Sweep& full, co
       jl14::sweep_panel("first resonance, gap " + report::number(1e3 * first.gap) + " mm", first));
   figure.panels.push_back(jl14::sweep_panel("the same, enlarged", first));
   auto series = jl14::sweep_series("", full);
-  series.colour = reproduce::Colour::black;
+  series.colour = app::Colour::black;
   series.width = 0.9;
   figure.panels[1].add(series);
   figure.panels[1].texts.push_back({1272.0, 14.0, "thin black: Fourier:Fourier, 63 functions"});
@@ -29,7 +29,7 @@ reproduce::Figure drawn(const Resonance& first, const reproduce::Sweep& full, co
     panel.y.upper = 1.3;
     figure.panels.push_back(panel);
   }
-  for (std::size_t i = 1; i < figure.panels.size(); ++i) figure.panels[i].legend = reproduce::Legend::none;
+  for (std::size_t i = 1; i < figure.panels.size(); ++i) figure.panels[i].legend = app::Legend::none;
   return figure;
 }
 
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     artefact.data(jl14::sweeps_table(first), units, {"first resonance"});
     artefact.more_data("second", jl14::sweeps_table(second), units);
     artefact.more_data("second_small_gap", jl14::sweeps_table(near), units);
-    artefact.more_data("without_contact", reproduce::sweep_table(first.free.curve), units);
+    artefact.more_data("without_contact", app::sweep_table(first.free.curve), units);
     artefact.caption("64 functions, constants of case 2 but for the gap of (d); dotted line: the gap.");
     jl14::note_nyquist_resonances(artefact, "case2_sweep.toml", full);
     claim_stiffening(artefact, first);

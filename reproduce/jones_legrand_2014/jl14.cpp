@@ -5,12 +5,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
 
-using reproduce::Colour;
+using app::Colour;
 
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem) {
   return {"jones_legrand_2014", "JL14 " + number, title, stem};
@@ -59,17 +59,17 @@ Case::Case(report::Artefact& artefact, int number)
 
 std::string Case::frequency_text() const { return report::number(scene_.forcing.frequency, 6) + " Hz"; }
 
-reproduce::Scene Case::scene_for(const Pair& pair, int functions, const std::string& inner_products) {
+app::Scene Case::scene_for(const Pair& pair, int functions, const std::string& inner_products) {
   return artefact_.scene(
       "case" + std::to_string(number_) + ".toml",
       {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
        "time.functions=" + std::to_string(functions), "time.inner_products=" + inner_products});
 }
 
-reproduce::Response Case::solve(const Pair& pair, int functions, bool full_history) {
-  reproduce::ResponseOptions options;
+app::Response Case::solve(const Pair& pair, int functions, bool full_history) {
+  app::ResponseOptions options;
   options.full_history = full_history;
-  auto response = reproduce::weighted_residual_response(scene_for(pair, functions), options);
+  auto response = app::weighted_residual_response(scene_for(pair, functions), options);
   if (!response.converged)
     artefact_.note(pair.label + " with " + std::to_string(functions) + " functions at " + frequency_text() +
                    " did not converge (" + response.status + ", residual " +
@@ -77,17 +77,17 @@ reproduce::Response Case::solve(const Pair& pair, int functions, bool full_histo
   return response;
 }
 
-reproduce::Response Case::solve_exactly(const Pair& pair, int functions) {
-  return reproduce::weighted_residual_response(scene_for(pair, functions, "exact"));
+app::Response Case::solve_exactly(const Pair& pair, int functions) {
+  return app::weighted_residual_response(scene_for(pair, functions, "exact"));
 }
 
-std::vector<reproduce::Response> Case::solve_all(const std::vector<Pair>& chosen) {
-  std::vector<reproduce::Response> responses;
+std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen) {
+  std::vector<app::Response> responses;
   for (const Pair& pair : chosen) responses.push_back(solve(pair, scene_.time.functions));
   return responses;
 }
 
-Values drawn(const std::vector<reproduce::Response>& responses,
+Values drawn(const std::vector<app::Response>& responses,
              Eigen::VectorXd solvers::PeriodSamples::*quantity) {
   Values values;
   for (const auto& response : responses) {
@@ -146,11 +146,11 @@ std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& v
 Table levels_table(const std::string& basis, bool centred) {
   constexpr int points = 1024;
   Table table;
-  table.add_column("time_fraction", reproduce::time_fractions(points));
+  table.add_column("time_fraction", app::time_fractions(points));
   for (int level = 0; level <= 5; ++level) {
     const int functions = 1 << level;
     const int shift = centred ? (functions / 2 + 2 * functions - 2) % functions : 0;
-    Eigen::VectorXd values = functions * reproduce::make_basis(basis, functions).samples(points, 0);
+    Eigen::VectorXd values = functions * app::make_basis(basis, functions).samples(points, 0);
     std::rotate(values.begin(), values.end() - shift * (points / functions), values.end());
     table.add_column("level_" + std::to_string(level), values);
   }

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "wavebalance/report/artefact.hpp"
-#include "wavebalance/reproduce/response.hpp"
+#include "wavebalance/app/analysis/response.hpp"
 
 /// What the figures of Jones & Legrand (2014), doi:10.1115/DETC2014-34725, share.
 namespace wavebalance::jl14 {
 
-using reproduce::Series;
-using reproduce::Table;
+using app::Series;
+using app::Table;
 
 /// "jones_legrand_2014", "JL14 Fig. 6", ...
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
@@ -21,7 +21,7 @@ struct Pair {
   std::string trial;  ///< as scenes name it
   std::string weight;
   std::string label;  ///< "DB6:Fourier"
-  reproduce::Colour colour;
+  app::Colour colour;
   int marker;
 
   std::string name() const { return trial + "_" + weight; }  ///< column of a CSV file
@@ -42,7 +42,7 @@ class Case {
   /// number: 1 or 2. Reads caseN.toml and, with its columns of one period, reference_caseN.csv.
   Case(report::Artefact& artefact, int number);
 
-  const reproduce::Scene& scene() const { return scene_; }
+  const app::Scene& scene() const { return scene_; }
   double gap() const { return scene_.contact.gap; }
   /// "150 Hz"
   std::string frequency_text() const;
@@ -51,19 +51,19 @@ class Case {
   const Eigen::VectorXd& reference_energy() const { return reference_energy_; }  ///< J
 
   /// The scene with this pair, solved. A response that has not converged is noted in the artefact.
-  reproduce::Response solve(const Pair& pair, int functions, bool full_history = false);
+  app::Response solve(const Pair& pair, int functions, bool full_history = false);
   /// The same with exact inner products in place of sums over 256 points.
-  reproduce::Response solve_exactly(const Pair& pair, int functions);
+  app::Response solve_exactly(const Pair& pair, int functions);
   /// All of `chosen` with the scene's number of functions.
-  std::vector<reproduce::Response> solve_all(const std::vector<Pair>& chosen);
+  std::vector<app::Response> solve_all(const std::vector<Pair>& chosen);
   /// The scene that solve() solves.
-  reproduce::Scene scene_for(const Pair& pair, int functions,
+  app::Scene scene_for(const Pair& pair, int functions,
                              const std::string& inner_products = "quadrature");
 
  private:
   report::Artefact& artefact_;
   int number_;
-  reproduce::Scene scene_;
+  app::Scene scene_;
   Eigen::VectorXd time_;
   solvers::PeriodSamples reference_;
   Eigen::VectorXd reference_energy_;
@@ -71,7 +71,7 @@ class Case {
 
 /// The tip's samples of one kind of every response; missing values where it has not converged.
 using Values = std::vector<Eigen::VectorXd>;
-Values drawn(const std::vector<reproduce::Response>& responses,
+Values drawn(const std::vector<app::Response>& responses,
              Eigen::VectorXd solvers::PeriodSamples::*quantity);
 /// In the order of `to`, what is in the order of `from`.
 Values reordered(const Values& values, const std::vector<Pair>& from, const std::vector<Pair>& to);
@@ -80,7 +80,7 @@ std::vector<double> measured(const Values& values, const Eigen::VectorXd& refere
                              double (*measure)(const Eigen::VectorXd&, const Eigen::VectorXd&));
 
 /// An axis with its limits.
-reproduce::Axis axis(const std::string& label, double lower, double upper);
+app::Axis axis(const std::string& label, double lower, double upper);
 
 /// A periodic curve of uniform samples from t/T = `from` to `from` + 1, both ends included.
 Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from = 0.0);
@@ -101,7 +101,7 @@ struct Zoom {
 /// second panel below each.
 struct PairPanels {
   std::string title;
-  reproduce::Axis y;
+  app::Axis y;
   double from = 0.0;   ///< t/T at the left edge
   double scale = 1.0;  ///< of reference, values and level on the ordinate, 1e3 for mm
   Eigen::VectorXd reference;
@@ -109,7 +109,7 @@ struct PairPanels {
   std::optional<double> level;  ///< an ordinate to mark, such as the gap
   std::optional<Zoom> zoom;
 };
-reproduce::Figure pair_figure(const PairPanels& content);
+app::Figure pair_figure(const PairPanels& content);
 
 /// `values` from t/T = 1/2 round to 1/2, so that what happens about t = 0 stands together.
 Eigen::VectorXd half_turn(const Eigen::VectorXd& values);
@@ -129,6 +129,6 @@ std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& v
 Table levels_table(const std::string& basis, bool centred = false);
 /// max over the levels of |integral - 1| of the columns of a levels_table().
 double largest_integral_error(const Table& table);
-reproduce::Figure levels_figure(const Table& table, const std::string& name, reproduce::SeriesStyle style);
+app::Figure levels_figure(const Table& table, const std::string& name, app::SeriesStyle style);
 
 }  // namespace wavebalance::jl14

@@ -1,13 +1,13 @@
 // The time-stepping reference of one case, JL14_CASE, that Figs. 6-11 read.
 #include "jl14.hpp"
-#include "wavebalance/reproduce/analysis.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
 
 namespace {
 
-reproduce::Response converged(const reproduce::Response& response, const std::string& method) {
+app::Response converged(const app::Response& response, const std::string& method) {
   if (!response.converged) throw report::NotConverged(method + ": " + response.status);
   return response;
 }
@@ -20,12 +20,12 @@ int main(int argc, char** argv) {
       jl14::identity("reference " + number, "Time stepping, case " + number, "reference_case" + number);
   return report::run_artefact(argc, argv, identity, [&](report::Artefact& artefact) {
     const auto scene = artefact.scene("reference_case" + number + ".toml");
-    reproduce::ResponseOptions options;
+    app::ResponseOptions options;
     options.full_history = true;
-    const auto stepping = converged(reproduce::time_stepping_response(scene, options), "time stepping");
-    const auto shooting = converged(reproduce::shooting_response(scene), "shooting");
-    auto table = reproduce::response_table(stepping.samples);
-    table.add_column("system_energy_J", reproduce::system_energy(scene, stepping.samples));
+    const auto stepping = converged(app::time_stepping_response(scene, options), "time stepping");
+    const auto shooting = converged(app::shooting_response(scene), "shooting");
+    auto table = app::response_table(stepping.samples);
+    table.add_column("system_energy_J", app::system_energy(scene, stepping.samples));
     artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
     artefact.caption("The last of " + std::to_string(stepping.iterations) +
                      " periods, computed once and read by Figs. 6-11.");
@@ -37,10 +37,10 @@ int main(int argc, char** argv) {
          report::number(stepping.residual) + " after " + std::to_string(stepping.iterations) + " periods",
          stepping.residual < 1e-7});
     const double difference =
-        reproduce::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
+        app::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
     artefact.note("An independent shooting solution differs from it by " + report::number(difference) +
                   " (relative rms of the tip displacement); largest displacement " +
                   report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) + " mm, in contact for " +
-                  report::percent(reproduce::contact_fraction(stepping.samples), 4) + " of the period.");
+                  report::percent(app::contact_fraction(stepping.samples), 4) + " of the period.");
   });
 }

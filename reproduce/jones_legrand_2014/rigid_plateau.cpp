@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "jl14.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
+using app::Colour;
 
 namespace {
 
@@ -13,17 +13,17 @@ constexpr double millimetres = 1e3;
 
 struct Study {
   int number;
-  reproduce::Scene scene;
-  std::vector<reproduce::Response> rigid;  ///< in the order of jl14::pairs()
-  reproduce::Response penalty;             ///< Fourier:Fourier, exponential law
+  app::Scene scene;
+  std::vector<app::Response> rigid;  ///< in the order of jl14::pairs()
+  app::Response penalty;             ///< Fourier:Fourier, exponential law
 };
 
 Study studied(report::Artefact& artefact, int number) {
   const std::string name = "case" + std::to_string(number);
   Study study{number, artefact.scene(name + "_rigid.toml"), {}, {}};
-  study.penalty = reproduce::weighted_residual_response(artefact.scene(name + ".toml"));
+  study.penalty = app::weighted_residual_response(artefact.scene(name + ".toml"));
   for (const auto& pair : jl14::pairs()) {
-    study.rigid.push_back(reproduce::weighted_residual_response(
+    study.rigid.push_back(app::weighted_residual_response(
         artefact.scene(name + "_rigid.toml", {"time.trial=" + pair.trial, "time.weight=" + pair.weight})));
     if (!study.rigid.back().converged)
       artefact.note("Case " + std::to_string(number) + ", " + pair.label + " did not converge (" +
@@ -38,7 +38,7 @@ jl14::Series centred(const std::string& label, const Eigen::VectorXd& values, Co
   return series;
 }
 
-void add_panels(reproduce::Figure& figure, const Study& study) {
+void add_panels(app::Figure& figure, const Study& study) {
   const double gap = millimetres * study.scene.contact.gap;
   const bool first = study.number == 1;
   const std::size_t place = figure.panels.size();
@@ -53,11 +53,11 @@ void add_panels(reproduce::Figure& figure, const Study& study) {
   force.y = jl14::axis("Force over amplitude", 0.0, first ? 0.4 : 20.0);
   const double scale = 1.0 / study.scene.forcing.amplitude;
   auto penalty = centred("", millimetres * study.penalty.samples.displacement, Colour::black);
-  penalty.dash = reproduce::Dash::dashed;
+  penalty.dash = app::Dash::dashed;
   auto penalty_force = centred("exponential law", scale * study.penalty.samples.contact_force, Colour::black);
-  penalty_force.dash = reproduce::Dash::dashed;
-  motion.legend = reproduce::Legend::none;
-  force.legend = first ? reproduce::Legend::none : reproduce::Legend::top_right;
+  penalty_force.dash = app::Dash::dashed;
+  motion.legend = app::Legend::none;
+  force.legend = first ? app::Legend::none : app::Legend::top_right;
   motion.add(penalty).mark_y(gap);
   force.add(penalty_force);
   for (std::size_t i = 0; i < study.rigid.size(); ++i) {
@@ -72,14 +72,14 @@ void add_panels(reproduce::Figure& figure, const Study& study) {
 void append(jl14::Table& table, const Study& study) {
   const double amplitude = study.scene.forcing.amplitude, gap = study.scene.contact.gap;
   const auto add = [&](const std::string& contact, const jl14::Pair& pair,
-                       const reproduce::Response& response) {
+                       const app::Response& response) {
     const auto& samples = response.samples;
     const double missing = std::nan("");
     table.append_row({std::int64_t{study.number}, contact, pair.trial, pair.weight, response.converged,
                       samples.displacement.maxCoeff() / gap - 1.0,
                       response.rigid ? std::max(0.0, response.rigid->max_penetration / gap) : missing,
                       samples.contact_force.mean() / amplitude, samples.contact_force.maxCoeff() / amplitude,
-                      reproduce::contact_fraction(samples)});
+                      app::contact_fraction(samples)});
   };
   add("exponential", jl14::pairs()[0], study.penalty);
   for (std::size_t i = 0; i < study.rigid.size(); ++i) add("rigid", jl14::pairs()[i], study.rigid[i]);
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
   const auto identity =
       jl14::identity("Rigid contact", "The contact plateau against a rigid obstacle", "rigid_plateau");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.columns = 2;
     figure.panel_width = 520;
     figure.panel_height = 360;

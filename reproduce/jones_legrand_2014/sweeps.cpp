@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/nyquist_resonances.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -30,7 +30,7 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
   Resonance resonance{pairs, {}, {}, 0.0};
   for (const auto& pair : pairs) {
     const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
-    resonance.sweeps.push_back(reproduce::frequency_sweep(scene));
+    resonance.sweeps.push_back(app::frequency_sweep(scene));
     resonance.gap = scene.contact.gap;
     const auto& sweep = resonance.sweeps.back();
     if (!sweep.converged())
@@ -38,24 +38,24 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
   }
   auto free = artefact.scene(file);
   free.contact = {};
-  resonance.free = reproduce::frequency_sweep(reproduce::complete_scene(free));
+  resonance.free = app::frequency_sweep(app::complete_scene(free));
   return resonance;
 }
 
-reproduce::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file) {
-  return reproduce::frequency_sweep(
+app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file) {
+  return app::frequency_sweep(
       artefact.scene(file, {"time.functions=63", "analysis.first_step=0.5", "analysis.largest_step=1.0"}));
 }
 
 std::string every_turn_text(report::Artefact& artefact, const std::string& file, const Pair& pair) {
   const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
-  auto problem = reproduce::make_problem(scene, reproduce::make_model(scene));
+  auto problem = app::make_problem(scene, app::make_model(scene));
   solvers::FrequencySweepOptions options;
   options.from = scene.analysis.frequency_from;
   options.to = scene.analysis.frequency_to;
   options.arc_length.corners = solvers::Corners::every;
   options.smallest_return = 1e-9 * std::abs(options.to - options.from);
-  const auto curve = solvers::frequency_sweep(problem, reproduce::make_laws(scene), options);
+  const auto curve = solvers::frequency_sweep(problem, app::make_laws(scene), options);
   std::vector<double> turns;
   for (const auto& turn : curve.turning_points) turns.push_back(turn.frequency);
   std::string text = pair.label + " " + std::to_string(turns.size());
@@ -67,18 +67,18 @@ std::string every_turn_text(report::Artefact& artefact, const std::string& file,
   return ended ? text : text + " (" + to_string(curve.status) + ")";
 }
 
-Series sweep_series(const std::string& label, const reproduce::Sweep& sweep) {
+Series sweep_series(const std::string& label, const app::Sweep& sweep) {
   return curve(label, sweep.curve.points);
 }
 
 void note_nyquist_resonances(report::Artefact& artefact, const std::string& file,
-                             const reproduce::Sweep& full) {
+                             const app::Sweep& full) {
   std::string text;
   for (const auto& pair : pairs()) {
     const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
     std::string listed;
     for (const double frequency :
-         reproduce::nyquist_resonances(scene, scene.analysis.frequency_from, scene.analysis.frequency_to))
+         app::nyquist_resonances(scene, scene.analysis.frequency_from, scene.analysis.frequency_to))
       listed += (listed.empty() ? " " : ", ") + report::number(frequency, 6);
     if (!listed.empty()) text += (text.empty() ? "" : "; ") + pair.label + listed + " Hz";
   }
@@ -93,21 +93,21 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
       turns_text(full) + ".");
 }
 
-solvers::SweepPoint peak(const reproduce::Sweep& sweep) {
+solvers::SweepPoint peak(const app::Sweep& sweep) {
   const auto& points = sweep.curve.points;
   return *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
     return a.max_displacement < b.max_displacement;
   });
 }
 
-std::string turns_text(const reproduce::Sweep& sweep) {
+std::string turns_text(const app::Sweep& sweep) {
   std::string text;
   for (const auto& turn : sweep.curve.turning_points)
     text += (text.empty() ? "" : " and ") + report::number(turn.frequency, 7) + " Hz";
   return text.empty() ? "none" : text;
 }
 
-double turns_spread(const std::vector<reproduce::Sweep>& sweeps) {
+double turns_spread(const std::vector<app::Sweep>& sweeps) {
   double largest = 0.0;
   const auto& first = sweeps.at(0).curve.turning_points;
   for (const auto& sweep : sweeps) {
@@ -119,23 +119,23 @@ double turns_spread(const std::vector<reproduce::Sweep>& sweeps) {
   return largest;
 }
 
-reproduce::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
-  reproduce::Panel panel;
+app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
+  app::Panel panel;
   panel.title = title;
   Series free = curve("without contact", resonance.free.curve.points);
-  free.colour = reproduce::Colour::grey;
-  free.dash = reproduce::Dash::dashed;
+  free.colour = app::Colour::grey;
+  free.dash = app::Dash::dashed;
   panel.add(std::move(free));
   for (std::size_t i = 0; i < resonance.pairs.size(); ++i) {
     Series series = curve(resonance.pairs[i].label, resonance.sweeps[i].curve.points);
     series.colour = resonance.pairs[i].colour;
-    if (i > 0) series.dash = reproduce::Dash::dotted;
+    if (i > 0) series.dash = app::Dash::dotted;
     series.width = i > 0 ? 2.4 : 1.6;
     panel.add(std::move(series));
   }
   Series turns = curve("turning points", resonance.sweeps[0].curve.turning_points);
-  turns.style = reproduce::SeriesStyle::points;
-  turns.colour = reproduce::Colour::black;
+  turns.style = app::SeriesStyle::points;
+  turns.colour = app::Colour::black;
   turns.marker = 1;
   panel.add(std::move(turns));
   panel.mark_y(millimetres * resonance.gap);

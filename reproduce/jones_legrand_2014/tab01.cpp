@@ -2,14 +2,14 @@
 
 #include "jl14.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
-#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 using namespace wavebalance;
 
 namespace {
 
-double largest_free_displacement(const reproduce::Scene& scene) {
-  return reproduce::make_problem(scene).free_response().cwiseAbs().maxCoeff();
+double largest_free_displacement(const app::Scene& scene) {
+  return app::make_problem(scene).free_response().cwiseAbs().maxCoeff();
 }
 
 void claim_near(report::Artefact& artefact, const std::string& quote, const std::string& what, double found,
@@ -19,7 +19,7 @@ void claim_near(report::Artefact& artefact, const std::string& quote, const std:
                   report::number(found, 6) + " " + unit, std::abs(found - stated) <= tolerance});
 }
 
-jl14::Table printed(const reproduce::Scene& one, const reproduce::Scene& two, double free_one,
+jl14::Table printed(const app::Scene& one, const app::Scene& two, double free_one,
                     double free_two) {
   using report::number;
   jl14::Table table({"", "Case 1", "Case 2"});
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   const auto identity = jl14::identity("Table 1", "Test cases", "tab01_cases");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
     const auto one = artefact.scene("case1.toml"), two = artefact.scene("case2.toml");
-    const auto structure = reproduce::make_structure(one);
+    const auto structure = app::make_structure(one);
     const double fundamental = fem::eigenmodes(structure.stiffness, structure.mass, 1).frequencies_hz[0];
     const double free_one = largest_free_displacement(one), free_two = largest_free_displacement(two);
     jl14::Table table({"case", "forcing_frequency_Hz", "penalty_constant_N", "penalty_exponent_per_m",

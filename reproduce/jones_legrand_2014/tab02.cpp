@@ -1,5 +1,5 @@
 #include "jl14.hpp"
-#include "wavebalance/reproduce/compose.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 using namespace wavebalance;
 
@@ -7,8 +7,8 @@ namespace {
 
 constexpr int functions = 64;
 
-reproduce::Time time_of(const std::string& trial, const std::string& weight) {
-  reproduce::Time time;
+app::Time time_of(const std::string& trial, const std::string& weight) {
+  app::Time time;
   time.trial = trial;
   time.weight = weight;
   time.functions = functions;
@@ -17,7 +17,7 @@ reproduce::Time time_of(const std::string& trial, const std::string& weight) {
 }
 
 double exponent(const std::string& basis) {
-  return reproduce::make_basis(basis, functions).sobolev_exponent();
+  return app::make_basis(basis, functions).sobolev_exponent();
 }
 
 std::string shown(double exponent) { return std::isfinite(exponent) ? report::number(exponent, 5) : "∞"; }
@@ -25,8 +25,8 @@ std::string shown(double exponent) { return std::isfinite(exponent) ? report::nu
 /// A row of the CSV and one of the printed table.
 void append(jl14::Table& data, jl14::Table& printed, const jl14::Pair& pair) {
   const auto time = time_of(pair.trial, pair.weight);
-  const auto pairing = reproduce::pair_admissibility(time);
-  const std::string products = reproduce::name_of(reproduce::effective_inner_products(time));
+  const auto pairing = app::pair_admissibility(time);
+  const std::string products = app::name_of(app::effective_inner_products(time));
   const double s = exponent(pair.trial), p = exponent(pair.weight);
   data.append_row({pair.trial, pair.weight, s, p, s + p, pairing.admissible, products});
   printed.append_row(
@@ -38,7 +38,7 @@ void append(jl14::Table& data, jl14::Table& printed, const jl14::Pair& pair) {
 void note_inadmissible(report::Artefact& artefact) {
   for (const auto& [trial, weight] : {std::pair{"haar", "haar"}, std::pair{"haar", "daubechies6"},
                                       std::pair{"daubechies4", "daubechies4"}}) {
-    const auto pairing = reproduce::pair_admissibility(time_of(trial, weight));
+    const auto pairing = app::pair_admissibility(time_of(trial, weight));
     if (!pairing.admissible)
       artefact.note(std::string("Not in the paper's list, and rightly so: ") + trial + ":" + weight + ". " +
                     pairing.reason);

@@ -7,7 +7,7 @@
 
 namespace wavebalance::ll10 {
 
-solvers::ModePoint accepted_at(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve,
                                double energy_ratio) {
   auto point = study.at_energy(curve, energy_ratio);
   if (!point.accepted())
@@ -16,7 +16,7 @@ solvers::ModePoint accepted_at(const reproduce::ModeStudy& study, const reproduc
   return point;
 }
 
-Table blade_backbones(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+Table blade_backbones(const app::ModeStudy& study, const app::Backbone& curve,
                       const std::vector<solvers::LagrangianPoint>& published) {
   const double linear = study.mode().linear_omega();
   Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
@@ -34,7 +34,7 @@ Table blade_backbones(const reproduce::ModeStudy& study, const reproduce::Backbo
   return table;
 }
 
-Table blade_measures(const reproduce::ModeStudy& study, const reproduce::Backbone& curve) {
+Table blade_measures(const app::ModeStudy& study, const app::Backbone& curve) {
   constexpr int times = 32;
   const double degrees_per_mm = 180.0 / std::numbers::pi * 1e-3 / study.scene().contact.gap;
   const auto torsion = blade::torsion_modes(study);
@@ -49,7 +49,7 @@ Table blade_measures(const reproduce::ModeStudy& study, const reproduce::Backbon
   return table;
 }
 
-double reduction_error(const reproduce::ModeStudy& study) {
+double reduction_error(const app::ModeStudy& study) {
   constexpr int modes = 8;
   const auto matrices = fem::solid_matrices(study.model().blade->model);
   const auto whole = fem::eigenmodes(matrices.stiffness, matrices.mass, modes);

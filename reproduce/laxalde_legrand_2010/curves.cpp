@@ -20,7 +20,7 @@ contact::MultiplierUpdate strategy(const LagrangianMode& mode) {
                                    {penalty});
 }
 
-LagrangianModeOptions options_of(const reproduce::Scene& scene, int harmonics) {
+LagrangianModeOptions options_of(const app::Scene& scene, int harmonics) {
   LagrangianModeOptions options;
   options.mode = scene.analysis.mode;
   options.harmonics = harmonics;
@@ -35,7 +35,7 @@ void add_row(Table& table, const std::string& formulation, double energy, double
 
 }  // namespace
 
-Agreement lagrangian_agreement(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,
                                const std::vector<double>& energies) {
   const LagrangianMode mode(study.mode().model(),
                             options_of(study.scene(), study.scene().analysis.harmonics));
@@ -52,7 +52,7 @@ Agreement lagrangian_agreement(const reproduce::ModeStudy& study, const reproduc
   return result;
 }
 
-Distance exact_distance(const reproduce::ModeStudy& study, const reproduce::Backbone& curve) {
+Distance exact_distance(const app::ModeStudy& study, const app::Backbone& curve) {
   std::vector<double> errors;
   for (const auto& point : curve.points) {
     if (!point.accepted() || point.energy_ratio < 1.2 || point.energy_ratio > 10.0) continue;
@@ -64,7 +64,7 @@ Distance exact_distance(const reproduce::ModeStudy& study, const reproduce::Back
   return {errors[errors.size() / 2], errors.back(), static_cast<int>(errors.size())};
 }
 
-Table backbones_table(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+Table backbones_table(const app::ModeStudy& study, const app::Backbone& curve,
                       const std::vector<LagrangianPoint>& published) {
   const double linear = study.mode().linear_omega();
   Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "ll10.hpp"
-#include "wavebalance/solvers/mode_augmented_lagrangian.hpp"
+#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 
 namespace wavebalance::ll10 {
 
@@ -13,7 +13,7 @@ struct Agreement {
   double largest = 0.0;
   int points = 0;
 };
-Agreement lagrangian_agreement(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,
                                const std::vector<double>& energies);
 
 /// |omega / omega_exact - 1| at the energies of the accepted points of a curve with energy ratios in 1.2..10.
@@ -22,11 +22,11 @@ struct Distance {
   double largest = 0.0;
   int points = 0;
 };
-Distance exact_distance(const reproduce::ModeStudy& study, const reproduce::Backbone& curve);
+Distance exact_distance(const app::ModeStudy& study, const app::Backbone& curve);
 
 /// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
 /// root of r), consistent (accepted points) and exact, the linear branch below contact included.
-Table backbones_table(const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+Table backbones_table(const app::ModeStudy& study, const app::Backbone& curve,
                       const std::vector<solvers::LagrangianPoint>& published);
 
 }  // namespace wavebalance::ll10

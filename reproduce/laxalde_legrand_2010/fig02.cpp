@@ -3,7 +3,7 @@
 #include "ll10.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
+using app::Colour;
 
 namespace {
 
@@ -27,9 +27,9 @@ std::vector<Polyline> outline() {
   return lines;
 }
 
-void annotate(reproduce::Panel& panel) {
+void annotate(app::Panel& panel) {
   const auto arrow = [&](double x1, double y1, double x2, double y2) {
-    panel.segments.push_back({x1, y1, x2, y2, true, reproduce::Dash::solid, Colour::black, 1.3});
+    panel.segments.push_back({x1, y1, x2, y2, true, app::Dash::solid, Colour::black, 1.3});
   };
   const auto text = [&](double x, double y, const char* words) { panel.texts.push_back({x, y, words}); };
   panel.rectangles.push_back({0, -0.06, 1, 0.06, Colour::sky_blue, 0.35});
@@ -43,15 +43,15 @@ void annotate(reproduce::Panel& panel) {
   text(0.72, 0.16, "{/:Italic u}({/:Italic L}, {/:Italic t}) ≤ {/:Italic g}_0");
 }
 
-reproduce::Figure drawn(const std::vector<Polyline>& lines) {
-  reproduce::Figure figure;
+app::Figure drawn(const std::vector<Polyline>& lines) {
+  app::Figure figure;
   figure.panel_width = 700;
   figure.panel_height = 250;
   auto& panel = figure.add_panel();
   panel.frame = false;
   panel.x = ll10::axis("", -0.08, 1.2);
   panel.y = ll10::axis("", -0.23, 0.24);
-  panel.legend = reproduce::Legend::none;
+  panel.legend = app::Legend::none;
   for (const auto& line : lines) {
     std::vector<double> x, y;
     for (const auto& point : line.points) {

@@ -4,9 +4,9 @@
 #include "curves.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
-using reproduce::Dash;
-using reproduce::SeriesStyle;
+using app::Colour;
+using app::Dash;
+using app::SeriesStyle;
 
 namespace {
 
@@ -14,27 +14,27 @@ constexpr int published_harmonics = 2;
 
 /// A column of one formulation as a curve, from its `first` row on; a step above `gap` in energy interrupts
 /// it.
-reproduce::Series curve(const std::string& label, const ll10::Table& table, const std::string& formulation,
+app::Series curve(const std::string& label, const ll10::Table& table, const std::string& formulation,
                         const std::string& column, Colour colour, Dash dash, std::size_t first) {
   const auto rows = table.where("formulation", formulation);
   const auto energy = rows.numbers("energy_ratio"), value = rows.numbers(column);
   std::vector<double> x(energy.begin() + static_cast<std::ptrdiff_t>(first), energy.end());
   std::vector<double> y(value.begin() + static_cast<std::ptrdiff_t>(first), value.end());
-  reproduce::Series series(label, x, y);
+  app::Series series(label, x, y);
   series.colour = colour;
   series.dash = dash;
   return series;
 }
 
-reproduce::Figure drawn(const reproduce::ModeStudy& study, const reproduce::Backbone& backbone,
+app::Figure drawn(const app::ModeStudy& study, const app::Backbone& backbone,
                         const ll10::Table& table) {
-  reproduce::Figure figure;
+  app::Figure figure;
   figure.panel_width = 760;
   figure.panel_height = 460;
   auto& panel = figure.add_panel("consistent: " + ll10::discretisation(study.scene()));
   panel.x = ll10::axis("Energy γ over its value at linear grazing", 0.0, 10.0);
   panel.y = ll10::axis("Frequency over the linear one", 0.98, 1.28);
-  panel.legend = reproduce::Legend::bottom_right;
+  panel.legend = app::Legend::bottom_right;
   panel.add(curve("exact, ω", table, "exact", "frequency_ratio", Colour::black, Dash::solid, 2));
   panel.add(curve("exact, √r", table, "exact", "rayleigh_frequency_ratio", Colour::black, Dash::dashed, 2));
   auto points = curve("consistent, ω", table, "consistent", "frequency_ratio", Colour::blue, Dash::solid, 1);
@@ -50,7 +50,7 @@ reproduce::Figure drawn(const reproduce::ModeStudy& study, const reproduce::Back
       energy.push_back(point.energy_ratio);
       ratio.push_back(point.omega / study.mode().linear_omega());
     }
-  reproduce::Series tongues("internal resonances", energy, ratio, SeriesStyle::points);
+  app::Series tongues("internal resonances", energy, ratio, SeriesStyle::points);
   tongues.colour = Colour::grey;
   tongues.marker = 8;
   panel.add(tongues);
@@ -60,7 +60,7 @@ reproduce::Figure drawn(const reproduce::ModeStudy& study, const reproduce::Back
 }
 
 void claim_linear(report::Artefact& artefact) {
-  const reproduce::ModeStudy paper(artefact.scene("rod_consistent_mass.toml"));
+  const app::ModeStudy paper(artefact.scene("rod_consistent_mass.toml"));
   const double frequency = paper.linear_frequency();
   artefact.claim({"section 5.1",
                   "The natural frequency of its linear counterpart with clamped-free boundary conditions is "
@@ -69,7 +69,7 @@ void claim_linear(report::Artefact& artefact) {
                   report::number(frequency, 7) + " Hz", std::abs(frequency - 1297.5) < 0.05});
 }
 
-void claim_onset(report::Artefact& artefact, const reproduce::Backbone& backbone) {
+void claim_onset(report::Artefact& artefact, const app::Backbone& backbone) {
   double least = 1e300;
   for (const auto& point : backbone.points)
     if (point.accepted()) least = std::min(least, point.energy_ratio);
@@ -82,8 +82,8 @@ void claim_onset(report::Artefact& artefact, const reproduce::Backbone& backbone
                   least > 0.99});
 }
 
-void claim_hardening(report::Artefact& artefact, const reproduce::ModeStudy& study,
-                     const reproduce::Backbone& backbone) {
+void claim_hardening(report::Artefact& artefact, const app::ModeStudy& study,
+                     const app::Backbone& backbone) {
   bool rising = true;
   std::string measured;
   double before = 1.0;
@@ -99,8 +99,8 @@ void claim_hardening(report::Artefact& artefact, const reproduce::ModeStudy& stu
        measured, rising});
 }
 
-void claim_identity(report::Artefact& artefact, const reproduce::ModeStudy& study,
-                    const reproduce::Backbone& backbone) {
+void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
+                    const app::Backbone& backbone) {
   const auto point = study.at_energy(backbone, 10.0);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   const auto exact = ll10::exact_mode(study.scene(), 10.0);
@@ -117,8 +117,8 @@ void claim_identity(report::Artefact& artefact, const reproduce::ModeStudy& stud
        std::abs(root * linear / point.omega - 1.0) < 0.01});
 }
 
-void claim_work(report::Artefact& artefact, const reproduce::ModeStudy& study,
-                const reproduce::Backbone& backbone) {
+void claim_work(report::Artefact& artefact, const app::ModeStudy& study,
+                const app::Backbone& backbone) {
   const auto motion = study.samples(study.at_energy(backbone, 10.0), study.scene().analysis.samples, false);
   const auto mean = [&](const Eigen::VectorXd& values) {
     return motion.contact_force.cwiseProduct(values).mean() /
@@ -154,8 +154,8 @@ void claim_published(report::Artefact& artefact, const std::vector<solvers::Lagr
        std::abs(last.energy_ratio / last.prescribed_ratio - 1.0) < 0.01});
 }
 
-void notes(report::Artefact& artefact, const reproduce::ModeStudy& study,
-           const reproduce::Backbone& backbone) {
+void notes(report::Artefact& artefact, const app::ModeStudy& study,
+           const app::Backbone& backbone) {
   const auto distance = ll10::exact_distance(study, backbone);
   std::string errors;
   for (const double energy : {1.2, 1.8, 3.0, 5.0, 10.0}) {
@@ -203,10 +203,10 @@ int main(int argc, char** argv) {
   const auto identity =
       ll10::identity("Fig. 3", "Frequency over energy of the first nonlinear mode", "fig03_backbone");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const reproduce::ModeStudy study(artefact.scene("rod.toml"));
+    const app::ModeStudy study(artefact.scene("rod.toml"));
     const auto backbone = study.backbone();
     if (!backbone.converged()) throw report::NotConverged("backbone: " + backbone.status());
-    const auto published = reproduce::ModeStudy(artefact.scene("rod_published.toml")).published_branch(10.0);
+    const auto published = app::ModeStudy(artefact.scene("rod_published.toml")).published_branch(10.0);
     const auto table = ll10::backbones_table(study, backbone, published);
     artefact.data(
         table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",

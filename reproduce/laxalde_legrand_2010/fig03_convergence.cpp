@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "curves.hpp"
-#include "wavebalance/reproduce/curve_measures.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
 
 using namespace wavebalance;
 
@@ -23,7 +23,7 @@ Row row_of(report::Artefact& artefact, int harmonics, int elements, double lumpe
                                                  "analysis.samples=" + std::to_string(2 * harmonics),
                                                  "structure.elements=" + std::to_string(elements),
                                                  "structure.lumped_mass_fraction=" + report::number(lumped)});
-  const reproduce::ModeStudy study(scene);
+  const app::ModeStudy study(scene);
   const auto curve = study.backbone();
   const double exact = contact::ExactBarMode::linear_frequency(ll10::exact_bar(scene), 1);
   return {harmonics,
@@ -60,7 +60,7 @@ double elements(const Row& row) { return row.elements; }
 double in_space(const Row& row) { return row.in_space; }
 double linear_error(const Row& row) { return row.linear_error; }
 
-void add_panel(reproduce::Figure& figure, const std::string& title, const std::string& abscissa,
+void add_panel(app::Figure& figure, const std::string& title, const std::string& abscissa,
                const std::vector<Row>& rows, double (*size)(const Row&), bool linear) {
   auto& panel = figure.add_panel(title);
   panel.x.label = abscissa;
@@ -70,8 +70,8 @@ void add_panel(reproduce::Figure& figure, const std::string& title, const std::s
   panel.x.upper = 1.25 * panel.x.ticks.back();
   panel.x.tick_format = "%g";
   panel.y.label = "Relative error of ω";
-  panel.legend = reproduce::Legend::below_panel;
-  using enum reproduce::SeriesStyle;
+  panel.legend = app::Legend::below_panel;
+  using enum app::SeriesStyle;
   panel.add({"largest, energies 1.2 to 10", column(rows, size), column(rows, largest), line_points});
   panel.add({"median", column(rows, size), column(rows, median), line_points});
   if (!linear) return;
@@ -80,7 +80,7 @@ void add_panel(reproduce::Figure& figure, const std::string& title, const std::s
 }
 
 double order(const std::vector<Row>& rows, double (*size)(const Row&), double (*error)(const Row&)) {
-  return reproduce::observed_order(column(rows, size), column(rows, error));
+  return app::observed_order(column(rows, size), column(rows, error));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     for (const auto* rows : {&over_harmonics, &over_elements, &over_elements_consistent})
       all.insert(all.end(), rows->begin(), rows->end());
     artefact.data(table_of(all), "errors relative to the exact frequency at the same energy ratio");
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.columns = 3;
     figure.panel_width = 400;
     figure.panel_height = 420;

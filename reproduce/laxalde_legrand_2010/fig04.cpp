@@ -4,8 +4,8 @@
 #include "ll10.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
-using reproduce::Dash;
+using app::Colour;
+using app::Dash;
 
 namespace {
 
@@ -18,9 +18,9 @@ std::vector<double> row(const Eigen::MatrixXd& values, Eigen::Index index) {
 
 Eigen::Index middle(const ll10::Motion& motion) { return (motion.position.size() - 1) / 2; }
 
-reproduce::Series orbit(const std::string& label, const ll10::Motion& motion, Eigen::Index node,
+app::Series orbit(const std::string& label, const ll10::Motion& motion, Eigen::Index node,
                         Colour colour, Dash dash) {
-  reproduce::Series series(label, row(motion.displacement, middle(motion)),
+  app::Series series(label, row(motion.displacement, middle(motion)),
                            row(motion.velocity, middle(motion)));
   series.z = row(motion.displacement, node);
   series.colour = colour;
@@ -59,11 +59,11 @@ int main(int argc, char** argv) {
   const auto identity =
       ll10::identity("Fig. 4", "Periodic motions projected into phase space", "fig04_phase_space");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const reproduce::ModeStudy study(artefact.scene("rod.toml"));
+    const app::ModeStudy study(artefact.scene("rod.toml"));
     const auto low = ll10::computed_motion(study, 0.7, times),
                high = ll10::computed_motion(study, 1.8, times);
     const auto exact = ll10::exact_motion(study.scene(), 1.8, times);
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.title = "Energy 0.7 (blue) and 1.8 (orange), exact at 1.8 (dashed)";
     figure.columns = 2;
     figure.panel_width = 520;
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
       panel.x.ticks = {-0.8, -0.4, 0.0, 0.4, 0.8};
       panel.y.ticks = {-1.0, 0.0, 1.0};
       panel.z->ticks = last ? std::vector<double>{-1.0, 0.0, 1.0} : std::vector<double>{-0.1, 0.0, 0.1};
-      panel.legend = reproduce::Legend::none;
+      panel.legend = app::Legend::none;
       const Eigen::Index node = last ? low.position.size() - 1 : 1;
       panel.add(orbit("energy 1.8, exact", exact, node, Colour::black, Dash::dashed));
       panel.add(orbit("energy 0.7", low, node, Colour::sky_blue, Dash::solid));

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int times = 128;
 
-reproduce::HeatMap map_of(const ll10::Motion& motion, const Eigen::MatrixXd& values, double largest) {
-  reproduce::HeatMap map;
+app::HeatMap map_of(const ll10::Motion& motion, const Eigen::MatrixXd& values, double largest) {
+  app::HeatMap map;
   map.x.assign(motion.time.begin(), motion.time.end());
   map.y.assign(motion.position.begin(), motion.position.end());
   for (Eigen::Index i = 0; i < values.rows(); ++i)
@@ -20,7 +20,7 @@ reproduce::HeatMap map_of(const ll10::Motion& motion, const Eigen::MatrixXd& val
   return map;
 }
 
-void add_pair(reproduce::Figure& figure, const std::string& title, const ll10::Motion& motion, double u,
+void add_pair(app::Figure& figure, const std::string& title, const ll10::Motion& motion, double u,
               double v) {
   for (const bool velocity : {false, true}) {
     auto& panel = figure.add_panel((velocity ? "velocity, " : "displacement, ") + title);
@@ -28,7 +28,7 @@ void add_pair(reproduce::Figure& figure, const std::string& title, const ll10::M
     panel.y = ll10::axis("Position x/L", 0.0, 1.0);
     panel.heat_map = map_of(motion, velocity ? motion.velocity : motion.displacement, velocity ? v : u);
     panel.heat_map->label = velocity ? "u̇ / (g_0 ω_1)" : "u / g_0";
-    panel.legend = reproduce::Legend::none;
+    panel.legend = app::Legend::none;
   }
 }
 
@@ -113,13 +113,13 @@ int main(int argc, char** argv) {
   const auto identity =
       ll10::identity("Fig. 5", "Displacement and velocity over space and time", "fig05_space_time");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const reproduce::ModeStudy study(artefact.scene("rod.toml"));
+    const app::ModeStudy study(artefact.scene("rod.toml"));
     const auto& scene = study.scene();
     const auto low = ll10::computed_motion(study, 0.7, times),
                high = ll10::computed_motion(study, 1.8, times);
     const auto exact_low = ll10::exact_motion(scene, 0.7, times),
                exact_high = ll10::exact_motion(scene, 1.8, times);
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.columns = 2;
     figure.panel_width = 460;
     figure.panel_height = 260;

@@ -25,14 +25,14 @@ std::vector<int> held_nodes(const fem::Blade& blade) {
 }
 
 /// One panel: the blade from one side, limited to a window around the tip if `tip_only`.
-void add_view(reproduce::Figure& figure, const fem::Blade& blade, double azimuth, double elevation,
+void add_view(app::Figure& figure, const fem::Blade& blade, double azimuth, double elevation,
               bool tip_only) {
   auto& panel = figure.add_panel(tip_only ? "contact interface at the tip" : "model, arrows 15 mm");
   auto& view = panel.surface.emplace();
   view.surfaces = {blade::surface(blade)};
   auto& marks = view.surfaces[0].marks;
-  marks.push_back({"contact nodes", blade.contact_nodes, reproduce::Colour::vermillion, 1});
-  if (!tip_only) marks.push_back({"clamped nodes", held_nodes(blade), reproduce::Colour::blue, 3});
+  marks.push_back({"contact nodes", blade.contact_nodes, app::Colour::vermillion, 1});
+  if (!tip_only) marks.push_back({"clamped nodes", held_nodes(blade), app::Colour::blue, 3});
   view.azimuth = azimuth;
   view.elevation = elevation;
   if (!tip_only) view.axes = 15.0;
@@ -57,15 +57,15 @@ int main(int argc, char** argv) {
   const auto identity =
       ll10::identity("Fig. 6", "Blade model and details of the contact interface", "fig06_blade");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const reproduce::ModeStudy study(artefact.scene("blade_mode.toml"));
+    const app::ModeStudy study(artefact.scene("blade_mode.toml"));
     const fem::Blade& blade = *study.model().blade;
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.columns = 2;
     figure.panel_width = 470;
     figure.panel_height = 500;
     add_view(figure, blade, -55.0, 28.0, false);
     add_view(figure, blade, -60.0, 62.0, true);
-    figure.panels[0].legend = figure.panels[1].legend = reproduce::Legend::below_panel;
+    figure.panels[0].legend = figure.panels[1].legend = app::Legend::below_panel;
     artefact.picture(figure);
     artefact.data(contact_nodes(blade, study.scene().contact.gap),
                   "contact nodes from the leading to the trailing edge; metres",

@@ -4,34 +4,34 @@
 #include "blade.hpp"
 
 using namespace wavebalance;
-using reproduce::Colour;
+using app::Colour;
 
 namespace {
 
-reproduce::Series drawn(const std::string& label, const ll10::Table& rows, const std::string& column,
-                        Colour colour, reproduce::Dash dash) {
-  reproduce::Series series(label, rows, "energy_ratio", column);
+app::Series drawn(const std::string& label, const ll10::Table& rows, const std::string& column,
+                        Colour colour, app::Dash dash) {
+  app::Series series(label, rows, "energy_ratio", column);
   series.colour = colour;
   series.dash = dash;
   return series;
 }
 
-void add_backbones(reproduce::Figure& figure, const reproduce::ModeStudy& study,
-                   const reproduce::Backbone& curve, const ll10::Table& table) {
-  using reproduce::Dash;
+void add_backbones(app::Figure& figure, const app::ModeStudy& study,
+                   const app::Backbone& curve, const ll10::Table& table) {
+  using app::Dash;
   auto& panel =
       figure.add_panel("first nonlinear mode, " + std::to_string(study.scene().analysis.harmonics) +
                        " harmonics, " + std::to_string(study.scene().analysis.samples) + " samples");
   panel.x = ll10::axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = ll10::axis("Frequency over the linear one", 0.98, 1.3);
-  panel.legend = reproduce::Legend::top_left;
+  panel.legend = app::Legend::top_left;
   const auto consistent = table.where("formulation", "consistent");
   panel.add(drawn("consistent, ω", consistent, "frequency_ratio", Colour::blue, Dash::solid));
   panel.add(
       drawn("the same motions, √r", consistent, "rayleigh_frequency_ratio", Colour::sky_blue, Dash::dashed));
   auto published = drawn("published: √r taken for ω, N = 2", table.where("formulation", "published"),
                          "frequency_ratio", Colour::vermillion, Dash::dash_dotted);
-  published.style = reproduce::SeriesStyle::line_points;
+  published.style = app::SeriesStyle::line_points;
   published.marker = 1;
   panel.add(published);
   std::vector<double> x, y, tongue_x, tongue_y;
@@ -39,7 +39,7 @@ void add_backbones(reproduce::Figure& figure, const reproduce::ModeStudy& study,
     x.push_back(listed.energy_ratio);
     y.push_back(listed.frequency_ratio);
   }
-  reproduce::Series listed("listed points", x, y, reproduce::SeriesStyle::points);
+  app::Series listed("listed points", x, y, app::SeriesStyle::points);
   listed.colour = Colour::black;
   listed.marker = 7;
   panel.add(listed);
@@ -48,25 +48,25 @@ void add_backbones(reproduce::Figure& figure, const reproduce::ModeStudy& study,
       tongue_x.push_back(point.energy_ratio);
       tongue_y.push_back(point.omega / study.mode().linear_omega());
     }
-  reproduce::Series tongues("internal resonances", tongue_x, tongue_y, reproduce::SeriesStyle::points);
+  app::Series tongues("internal resonances", tongue_x, tongue_y, app::SeriesStyle::points);
   tongues.colour = Colour::grey;
   tongues.marker = 8;
   if (!tongue_x.empty()) panel.add(tongues);
   panel.mark_x(1.0);
 }
 
-void add_torsion(reproduce::Figure& figure, const ll10::Table& measures) {
+void add_torsion(app::Figure& figure, const ll10::Table& measures) {
   auto& panel = figure.add_panel("torsion");
   panel.x = ll10::axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = ll10::axis("Share of kinetic energy in torsion modes", 0.0, 0.05);
-  panel.legend = reproduce::Legend::none;
-  reproduce::Series share("", measures, "energy_ratio", "torsion_share");
+  panel.legend = app::Legend::none;
+  app::Series share("", measures, "energy_ratio", "torsion_share");
   share.colour = Colour::green;
   panel.add(share).mark_x(1.0);
 }
 
-void claim_listed(report::Artefact& artefact, const reproduce::ModeStudy& study,
-                  const reproduce::Backbone& curve) {
+void claim_listed(report::Artefact& artefact, const app::ModeStudy& study,
+                  const app::Backbone& curve) {
   std::string measured;
   double largest = 0.0, before = 1.0;
   bool rising = true;
@@ -91,8 +91,8 @@ void claim_listed(report::Artefact& artefact, const reproduce::ModeStudy& study,
                   rising});
 }
 
-void claim_contact(report::Artefact& artefact, const reproduce::ModeStudy& study,
-                   const reproduce::Backbone& curve) {
+void claim_contact(report::Artefact& artefact, const app::ModeStudy& study,
+                   const app::Backbone& curve) {
   const double sample = 1.0 / study.scene().analysis.samples;
   bool edges = true;
   std::string measured;
@@ -123,8 +123,8 @@ void claim_contact(report::Artefact& artefact, const reproduce::ModeStudy& study
        edges && leading > 1.0 && trailing > 1.0});
 }
 
-void claim_identity(report::Artefact& artefact, const reproduce::ModeStudy& study,
-                    const reproduce::Backbone& curve) {
+void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
+                    const app::Backbone& curve) {
   const auto point = ll10::accepted_at(study, curve, 10.4);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   double identity = 0.0, residual = 0.0;
@@ -143,7 +143,7 @@ void claim_identity(report::Artefact& artefact, const reproduce::ModeStudy& stud
                   std::abs(root * linear / point.omega - 1.0) < 0.01});
 }
 
-void notes(report::Artefact& artefact, const reproduce::ModeStudy& study, const reproduce::Backbone& curve,
+void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve,
            const std::vector<solvers::LagrangianPoint>& published) {
   const auto& last = published.back();
   artefact.note(
@@ -169,12 +169,12 @@ int main(int argc, char** argv) {
   const auto identity = ll10::identity(
       "Fig. 7", "Frequency over energy of the first nonlinear mode of the blade", "fig07_blade_backbone");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const reproduce::ModeStudy study(artefact.scene("blade_mode.toml", {"analysis.largest_energy=12.5"}));
+    const app::ModeStudy study(artefact.scene("blade_mode.toml", {"analysis.largest_energy=12.5"}));
     const auto curve = study.backbone();
     if (!curve.converged()) throw report::NotConverged("backbone: " + curve.status());
     const auto scene = artefact.scene("blade_published.toml");
     const auto published =
-        reproduce::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
+        app::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
     const auto table = ll10::blade_backbones(study, curve, published);
     const auto measures = ll10::blade_measures(study, curve);
     artefact.data(table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",
@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
     artefact.more_data("torsion", measures,
                        "torsion_share of the kinetic energy; tip_twist_degrees: amplitude of the tip's "
                        "rotation about z for a gap of 1 mm; contact_fraction of the period");
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.columns = 2;
     figure.panel_width = 560;
     figure.panel_height = 400;

@@ -22,7 +22,7 @@ struct Shape {
 
 double largest(const Eigen::Matrix3Xd& displacement) { return displacement.colwise().norm().maxCoeff(); }
 
-void add_panel(reproduce::Figure& figure, const fem::Blade& blade, const Shape& shape, bool half_period,
+void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape, bool half_period,
                double upper) {
   const Eigen::Matrix3Xd& u = shape.frames[half_period ? times / 2 : 0];
   auto& panel =
@@ -32,7 +32,7 @@ void add_panel(reproduce::Figure& figure, const fem::Blade& blade, const Shape& 
   view.surfaces[0].outline = true;
   const Eigen::VectorXd magnitude = u.colwise().norm();
   view.surfaces[1].values.assign(magnitude.begin(), magnitude.end());
-  view.colours = {reproduce::ColourBands::Map::sequential, 0.0, upper, 10, "|u| / g_0", true};
+  view.colours = {app::ColourBands::Map::sequential, 0.0, upper, 10, "|u| / g_0", true};
   view.azimuth = -35.0;
   view.elevation = 22.0;
   view.axes = 15.0;
@@ -75,7 +75,7 @@ double likeness(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return std::abs(a.cwiseProduct(b).sum()) / (a.norm() * b.norm());
 }
 
-void claims(report::Artefact& artefact, const reproduce::ModeStudy& study, const std::vector<Shape>& shapes) {
+void claims(report::Artefact& artefact, const app::ModeStudy& study, const std::vector<Shape>& shapes) {
   const auto torsion = blade::torsion_modes(study);
   const fem::Blade& blade = *study.model().blade;
   std::string shares, twists, likenesses;
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   const auto identity =
       ll10::identity("Fig. 8", "Mode shapes of the blade for three modal energies", "fig08_blade_shapes");
   return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const reproduce::ModeStudy study(artefact.scene("blade_mode.toml"));
+    const app::ModeStudy study(artefact.scene("blade_mode.toml"));
     const fem::Blade& blade = *study.model().blade;
     const auto curve = study.backbone();
     std::vector<Shape> shapes;
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
       for (auto& frame : shape.frames) frame /= study.scene().contact.gap;
       shapes.push_back(std::move(shape));
     }
-    reproduce::Figure figure;
+    app::Figure figure;
     figure.columns = 2;
     figure.panel_width = 350;
     figure.panel_height = 350;

@@ -23,7 +23,7 @@ Eigen::MatrixXd centred(const Eigen::MatrixXd& values) {
   return result;
 }
 
-double linear_omega(const reproduce::Scene& scene) {
+double linear_omega(const app::Scene& scene) {
   return 2.0 * std::numbers::pi * ExactBarMode::linear_frequency(exact_bar(scene), 1);
 }
 
@@ -42,7 +42,7 @@ report::Identity identity(const std::string& number, const std::string& title, c
   return {"laxalde_legrand_2010", "LL10 " + number, title, stem};
 }
 
-contact::RigidObstacleBar exact_bar(const reproduce::Scene& scene) {
+contact::RigidObstacleBar exact_bar(const app::Scene& scene) {
   const auto& bar = scene.structure;
   return {.youngs_modulus = bar.youngs_modulus,
           .density = bar.density,
@@ -51,11 +51,11 @@ contact::RigidObstacleBar exact_bar(const reproduce::Scene& scene) {
           .gap = scene.contact.gap};
 }
 
-contact::ExactBarMode exact_mode(const reproduce::Scene& scene, double energy_ratio) {
+contact::ExactBarMode exact_mode(const app::Scene& scene, double energy_ratio) {
   return ExactBarMode::at_energy(exact_bar(scene), 1, EnergyMeasure::modal, energy_ratio);
 }
 
-Motion computed_motion(const reproduce::ModeStudy& study, double energy_ratio, int times) {
+Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int times) {
   const auto& scene = study.scene();
   const auto point = study.at_energy(energy_ratio);
   if (!point.accepted())
@@ -67,7 +67,7 @@ Motion computed_motion(const reproduce::ModeStudy& study, double energy_ratio, i
           centred(samples.velocities) / (gap * linear_omega(scene))};
 }
 
-Motion exact_motion(const reproduce::Scene& scene, double energy_ratio, int times) {
+Motion exact_motion(const app::Scene& scene, double energy_ratio, int times) {
   Motion motion{node_positions(scene.structure.elements), times_of(times), {}, {}};
   if (energy_ratio <= 1.0) return linear_motion(energy_ratio, std::move(motion));
   const auto mode = exact_mode(scene, energy_ratio);
@@ -84,13 +84,13 @@ Motion exact_motion(const reproduce::Scene& scene, double energy_ratio, int time
   return motion;
 }
 
-std::string discretisation(const reproduce::Scene& scene) {
+std::string discretisation(const app::Scene& scene) {
   return std::to_string(scene.analysis.harmonics) + " harmonics, " + std::to_string(scene.analysis.samples) +
          " samples, " + std::to_string(scene.structure.elements) + " elements";
 }
 
-reproduce::Axis axis(const std::string& label, double lower, double upper) {
-  reproduce::Axis result;
+app::Axis axis(const std::string& label, double lower, double upper) {
+  app::Axis result;
   result.label = label;
   result.lower = lower;
   result.upper = upper;

@@ -5,22 +5,22 @@
 
 #include "wavebalance/contact/exact_bar_mode.hpp"
 #include "wavebalance/report/artefact.hpp"
-#include "wavebalance/reproduce/modes.hpp"
-#include "wavebalance/reproduce/plot.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 /// What the figures of Laxalde & Legrand (2010), section 5.1, share.
 namespace wavebalance::ll10 {
 
-using reproduce::Series;
-using reproduce::Table;
+using app::Series;
+using app::Table;
 
 /// "laxalde_legrand_2010", "LL10 Fig. 3", ...
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
 
 /// The scene's bar for the exact solution.
-contact::RigidObstacleBar exact_bar(const reproduce::Scene& scene);
+contact::RigidObstacleBar exact_bar(const app::Scene& scene);
 /// Its exact mode 1 at an energy ratio of LL10's measure.
-contact::ExactBarMode exact_mode(const reproduce::Scene& scene, double energy_ratio);
+contact::ExactBarMode exact_mode(const app::Scene& scene, double energy_ratio);
 
 /// A motion over one period at all nodes x = 0, ..., length, the clamped one included, in the units of LL10's
 /// pictures: displacements over the gap, velocities over gap times linear frequency (rad/s).
@@ -33,14 +33,14 @@ struct Motion {
 
 /// The point of the scene's mode at an energy ratio, with contact in the middle of the time axis. Throws
 /// report::NotConverged when there is none.
-Motion computed_motion(const reproduce::ModeStudy& study, double energy_ratio, int times);
+Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int times);
 /// The exact solution at the same nodes and times; below contact the linear mode of the bar.
-Motion exact_motion(const reproduce::Scene& scene, double energy_ratio, int times);
+Motion exact_motion(const app::Scene& scene, double energy_ratio, int times);
 
 /// "10 harmonics, 20 samples, 20 elements"
-std::string discretisation(const reproduce::Scene& scene);
+std::string discretisation(const app::Scene& scene);
 
 /// An axis with its limits.
-reproduce::Axis axis(const std::string& label, double lower, double upper);
+app::Axis axis(const std::string& label, double lower, double upper);
 
 }  // namespace wavebalance::ll10

@@ -2,12 +2,12 @@
 #include <rapidcheck/gtest.h>
 
 #include "random_scenes.hpp"
-#include "wavebalance/reproduce/scene_keys.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {
 
-using namespace wavebalance::reproduce;
+using namespace wavebalance::app;
 
 RC_GTEST_PROP(RandomTexts, LoadCompleteAndInRangeOrNameWhatIsWrong, ()) {
   const RandomText drawn =

@@ -5,11 +5,11 @@
 #include <random>
 #include <vector>
 
-#include "wavebalance/reproduce/scene_keys.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace {
 
-using namespace wavebalance::reproduce;
+using namespace wavebalance::app;
 
 class Draw {
  public:

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "wavebalance/reproduce/scene.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 
 /// The text of a scene drawn from `seed`, often with something wrong in it.
 struct RandomText {
@@ -13,4 +13,4 @@ struct RandomText {
 RandomText random_text(std::uint64_t seed);
 
 /// A scene of bounded cost, drawn from `seed`, with numbers of any size; may break a rule of the loader.
-wavebalance::reproduce::Scene random_scene(std::uint64_t seed);
+wavebalance::app::Scene random_scene(std::uint64_t seed);

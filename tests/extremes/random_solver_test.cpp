@@ -3,7 +3,7 @@
 
 #include "judge.hpp"
 #include "random_scenes.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {
 
@@ -11,15 +11,15 @@ using namespace wavebalance;
 
 /// Nothing converges with a number that is none, or with an equation that does not hold.
 RC_GTEST_PROP(RandomScenes, ConvergeToWhatHoldsOrSayWhyNot, ()) {
-  reproduce::Scene scene =
+  app::Scene scene =
       random_scene(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint64_t>()));
   try {
-    scene = reproduce::complete_scene(scene);
-  } catch (const reproduce::SceneError& error) {
+    scene = app::complete_scene(scene);
+  } catch (const app::SceneError& error) {
     RC_TAG("refused");
     return;
   }
-  RC_LOG() << reproduce::write_scene(scene);
+  RC_LOG() << app::write_scene(scene);
   const extremes::Verdict verdict = extremes::judge(scene, 0);
   RC_LOG() << to_string(verdict.outcome) << ": " << verdict.text << "\nmotion " << verdict.residuals.motion
            << "\nits rounding " << verdict.residuals.motion_rounding << "\ncomplementarity "

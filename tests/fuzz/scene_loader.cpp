@@ -1,7 +1,7 @@
 // Any text loads to a scene that survives being written and read, or gives a SceneError. Lines that start
 // with
 // "--set " are overrides.
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace wavebalance::reproduce;
+using namespace wavebalance::app;
 
 struct Input {
   std::string text;

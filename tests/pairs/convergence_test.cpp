@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "pairs.hpp"
-#include "wavebalance/solvers/translate_spectrum.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 // Orders of convergence on a smooth scene: no contact, three harmonics of load, exact inner products. The
 // reference is one complex solution a harmonic.

@@ -6,8 +6,8 @@
 
 #include "dense_system.hpp"
 #include "pairs.hpp"
-#include "wavebalance/solvers/rigid_response.hpp"
-#include "wavebalance/solvers/translate_spectrum.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 // The solvers' symbols against the system of all n M unknowns that the papers assemble.
 namespace wavebalance::pairs {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "pairs.hpp"
-#include "wavebalance/solvers/forced_response.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::pairs {
 namespace {
@@ -15,9 +15,9 @@ solvers::PeriodicResponse respond(solvers::CondensedProblem& problem, const Case
   return solvers::forced_response(problem, scene.law(), options);
 }
 
-class PaperPairs : public ::testing::TestWithParam<Pair> {};
+class LinearSolverOfPairs : public ::testing::TestWithParam<Pair> {};
 
-TEST_P(PaperPairs, RespondAlikeByGmresAndByLu) {
+TEST_P(LinearSolverOfPairs, RespondAlikeByGmresAndByLu) {
   const Pair& pair = GetParam();
   int converged = 0;
   for (const Case& scene : cases) {
@@ -40,7 +40,7 @@ TEST_P(PaperPairs, RespondAlikeByGmresAndByLu) {
 
 // Too many samples for LU: what four times as many functions change is the discretisation error of the fewer,
 // measured below 1e-7 but for Haar functions, whose steps are 2 pi / M times a few of the amplitude.
-TEST_P(PaperPairs, WithSixteenThousandFunctionsAgreeWithFourThousand) {
+TEST_P(LinearSolverOfPairs, WithSixteenThousandFunctionsAgreeWithFourThousand) {
   const Pair& pair = GetParam();
   for (const Case& scene : cases) {
     SCOPED_TRACE(scene.name);
@@ -65,7 +65,7 @@ TEST_P(PaperPairs, WithSixteenThousandFunctionsAgreeWithFourThousand) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table2, PaperPairs, ::testing::ValuesIn(table_2),
+INSTANTIATE_TEST_SUITE_P(Table2, LinearSolverOfPairs, ::testing::ValuesIn(table_2),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

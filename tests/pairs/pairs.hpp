@@ -5,8 +5,8 @@
 
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/fem/bar.hpp"
-#include "wavebalance/solvers/condensed_problem.hpp"
-#include "wavebalance/solvers/contact_law.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_law.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 

@@ -2,11 +2,11 @@
 
 #include "dense_system.hpp"
 #include "pairs.hpp"
-#include "wavebalance/solvers/forced_response.hpp"
-#include "wavebalance/solvers/frequency_sweep.hpp"
-#include "wavebalance/solvers/periodic_field.hpp"
-#include "wavebalance/solvers/shooting.hpp"
-#include "wavebalance/solvers/translate_spectrum.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 // The six pairs of [JL14, Table 2] on both cases of [JL14, Table 1], against shooting and against figures
 // that were computed independently of this project.

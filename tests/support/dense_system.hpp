@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "wavebalance/solvers/contact_laws.hpp"
-#include "wavebalance/solvers/linear_structure.hpp"
-#include "wavebalance/solvers/time_pair.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/time/time_pair.hpp"
 
 namespace wavebalance::dense {
 

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "wavebalance/solvers/linear_structure.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::reference {
 

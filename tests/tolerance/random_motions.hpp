@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "tolerance_scenes.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/scene.hpp"
-#include "wavebalance/solvers/periodic_field.hpp"
-#include "wavebalance/solvers/resolution_ladder.hpp"
-#include "wavebalance/solvers/shooting.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
 
 namespace wavebalance::tolerance {
 
@@ -30,17 +30,17 @@ class Dice {
 };
 
 /// The largest displacement of the tip without contact, m.
-inline double free_amplitude(const reproduce::Scene& scene) {
-  reproduce::Scene linear = scene;
+inline double free_amplitude(const app::Scene& scene) {
+  app::Scene linear = scene;
   linear.time = {.trial = "fourier", .weight = "fourier", .functions = 3, .quadrature_points = 64};
-  return reproduce::make_problem(linear).free_response().maxCoeff();
+  return app::make_problem(linear).free_response().maxCoeff();
 }
 
 /// A bar driven at 40 to 4000 Hz, damped by 1e-5 to 1e-3 s, against a linear or an exponential stop. The gap
 /// is -0.3 to 1 times the amplitude without contact, in one motion of four close to grazing (to 1e-4 of it).
-inline reproduce::Scene random_scene(std::uint64_t seed) {
+inline app::Scene random_scene(std::uint64_t seed) {
   Dice dice(seed);
-  reproduce::Scene scene;
+  app::Scene scene;
   scene.structure = {.youngs_modulus = 70e9, .density = 2700.0, .area = 25e-4, .length = 1.0, .elements = 25};
   scene.structure.stiffness_damping = dice.logarithmic(1e-5, 1e-3);
   scene.forcing = {.amplitude = 250e3, .frequency = dice.logarithmic(40.0, 4000.0)};
@@ -48,10 +48,10 @@ inline reproduce::Scene random_scene(std::uint64_t seed) {
   const bool grazing = dice.uniform(0.0, 1.0) < 0.25;
   scene.contact.gap = amplitude * (grazing ? 1.0 - dice.logarithmic(1e-4, 1e-1) : dice.uniform(-0.3, 1.0));
   if (dice.uniform(0.0, 1.0) < 0.5) {
-    scene.contact.law = reproduce::ContactLawType::linear;
+    scene.contact.law = app::ContactLawType::linear;
     scene.contact.stiffness = dice.logarithmic(1e7, 1e11);
   } else {
-    scene.contact.law = reproduce::ContactLawType::exponential;
+    scene.contact.law = app::ContactLawType::exponential;
     scene.contact.exponent = dice.logarithmic(0.05, 5.0) / amplitude;
     scene.contact.constant = dice.logarithmic(1e7, 1e11) / scene.contact.exponent;
   }
@@ -62,8 +62,8 @@ inline reproduce::Scene random_scene(std::uint64_t seed) {
 struct RandomMotion {
   explicit RandomMotion(std::uint64_t seed)
       : scene(random_scene(seed)),
-        model(reproduce::make_model(scene)),
-        law(reproduce::make_law(scene.contact)) {}
+        model(app::make_model(scene)),
+        law(app::make_law(scene.contact)) {}
 
   /// Stops after the rung that `go_on`, when there is one, says no to.
   solvers::LadderResponse climb(double tolerance,
@@ -74,8 +74,8 @@ struct RandomMotion {
     return tolerance::climb(scene, model, law, options);
   }
 
-  reproduce::Scene scene;
-  reproduce::StructureModel model;
+  app::Scene scene;
+  app::StructureModel model;
   solvers::AnyContactLaw law;
 };
 

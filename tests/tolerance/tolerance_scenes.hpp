@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/response.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
-#include "wavebalance/reproduce/structure_model.hpp"
-#include "wavebalance/solvers/resolution_ladder.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/solvers/response/resolution_ladder.hpp"
 
 namespace wavebalance::tolerance {
 
@@ -51,39 +51,39 @@ inline const std::vector<Motion>& motions() {
 
 /// `motion` with a tolerance, its displacement written down at `points` times. `folder` holds the scene
 /// files.
-inline reproduce::Scene scene(const Motion& motion, const std::string& folder, double tolerance, int points) {
+inline app::Scene scene(const Motion& motion, const std::string& folder, double tolerance, int points) {
   std::vector<std::string> changes = motion.changes;
   changes.push_back("analysis.output_points=" + std::to_string(points));
-  reproduce::Scene result = reproduce::load_scene(folder + "/tolerance/" + motion.file, changes);
+  app::Scene result = app::load_scene(folder + "/tolerance/" + motion.file, changes);
   result.time.tolerance = tolerance;
   return result;
 }
 
 /// The ladder of a scene's structure and law, whose own [time] is not read.
-inline solvers::LadderResponse climb(const reproduce::Scene& scene, const reproduce::StructureModel& model,
+inline solvers::LadderResponse climb(const app::Scene& scene, const app::StructureModel& model,
                                      const solvers::AnyContactLaw& law,
                                      const solvers::LadderOptions& options) {
   const auto make = [&](int functions, int points) {
-    reproduce::Scene rung = scene;
+    app::Scene rung = scene;
     rung.time = {
         .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
-    return reproduce::make_problem(rung, model);
+    return app::make_problem(rung, model);
   };
   return solvers::response_to_tolerance(make, law, options);
 }
 
 /// The displacement by shooting, whose own error is below 1e-10. A mass matrix that is not positive definite
 /// is not for shooting: then by `functions` Fourier functions and eight times as many points.
-inline Eigen::VectorXd reference(reproduce::Scene scene, int functions) {
-  reproduce::Response response;
+inline Eigen::VectorXd reference(app::Scene scene, int functions) {
+  app::Response response;
   if (scene.structure.massless_tip) {
     scene.time = {.trial = "fourier",
                   .weight = "fourier",
                   .functions = functions,
                   .quadrature_points = 8 * (functions + 1)};
-    response = reproduce::weighted_residual_response(scene);
+    response = app::weighted_residual_response(scene);
   } else {
-    response = reproduce::shooting_response(scene);
+    response = app::shooting_response(scene);
   }
   if (!response.converged) throw std::runtime_error("the reference has not converged: " + response.status);
   return response.samples.displacement;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tolerance_scenes.hpp"
-#include "wavebalance/reproduce/measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::tolerance {
 namespace {
@@ -13,12 +13,12 @@ TEST_P(Tolerance, IsMetWithinThreefoldByTheTrueError) {
   const Motion& motion = GetParam();
   const Eigen::VectorXd exact = reference(scene(motion, WAVEBALANCE_SCENES, 1.0, 2048), 511);
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
-    const reproduce::Response response =
-        reproduce::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
+    const app::Response response =
+        app::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
     ASSERT_TRUE(response.refinement.has_value());
     ASSERT_TRUE(response.converged) << response.status << " at " << tolerance;
     EXPECT_LE(response.refinement->estimated_error, tolerance);
-    const double error = reproduce::relative_rms_error(response.samples.displacement, exact);
+    const double error = app::relative_rms_error(response.samples.displacement, exact);
     EXPECT_LE(error, 3.0 * tolerance) << "estimated " << response.refinement->estimated_error;
     // The reference of the motion without shooting is good to 4e-6.
     EXPECT_LE(error, 3.0 * response.refinement->estimated_error + 5e-6) << "at tolerance " << tolerance;
@@ -37,10 +37,10 @@ TEST(Tolerance, IsMetWhereOneOrTwoPointsOfTheFirstProblemsTouch) {
                         "contact.gap=1.52607e-3", "contact.stiffness=6.11416e10"}};
   const Eigen::VectorXd exact = reference(scene(grazing, WAVEBALANCE_SCENES, 1.0, 2048), 511);
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-    const reproduce::Response response =
-        reproduce::weighted_residual_response(scene(grazing, WAVEBALANCE_SCENES, tolerance, 2048));
+    const app::Response response =
+        app::weighted_residual_response(scene(grazing, WAVEBALANCE_SCENES, tolerance, 2048));
     ASSERT_TRUE(response.converged) << response.status;
-    EXPECT_LE(reproduce::relative_rms_error(response.samples.displacement, exact), 3.0 * tolerance);
+    EXPECT_LE(app::relative_rms_error(response.samples.displacement, exact), 3.0 * tolerance);
   }
 }
 
@@ -51,11 +51,11 @@ TEST(Tolerance, IsMetWithPairsOfTheUsersOwn) {
                                                  {"daubechies6", "daubechies6", 1e-3},
                                                  {"haar", "fourier", 3e-2}}) {
     motion.changes = {std::string("time.trial=") + trial, std::string("time.weight=") + weight};
-    const reproduce::Response response =
-        reproduce::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
+    const app::Response response =
+        app::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
     ASSERT_TRUE(response.converged) << trial << ":" << weight << " " << response.status;
     EXPECT_EQ(response.refinement->trial, trial);
-    const double error = reproduce::relative_rms_error(response.samples.displacement, exact);
+    const double error = app::relative_rms_error(response.samples.displacement, exact);
     EXPECT_LE(error, 3.0 * tolerance) << trial << ":" << weight;
   }
 }

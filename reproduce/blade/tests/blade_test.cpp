@@ -9,16 +9,16 @@
 #include "forced_blade.hpp"
 #include "rotating_blade.hpp"
 #include "wavebalance/report/record.hpp"
-#include "wavebalance/reproduce/output.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::blade {
 namespace {
 
 namespace fs = std::filesystem;
 
-reproduce::Scene scene_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return reproduce::load_scene(fs::path(WAVEBALANCE_SCENES) / "blade" / name, overrides);
+app::Scene scene_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return app::load_scene(fs::path(WAVEBALANCE_SCENES) / "blade" / name, overrides);
 }
 
 TEST(TipMotion, OfARigidMotionIsThatMotion) {
@@ -65,7 +65,7 @@ TEST(EdgeContact, TellsTheHalvesOfTheChordApart) {
 }
 
 TEST(Torsion, SecondModeOfTheBladeIsTorsionAndTheFirstIsNot) {
-  const reproduce::ModeStudy study(scene_of("campbell.toml"));
+  const app::ModeStudy study(scene_of("campbell.toml"));
   const auto torsion = torsion_modes(study);
   EXPECT_FALSE(torsion[0]);
   EXPECT_TRUE(torsion[1]);
@@ -77,9 +77,9 @@ TEST(RotatingBlade, ReducedAtRestHasTheFrequenciesOfTheOneReducedAtSpeed) {
   const auto scene = scene_of("campbell.toml");
   const RotatingBlade blade(scene);
   const double speed = 1500.0;  // rad/s, beyond the diagram's
-  const reproduce::ModeStudy projected(scene, blade.at(speed));
-  const reproduce::ModeStudy anew(scene_of("campbell.toml", {"structure.rotation_speed=1500.0"}));
-  EXPECT_GT(anew.linear_frequency(), 1.1 * reproduce::ModeStudy(scene, blade.at(0.0)).linear_frequency());
+  const app::ModeStudy projected(scene, blade.at(speed));
+  const app::ModeStudy anew(scene_of("campbell.toml", {"structure.rotation_speed=1500.0"}));
+  EXPECT_GT(anew.linear_frequency(), 1.1 * app::ModeStudy(scene, blade.at(0.0)).linear_frequency());
   for (Eigen::Index mode = 0; mode < 4; ++mode) {
     // Both reductions come from above; the modes of the blade at rest serve the turning one nearly as well.
     const double ratio =
@@ -104,7 +104,7 @@ TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
   const std::vector<std::string> overrides{"time.functions=16", "time.quadrature_points=32",
                                            "analysis.frequency_to=690.0", "analysis.largest_step=20.0"};
   const auto scene = scene_of("forced_response.toml", overrides);
-  const auto model = reproduce::make_model(scene);
+  const auto model = app::make_model(scene);
   const auto up = stepped(scene, model), down = stepped(reversed(scene), model);
   ASSERT_EQ(up.size(), 9u);
   ASSERT_EQ(down.size(), 9u);
@@ -138,9 +138,9 @@ class BladeResults : public testing::Test {
   }
   report::Record record(const std::string& stem) const {
     const auto file = folder_ / "records" / (stem + ".json");
-    return report::parse_record(reproduce::read_file(file), file);
+    return report::parse_record(app::read_file(file), file);
   }
-  reproduce::Table read(const std::string& file) const { return reproduce::read_csv(folder_ / file); }
+  app::Table read(const std::string& file) const { return app::read_csv(folder_ / file); }
 
   fs::path folder_;
 };
@@ -157,7 +157,7 @@ TEST_F(BladeResults, CampbellDiagramStiffensWithSpeedAndWithEnergy) {
 
 /// The program on a coarser scene: half the functions and points, twice the step.
 TEST_F(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
-  std::string text = reproduce::read_file(fs::path(WAVEBALANCE_SCENES) / "blade" / "forced_response.toml");
+  std::string text = app::read_file(fs::path(WAVEBALANCE_SCENES) / "blade" / "forced_response.toml");
   for (const auto& [from, to] : {std::pair{"functions = 64", "functions = 32"},
                                  {"quadrature_points = 128", "quadrature_points = 64"},
                                  {"largest_step = 10.0", "largest_step = 30.0"}}) {
@@ -166,7 +166,7 @@ TEST_F(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
   }
   ASSERT_NE(text.find("frequency = 600.0"), std::string::npos);
   text.replace(text.find("frequency = 600.0"), 17, "frequency = 590.0");
-  reproduce::write_file(folder_ / "scenes" / "forced_response.toml", text);
+  app::write_file(folder_ / "scenes" / "forced_response.toml", text);
   ASSERT_EQ(run("forced_response", " --scenes '" + (folder_ / "scenes").string() + "'"), 0);
   EXPECT_TRUE(record("forced_response").claims.at(0).holds);
   const auto table = read("forced_response.csv");

@@ -1,4 +1,4 @@
-#include "wavebalance/reproduce/curve_measures.hpp"
+#include "wavebalance/app/analysis/curve_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace wavebalance::reproduce {
+namespace wavebalance::app {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -92,4 +92,4 @@ TEST(RefinementGain, FallsByFourForASmoothFunction) {
 }
 
 }  // namespace
-}  // namespace wavebalance::reproduce
+}  // namespace wavebalance::app

@@ -1,13 +1,13 @@
-#include "wavebalance/reproduce/nyquist_resonances.hpp"
+#include "wavebalance/app/analysis/nyquist_resonances.hpp"
 
 #include <gtest/gtest.h>
 
 #include "wavebalance/fem/eigenmodes.hpp"
-#include "wavebalance/reproduce/compose.hpp"
-#include "wavebalance/reproduce/response.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
-namespace wavebalance::reproduce {
+namespace wavebalance::app {
 namespace {
 
 Scene case2(const std::string& trial, const std::string& weight, int functions) {
@@ -57,4 +57,4 @@ TEST(NyquistResonances, AreWhereTheDynamicStiffnessOfTheNyquistCoefficientIsSing
 }
 
 }  // namespace
-}  // namespace wavebalance::reproduce
+}  // namespace wavebalance::app

@@ -11,9 +11,9 @@
 #include <map>
 
 #include "convergence.hpp"
-#include "wavebalance/reproduce/measures.hpp"
-#include "wavebalance/reproduce/output.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -41,7 +41,7 @@ class Jl14Paper : public testing::Test {
     const int status = std::system(command.c_str());
     return WEXITSTATUS(status);
   }
-  Table read(const std::string& file) const { return reproduce::read_csv(folder_ / file); }
+  Table read(const std::string& file) const { return app::read_csv(folder_ / file); }
   bool has(const std::string& file) const { return fs::is_regular_file(folder_ / file); }
   void make_references() const {
     ASSERT_EQ(run("reference_case1"), 0);
@@ -70,8 +70,8 @@ double entry(const Table& table, int case_number, const std::string& name, int f
 TEST_F(Jl14Paper, ReferencesMeetTheShootingValues) {
   make_references();
   const Table one = read("reference_case1.csv"), two = read("reference_case2.csv");
-  EXPECT_NEAR(reproduce::rms(column(one, "displacement_m")), 0.9316321e-3, 1e-6 * 0.9316321e-3);
-  EXPECT_NEAR(reproduce::rms(column(two, "displacement_m")), 11.47116e-3, 1e-6 * 11.47116e-3);
+  EXPECT_NEAR(app::rms(column(one, "displacement_m")), 0.9316321e-3, 1e-6 * 0.9316321e-3);
+  EXPECT_NEAR(app::rms(column(two, "displacement_m")), 11.47116e-3, 1e-6 * 11.47116e-3);
   EXPECT_NEAR(column(one, "displacement_m").cwiseAbs().maxCoeff(), 1.438608e-3,
               1e-5 * 1.44e-3);  // of 1024 points
   EXPECT_NEAR(column(two, "displacement_m").cwiseAbs().maxCoeff(), 16.26369e-3, 1e-5 * 16.3e-3);
@@ -90,7 +90,7 @@ TEST_F(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
     EXPECT_EQ(table.rows(), 1024u) << stem;
     EXPECT_TRUE(has(stem + ".svg") && has(stem + ".png") && has("records/" + stem + ".json")) << stem;
     const double error =
-        reproduce::relative_rms_error(column(table, "fourier_fourier"), column(table, "reference"));
+        app::relative_rms_error(column(table, "fourier_fourier"), column(table, "reference"));
     EXPECT_LT(error, 2e-3) << stem;
   }
 }
@@ -170,17 +170,17 @@ TEST_F(Jl14Paper, SketchAndBasesAreDrawn) {
 
 TEST_F(Jl14Paper, AMissingStepOrSceneIsAnErrorAndWritesNothing) {
   EXPECT_EQ(run("fig06"), 2);  // no reference
-  EXPECT_NE(reproduce::read_file(folder_ / "messages").find("reference_case1.csv"), std::string::npos);
+  EXPECT_NE(app::read_file(folder_ / "messages").find("reference_case1.csv"), std::string::npos);
   EXPECT_EQ(run("tab01", "--scenes /nowhere"), 2);
-  EXPECT_NE(reproduce::read_file(folder_ / "messages").find("/nowhere/case1.toml"), std::string::npos);
+  EXPECT_NE(app::read_file(folder_ / "messages").find("/nowhere/case1.toml"), std::string::npos);
   EXPECT_FALSE(has("fig06_tip_displacement_case1.csv") || has("tab01_cases.csv"));
 }
 
 TEST_F(Jl14Paper, EverySceneReadsBackAsWritten) {
   int scenes = 0;
   for (const auto& file : fs::directory_iterator(std::string(WAVEBALANCE_SCENES) + "/jones_legrand_2014")) {
-    const auto scene = reproduce::load_scene(file.path());
-    EXPECT_EQ(reproduce::parse_scene(reproduce::write_scene(scene), "written"), scene) << file.path();
+    const auto scene = app::load_scene(file.path());
+    EXPECT_EQ(app::parse_scene(app::write_scene(scene), "written"), scene) << file.path();
     ++scenes;
   }
   EXPECT_GE(scenes, 7);

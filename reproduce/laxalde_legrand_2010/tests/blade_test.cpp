@@ -7,7 +7,7 @@
 
 #include "blade.hpp"
 #include "programs.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
@@ -89,7 +89,7 @@ TEST_F(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
 
 TEST_F(Ll10Blade, EveryPointBalancesItsForces) {
   const std::vector<std::string> overrides{"analysis.points=40"};
-  const reproduce::ModeStudy study(reproduce::load_scene(
+  const app::ModeStudy study(app::load_scene(
       fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "blade_mode.toml", overrides));
   const auto curve = study.backbone();
   for (std::size_t i = 0; i < curve.points.size(); ++i) {

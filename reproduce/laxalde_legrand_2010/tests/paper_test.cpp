@@ -9,7 +9,7 @@
 
 #include "curves.hpp"
 #include "programs.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
@@ -47,7 +47,7 @@ TEST_F(Ll10Paper, ConsistentCurveIsNearTheExactOneAndThePublishedOneIsNot) {
     return std::pair{rows.numbers("energy_ratio").back(), rows.numbers("frequency_ratio").back()};
   };
   const auto scene =
-      reproduce::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml");
+      app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml");
   const auto [energy, ratio] = last("consistent");
   EXPECT_NEAR(ratio, exact_mode(scene, energy).frequency_ratio(), 0.01 * ratio);
   const auto [published_energy, published] = last("published");
@@ -65,8 +65,8 @@ TEST_F(Ll10Paper, VerdictsFollowTheFigures) {
 }
 
 TEST_F(Ll10Paper, AugmentedLagrangianAndCondensedSolverAgreeToSixDigits) {
-  const reproduce::ModeStudy study(
-      reproduce::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml"));
+  const app::ModeStudy study(
+      app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml"));
   const Agreement agreement = lagrangian_agreement(study, study.backbone(), {1.2, 1.8, 3.0, 5.0, 10.0});
   EXPECT_GE(agreement.points, 4);
   EXPECT_LT(agreement.largest, 1e-6);
@@ -77,8 +77,8 @@ TEST_F(Ll10Paper, MedianErrorShrinksWithTheHarmonics) {
     const std::vector<std::string> overrides{"analysis.harmonics=" + harmonics,
                                              "analysis.samples=" + std::to_string(2 * std::stoi(harmonics)),
                                              "structure.elements=80"};
-    const reproduce::ModeStudy study(
-        reproduce::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml", overrides));
+    const app::ModeStudy study(
+        app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml", overrides));
     return exact_distance(study, study.backbone()).median;
   };
   const double coarse = distance("5"), fine = distance("18");

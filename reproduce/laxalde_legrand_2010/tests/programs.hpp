@@ -8,7 +8,7 @@
 
 #include "ll10.hpp"
 #include "wavebalance/report/record.hpp"
-#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::ll10 {
 
@@ -27,12 +27,12 @@ class Programs : public testing::Test {
         std::string(LL10_PROGRAMS) + "/ll10_" + program + " --output '" + folder_.string() + "'";
     return WEXITSTATUS(std::system(command.c_str()));
   }
-  Table read(const std::string& file) const { return reproduce::read_csv(folder_ / file); }
+  Table read(const std::string& file) const { return app::read_csv(folder_ / file); }
   bool has(const std::string& file) const { return std::filesystem::is_regular_file(folder_ / file); }
   /// The verdict on the statement that holds `words`.
   bool verdict(const std::string& stem, const std::string& words) const {
     const auto file = folder_ / "records" / (stem + ".json");
-    for (const auto& claim : report::parse_record(reproduce::read_file(file), file).claims)
+    for (const auto& claim : report::parse_record(app::read_file(file), file).claims)
       if (claim.quote.find(words) != std::string::npos) return claim.holds;
     throw std::runtime_error("no statement holds \"" + words + "\"");
   }

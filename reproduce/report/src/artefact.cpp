@@ -4,37 +4,37 @@
 
 #include <algorithm>
 
-#include "wavebalance/reproduce/output.hpp"
-#include "wavebalance/reproduce/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::report {
 
 Artefact::Artefact(Identity identity, std::filesystem::path output, std::filesystem::path scenes)
     : output_(std::move(output)), scenes_(std::move(scenes)) {
   record_.identity = std::move(identity);
-  record_.version = reproduce::version();
+  record_.version = app::version();
 }
 
-reproduce::Scene Artefact::scene(const std::string& name, const std::vector<std::string>& overrides) {
+app::Scene Artefact::scene(const std::string& name, const std::vector<std::string>& overrides) {
   auto& names = record_.scenes;
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  return reproduce::load_scene(scenes_ / name, overrides);
+  return app::load_scene(scenes_ / name, overrides);
 }
 
-reproduce::Table Artefact::result(const std::string& file) const {
-  return reproduce::read_csv(output_ / file);
+app::Table Artefact::result(const std::string& file) const {
+  return app::read_csv(output_ / file);
 }
 
-reproduce::CsvHeading Artefact::heading(std::string units, std::vector<std::string> notes) const {
+app::CsvHeading Artefact::heading(std::string units, std::vector<std::string> notes) const {
   return {record_.identity.number + ": " + record_.identity.title, std::move(units), "", std::move(notes)};
 }
 
-void Artefact::data(reproduce::Table table, std::string units, std::vector<std::string> notes) {
+void Artefact::data(app::Table table, std::string units, std::vector<std::string> notes) {
   tables_.emplace_back(record_.identity.stem + ".csv", std::move(table));
   headings_.push_back(heading(std::move(units), std::move(notes)));
 }
 
-void Artefact::more_data(const std::string& suffix, reproduce::Table table, std::string units) {
+void Artefact::more_data(const std::string& suffix, app::Table table, std::string units) {
   tables_.emplace_back(record_.identity.stem + "_" + suffix + ".csv", std::move(table));
   headings_.push_back(heading(std::move(units), {}));
 }
@@ -44,9 +44,9 @@ void Artefact::attach(const std::string& name, std::string contents, bool listed
   if (!listed) unlisted_.insert(name);
 }
 
-void Artefact::picture(reproduce::Figure figure) { figure_ = std::move(figure); }
+void Artefact::picture(app::Figure figure) { figure_ = std::move(figure); }
 
-void Artefact::markdown(const reproduce::Table& table) {
+void Artefact::markdown(const app::Table& table) {
   record_.table = markdown_text(table);
   texts_[record_.identity.stem + ".md"] =
       "# " + record_.identity.number + ": " + record_.identity.title + "\n\n" + record_.table;
@@ -58,25 +58,25 @@ void Artefact::write(double wall_seconds) {
   for (const auto& name : record_.scenes) scene_names += (scene_names.empty() ? "" : ", ") + name;
   for (std::size_t i = 0; i < tables_.size(); ++i) {
     headings_[i].scene = scene_names;
-    texts_[tables_[i].first] = reproduce::csv_text(tables_[i].second, headings_[i]);
+    texts_[tables_[i].first] = app::csv_text(tables_[i].second, headings_[i]);
   }
   if (figure_) {
-    texts_[stem + ".svg"] = reproduce::render(*figure_, reproduce::PictureFormat::svg);
-    texts_[stem + ".png"] = reproduce::render(*figure_, reproduce::PictureFormat::png);
+    texts_[stem + ".svg"] = app::render(*figure_, app::PictureFormat::svg);
+    texts_[stem + ".png"] = app::render(*figure_, app::PictureFormat::png);
   }
-  reproduce::OutputFiles files(output_);
+  app::OutputFiles files(output_);
   for (const auto& [name, text] : texts_) {
     files.add(name, text);
     if (unlisted_.count(name) == 0) record_.files.push_back(name);
   }
   record_.wall_seconds = wall_seconds;
-  reproduce::OutputFiles records(output_ / "records");
+  app::OutputFiles records(output_ / "records");
   records.add(stem + ".json", record_text(record_));
   files.commit();
   records.commit();
 }
 
-std::string markdown_text(const reproduce::Table& table) {
+std::string markdown_text(const app::Table& table) {
   std::string text = "|", rule = "|";
   for (const auto& name : table.columns()) {
     text += " " + name + " |";
@@ -85,7 +85,7 @@ std::string markdown_text(const reproduce::Table& table) {
   text += "\n" + rule + "\n";
   for (std::size_t i = 0; i < table.rows(); ++i) {
     text += "|";
-    for (const auto& cell : table.row(i)) text += " " + reproduce::cell_text(cell) + " |";
+    for (const auto& cell : table.row(i)) text += " " + app::cell_text(cell) + " |";
     text += "\n";
   }
   return text;

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "wavebalance/report/page.hpp"
-#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 using namespace wavebalance;
 
@@ -22,8 +22,8 @@ int main(int argc, char** argv) {
       const auto folder = std::filesystem::path(results) / paper.folder / "records";
       if (std::filesystem::is_directory(folder)) sections.push_back({paper, report::read_records(folder)});
     }
-    if (sections.empty()) throw reproduce::IoError(results, "holds no results of a paper");
-    reproduce::write_file(std::filesystem::path(results) / "index.html", report::page_html(sections));
+    if (sections.empty()) throw app::IoError(results, "holds no results of a paper");
+    app::write_file(std::filesystem::path(results) / "index.html", report::page_html(sections));
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "wavebalance_report: " << error.what() << "\n";

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::report {
 namespace {
@@ -188,7 +188,7 @@ std::string page_html(const std::vector<Section>& sections) {
       "<p>Every figure and table below was computed from scene files by Wavebalance {}. Each statement "
       "of a paper stands beside the figures of this run; the verdict is computed from them by the "
       "threshold that is given.</p>\n",
-      reproduce::version());
+      app::version());
   for (const Section& section : sections) text += paper_section(section);
   return text + "</body>\n</html>\n";
 }

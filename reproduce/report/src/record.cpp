@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::report {
 
@@ -18,7 +18,7 @@ Record parse_record(const std::string& text, const std::filesystem::path& file) 
   try {
     return nlohmann::json::parse(text).get<Record>();
   } catch (const nlohmann::json::exception& error) {
-    throw reproduce::IoError(file, std::string("is not the record of an artefact: ") + error.what());
+    throw app::IoError(file, std::string("is not the record of an artefact: ") + error.what());
   }
 }
 
@@ -27,10 +27,10 @@ std::vector<Record> read_records(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
-  if (failure) throw reproduce::IoError(folder, failure.message());
+  if (failure) throw app::IoError(folder, failure.message());
   std::sort(files.begin(), files.end());
   std::vector<Record> records;
-  for (const auto& file : files) records.push_back(parse_record(reproduce::read_file(file), file));
+  for (const auto& file : files) records.push_back(parse_record(app::read_file(file), file));
   return records;
 }
 

@@ -5,7 +5,7 @@
 
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/report/page.hpp"
-#include "wavebalance/reproduce/output.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::report {
 namespace {
@@ -44,7 +44,7 @@ TEST(Record, OtherTextIsAnErrorThatNamesTheFile) {
     try {
       parse_record(text, "there.json");
       FAIL() << text;
-    } catch (const reproduce::IoError& error) {
+    } catch (const app::IoError& error) {
       EXPECT_EQ(error.path(), "there.json");
     }
   }
@@ -86,14 +86,14 @@ TEST(Artefact, AttachedFilesAreWrittenAndOnlyListedOnesAreLinked) {
   artefact.attach("series.pvd", "a");
   artefact.attach("series_00.vtu", "b", false);
   artefact.write(0.0);
-  EXPECT_EQ(reproduce::read_file(std::filesystem::path(folder) / "series_00.vtu"), "b");
+  EXPECT_EQ(app::read_file(std::filesystem::path(folder) / "series_00.vtu"), "b");
   const auto record = std::filesystem::path(folder) / "records" / "fig02.json";
-  EXPECT_EQ(parse_record(reproduce::read_file(record), record).files, std::vector<std::string>{"series.pvd"});
+  EXPECT_EQ(parse_record(app::read_file(record), record).files, std::vector<std::string>{"series.pvd"});
   std::filesystem::remove_all(folder);
 }
 
 TEST(Markdown, HoldsARowALine) {
-  reproduce::Table table({"a", "b"});
+  app::Table table({"a", "b"});
   table.append_row({std::string("x"), 0.5});
   EXPECT_EQ(markdown_text(table), "| a | b |\n| --- | --- |\n| x | 0.5 |\n");
 }

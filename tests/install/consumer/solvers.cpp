@@ -1,4 +1,4 @@
-#include <wavebalance/solvers/forced_response.hpp>
+#include <wavebalance/solvers/response/forced_response.hpp>
 #include <wavebalance/spectral/fourier_basis.hpp>
 
 // One degree of freedom at rest deflection: m u'' + c u' + k u = k cos(2 pi f t) far below resonance.

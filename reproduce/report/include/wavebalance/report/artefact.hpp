@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "wavebalance/report/record.hpp"
-#include "wavebalance/reproduce/plot.hpp"
-#include "wavebalance/reproduce/scene.hpp"
-#include "wavebalance/reproduce/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::report {
 
@@ -28,38 +28,38 @@ class Artefact {
   Artefact(Identity identity, std::filesystem::path output, std::filesystem::path scenes);
 
   /// The scene in scenes/name, with "section.key=value" overrides. The record names it. Throws SceneError.
-  reproduce::Scene scene(const std::string& name, const std::vector<std::string>& overrides = {});
+  app::Scene scene(const std::string& name, const std::vector<std::string>& overrides = {});
   /// The folder of the scene files.
   const std::filesystem::path& scenes() const { return scenes_; }
-  /// A table that an earlier step left in the output folder. Throws reproduce::IoError naming it.
-  reproduce::Table result(const std::string& file) const;
+  /// A table that an earlier step left in the output folder. Throws app::IoError naming it.
+  app::Table result(const std::string& file) const;
 
   /// The columns of stem.csv and what its `#` lines say.
-  void data(reproduce::Table table, std::string units, std::vector<std::string> notes = {});
+  void data(app::Table table, std::string units, std::vector<std::string> notes = {});
   /// A further CSV file, stem_suffix.csv.
-  void more_data(const std::string& suffix, reproduce::Table table, std::string units);
+  void more_data(const std::string& suffix, app::Table table, std::string units);
   /// Any other file beside stem.csv; the page links it if `listed`.
   void attach(const std::string& name, std::string contents, bool listed = true);
-  void picture(reproduce::Figure figure);
-  void markdown(const reproduce::Table& table);
+  void picture(app::Figure figure);
+  void markdown(const app::Table& table);
   void caption(std::string text) { record_.caption = std::move(text); }
   void note(std::string text) { record_.notes.push_back(std::move(text)); }
   void claim(Claim claim) { record_.claims.push_back(std::move(claim)); }
 
-  /// Throws reproduce::IoError and reproduce::PlotError.
+  /// Throws app::IoError and app::PlotError.
   void write(double wall_seconds);
 
  private:
-  reproduce::CsvHeading heading(std::string units, std::vector<std::string> notes) const;
+  app::CsvHeading heading(std::string units, std::vector<std::string> notes) const;
 
   Record record_;
   std::filesystem::path output_;
   std::filesystem::path scenes_;
   std::map<std::string, std::string> texts_;
   std::set<std::string> unlisted_;
-  std::vector<std::pair<std::string, reproduce::Table>> tables_;
-  std::vector<reproduce::CsvHeading> headings_;
-  std::optional<reproduce::Figure> figure_;
+  std::vector<std::pair<std::string, app::Table>> tables_;
+  std::vector<app::CsvHeading> headings_;
+  std::optional<app::Figure> figure_;
 };
 
 /// The main function of an artefact's program: reads --output and --scenes, makes and writes the artefact.
@@ -68,7 +68,7 @@ class Artefact {
 int run_artefact(int argc, char** argv, const Identity& identity, const std::function<void(Artefact&)>& make);
 
 /// `table` in Markdown, numbers as the CSV file has them.
-std::string markdown_text(const reproduce::Table& table);
+std::string markdown_text(const app::Table& table);
 
 /// `value` with `digits` significant digits, "1.23e-05" where that is shorter.
 std::string number(double value, int digits = 3);

@@ -35,11 +35,11 @@ struct Record {
   std::string version;  ///< of wavebalance
 };
 
-/// `record` as JSON, and back. parse_record throws reproduce::IoError naming `file` for anything else.
+/// `record` as JSON, and back. parse_record throws app::IoError naming `file` for anything else.
 std::string record_text(const Record& record);
 Record parse_record(const std::string& text, const std::filesystem::path& file);
 
-/// All records in `folder`, in the order of their file names. Throws reproduce::IoError.
+/// All records in `folder`, in the order of their file names. Throws app::IoError.
 std::vector<Record> read_records(const std::filesystem::path& folder);
 
 }  // namespace wavebalance::report

@@ -1,0 +1,70 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+namespace wavebalance::app {
+
+/// A curve of responses over the frequency.
+struct Sweep {
+  solvers::FrequencySweep curve;
+  double wall_seconds = 0.0;
+  int unsolved = 0;              ///< with rigid contact: frequencies without a response, missing in the curve
+  double max_penetration = 0.0;  ///< m, with rigid contact: at the quadrature points of the whole curve
+  double max_force = 0.0;        ///< N, with rigid contact
+
+  bool converged() const { return curve.status == solvers::SweepStatus::reached_end && unsolved == 0; }
+};
+
+/// The scene's frequency response by arc length. Steps: a change of frequency by 1/20 of the interval and a
+/// change of displacement by the gap count alike; analysis.first_step and analysis.largest_step are in Hz of
+/// the former.
+///
+/// With rigid contact each sample that opens or closes makes a corner of the curve, and arc length with a
+/// spring stiff enough to stand for the obstacle loses its way among them. The response is solved anew
+/// instead at uniform frequencies, analysis.largest_step apart at most: all points meet complementarity, but
+/// where several responses exist which one is found may change from one frequency to the next.
+Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {});
+/// The same for the scene's structure composed before.
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer = {});
+
+/// A further file of a record, ready to be written.
+struct RecordFile {
+  std::string name;
+  std::string contents;
+};
+
+/// What an analysis leaves behind: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
+struct Record {
+  bool converged = false;
+  std::string status;
+  /// What makes the result less accurate than it looks, a sentence each; the summary holds them too.
+  std::vector<std::string> warnings;
+  Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
+  Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
+  Table sweep;      ///< frequency_Hz, max_displacement_m, rms_displacement_m; empty otherwise
+  Table backbone;   ///< of a nonlinear mode, see backbone_table(); empty otherwise
+  Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
+  /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx.
+  std::vector<RecordFile> files;
+  Figure figure;  ///< without panels when there is nothing to draw
+};
+
+/// Solves `scene`. A failure to converge is told by the record. Throws std::invalid_argument or
+/// solvers::InadmissiblePair for scenes that load_scene() would not have let pass.
+Record analyse(const Scene& scene, const ProgressObserver& observer = {});
+
+/// The tables of a record.
+Table response_table(const solvers::PeriodSamples& samples);
+Table sweep_table(const solvers::FrequencySweep& curve);
+
+/// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.
+std::string describe_scene(const Scene& scene);
+
+}  // namespace wavebalance::app

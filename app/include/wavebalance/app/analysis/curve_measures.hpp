@@ -1,0 +1,43 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+
+namespace wavebalance::app {
+
+/// Sum of |v[i+1] - v[i]| round the period: twice the range for a curve that rises once and falls once, more
+/// for every oscillation. Zero for fewer than two values. O(n).
+double total_variation(const Eigen::VectorXd& values);
+
+/// How much more a curve varies than its reference, total_variation(values) / total_variation(reference) - 1:
+/// the measure of ringing. Throws std::invalid_argument when the reference is constant.
+double excess_variation(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
+
+/// max |v[i+steps] - v[i]| round the period. Throws std::invalid_argument unless 1 <= steps < n.
+double largest_change(const Eigen::VectorXd& values, int steps);
+
+/// The entries of `values` at which `where` is true, in their order. Throws std::invalid_argument if the
+/// lengths differ.
+Eigen::VectorXd select(const Eigen::VectorXd& values, const Eigen::Array<bool, Eigen::Dynamic, 1>& where);
+
+/// mean |values - reference| / mean |reference|: like relative_rms_error(), but short spikes weigh less.
+/// Throws std::invalid_argument if the lengths differ.
+double relative_mean_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
+
+/// The entries in the middle of `cells` equal cells of the period: at (j + 1/2) n / cells. Throws
+/// std::invalid_argument unless 2 cells divides n.
+Eigen::VectorXd cell_midpoints(const Eigen::VectorXd& values, int cells);
+
+/// Sign changes of consecutive entries, zeros skipped, ends not joined.
+int sign_changes(const Eigen::VectorXd& values);
+
+/// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
+/// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not
+/// positive.
+double observed_order(std::span<const double> sizes, std::span<const double> errors);
+
+/// max |fine[2i+1] - (coarse[i] + coarse[i+1]) / 2|: what a refinement adds to the polygon through `coarse`,
+/// n values, when `fine`, 2n - 1 values, has a further one in the middle of each interval. Throws
+/// std::invalid_argument when the lengths do not fit.
+double refinement_gain(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,31 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/reference/period_samples.hpp"
+
+namespace wavebalance::app {
+
+/// sqrt(mean of squares); NaN of nothing.
+double rms(const Eigen::VectorXd& values);
+
+/// rms(values - reference) / rms(reference): the relative error of JL14, Figs. 6, 7 and 11. Throws
+/// std::invalid_argument if the lengths differ.
+double relative_rms_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
+
+/// Energy of the system over the period, J: kinetic, elastic and contact energy [JL14, eq. (35)], the last
+/// being the contact law's potential. Throws std::invalid_argument unless `samples` hold every degree of
+/// freedom. O(points * degrees of freedom).
+Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& samples);
+
+/// rms over the period of system_energy(): the energy norm of JL14, Fig. 10, before it is divided by the
+/// reference's.
+double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples);
+
+/// Share of the samples with a contact force.
+double contact_fraction(const solvers::PeriodSamples& samples);
+
+/// 0, 1/points, ... as a column of time.
+Eigen::VectorXd time_fractions(int points);
+
+}  // namespace wavebalance::app

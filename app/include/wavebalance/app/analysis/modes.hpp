@@ -1,0 +1,103 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/contact_motion.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
+#include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+#include "wavebalance/solvers/reference/period_samples.hpp"
+
+namespace wavebalance::app {
+
+/// Neighbouring points of a backbone that were not accepted.
+struct Interruption {
+  double first_ratio = 0.0;  ///< frequency over the linear one
+  double last_ratio = 0.0;
+  std::vector<std::string> tongues;  ///< internal resonances on it, "3:2" for harmonic 3 and linear mode 2
+  std::string status;                ///< of its first point that lies on no tongue; empty if all do
+  bool bridged = false;              ///< accepted points with contact follow
+};
+
+/// A nonlinear mode over its frequency.
+struct Backbone {
+  std::vector<solvers::ModePoint> points;  ///< with contact, in the order of their frequencies
+  std::vector<double> residuals;           ///< of the equation of motion, see ModeStudy::residual()
+  std::vector<Interruption> interruptions;
+  double wall_seconds = 0.0;
+
+  int count(solvers::ModeStatus status) const;
+  /// There are accepted points with contact, and each interruption holds a tongue with a name.
+  bool converged() const;
+  /// "converged" or why not.
+  std::string status() const;
+};
+
+/// A scene's nonlinear mode: its linear modes, computed once, and what is asked of them. Immutable.
+class ModeStudy {
+ public:
+  /// O(n^3). Throws std::invalid_argument for scenes that load_scene() would not have let pass, and
+  /// std::runtime_error if the linear modes are not found.
+  explicit ModeStudy(const Scene& scene);
+  /// The same for the scene's structure composed before.
+  ModeStudy(const Scene& scene, StructureModel model);
+
+  const Scene& scene() const { return scene_; }
+  const StructureModel& model() const { return model_; }
+  const solvers::NonlinearMode& mode() const { return mode_; }
+  /// n x r, mass-normalised, of the (reduced) structure's own coordinates.
+  const Eigen::MatrixXd& linear_shapes() const { return modes_.shapes; }
+  double linear_frequency() const;  ///< Hz
+
+  /// The curve up to analysis.largest_energy or analysis.last_frequency_ratio.
+  Backbone backbone() const;
+  /// The motion of an energy ratio > 0: the linear mode up to 1, beyond it a point of the curve.
+  solvers::ModePoint at_energy(double energy_ratio) const;
+  /// The same on a curve that is there already.
+  solvers::ModePoint at_energy(const Backbone& curve, double energy_ratio) const;
+
+  /// One period at `points` uniform times from the middle of the motion's symmetry on; contact forces are
+  /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
+  /// solution. O(c N points).
+  ContactMotion contact_motion(const solvers::ModePoint& point, int points) const;
+  /// Of the leading contact; with full_history also the motion of the structure as the solvers see it, which
+  /// model().recover() takes to the whole. O(n N points).
+  solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
+
+  /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy
+  /// ratio `largest` > 1 in analysis.points points, uniform. Ends at the first that is not accepted, which is
+  /// kept. O(points (n N)^3).
+  std::vector<solvers::LagrangianPoint> published_branch(double largest) const;
+  /// As above, of an accepted point; empty otherwise.
+  ContactMotion contact_motion(const solvers::LagrangianPoint& point, int points) const;
+  solvers::PeriodSamples samples(const solvers::LagrangianPoint& point, int points, bool full_history) const;
+
+  /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
+  /// structure's own coordinates; NaN without motion. O(n N).
+  double residual(const solvers::ModePoint& point) const;
+
+ private:
+  ContactMotion touching(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force, double omega,
+                         int points) const;
+  solvers::PeriodSamples sampled(const ContactMotion& motion, const Eigen::MatrixXcd& amplitudes,
+                                 double omega, bool full_history) const;
+
+  Scene scene_;
+  StructureModel model_;
+  StructureModes modes_;
+  solvers::NonlinearMode mode_;
+};
+
+/// "3:2"
+std::string tongue_name(const solvers::Tongue& tongue);
+
+/// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,
+/// identity_defect, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
+/// and the curve. Values of points that are not solutions are missing.
+Table backbone_table(const ModeStudy& study, const Backbone& curve);
+/// The same columns for a published branch, energies those prescribed; contact fractions and tongues are
+/// missing.
+Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch);
+
+}  // namespace wavebalance::app

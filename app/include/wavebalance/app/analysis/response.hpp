@@ -1,0 +1,104 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/analysis/contact_motion.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/response/resolution_ladder.hpp"
+
+namespace wavebalance::app {
+
+/// How far a computation has come.
+struct Progress {
+  std::string stage;                                           ///< "Newton", "time stepping"
+  std::string detail;                                          ///< "period 12, difference 3.1e-05"
+  double fraction = std::numeric_limits<double>::quiet_NaN();  ///< 0..1; NaN when nobody knows
+};
+
+/// Told from time to time; may be empty.
+using ProgressObserver = std::function<void(const Progress&)>;
+
+/// What rigid contact leaves besides the motion.
+struct RigidContact {
+  double max_penetration = 0.0;  ///< m, at the quadrature points, where contact is enforced; negative: none
+  double min_force = 0.0;        ///< N, at the quadrature points
+  double product = 0.0;          ///< of force and opening over their largest, at the quadrature points
+  double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
+};
+
+/// How a scene with time.tolerance was resolved.
+struct Refinement {
+  std::string trial, weight;     ///< the pair, of all rungs
+  double estimated_error = 0.0;  ///< relative rms of the last rung, see solvers::response_to_tolerance
+  double seconds = 0.0;          ///< wall time of all rungs
+  std::vector<solvers::LadderRung> ladder;  ///< in the order climbed
+};
+
+/// A periodic response of a scene's contacts, or an honest failure to find one.
+struct Response {
+  bool converged = false;
+  std::string status;  ///< "converged" or why not
+  double residual =
+      0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
+  int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
+  int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
+  bool used_homotopy = false;
+  /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
+  /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
+  double condition = std::numeric_limits<double>::quiet_NaN();
+  double wall_seconds = 0.0;             ///< composition, solution and samples
+  std::optional<RigidContact> rigid;     ///< of scenes with rigid contact
+  std::optional<Refinement> refinement;  ///< of scenes with time.tolerance
+  ContactMotion contacts;                ///< analysis.output_points samples; empty if there is nothing at all
+  int contact = 0;                       ///< the leading one, see ContactMotion::leading()
+  solvers::PeriodSamples samples;  ///< of that one; the full history is of the structure as solvers see it
+  Eigen::MatrixXd motion;          ///< that structure's displacements, size x ResponseOptions::motion_points
+};
+
+struct ResponseOptions {
+  bool full_history = false;  ///< also displacement and velocity of every degree of freedom
+  int motion_points = 0;      ///< uniform instants of Response::motion; not of time stepping
+  Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response.
+                              ///< Not used with time.tolerance
+  ProgressObserver observer;
+};
+
+/// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
+/// singular system is told by `converged` and `status`; then `samples` hold the last iterate. Throws
+/// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would not have let pass.
+///
+/// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature
+/// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is
+/// known at these points only: the samples hold that of the nearest one.
+///
+/// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
+/// converged when the estimated error meets the tolerance.
+Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
+/// The same for the scene's structure composed before.
+Response weighted_residual_response(const Scene& scene, const StructureModel& model,
+                                    const ResponseOptions& options = {});
+
+/// The scene's response by time stepping until two periods agree to analysis.tolerance.
+Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});
+Response time_stepping_response(const Scene& scene, const StructureModel& model,
+                                const ResponseOptions& options = {});
+
+/// The scene's response by shooting, for checks of the other two. One contact only.
+Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
+
+/// The motion of all contacts in a solution of `problem` at `points` uniform times; velocities as
+/// solvers::MotionEvaluator defines them, contact forces by the laws from the displacements, or where these
+/// do not resolve a stiff law, those of the nearest quadrature points. O(C points log(points)).
+ContactMotion sample_response(const solvers::CondensedProblem& problem,
+                              const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
+                              int points);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,55 @@
+#pragma once
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+#include "wavebalance/solvers/time/time_pair.hpp"
+
+namespace wavebalance::app {
+
+/// make_model(scene).structure: a bar is loaded and touches at its tip.
+solvers::LinearStructure make_structure(const Scene& scene);
+
+/// The law of one contact, which has its own gap. Throws std::invalid_argument for rigid contact, which is no
+/// law but a complementarity.
+solvers::AnyContactLaw make_law(const Contact& contact, int index = 0);
+/// One law a contact of the scene's structure.
+solvers::ContactLaws make_laws(const Scene& scene);
+
+/// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a
+/// wavelet basis whose number of functions is not a power of two.
+solvers::AnyTimeBasis make_basis(const std::string& name, int functions);
+
+/// How the inner products of trial and weight are computed: as the scene says, except that Daubechies
+/// Galerkin pairs take connection coefficients, which are exact, also where the scene asks for quadrature
+/// [JL14, section 4.1].
+InnerProducts effective_inner_products(const Time& time);
+
+/// Whether the scene's bases can be paired, and if not, why.
+solvers::Admissibility pair_admissibility(const Time& time);
+
+/// Throws solvers::InadmissiblePair. With exact inner products against Haar functions, an even number of
+/// Fourier functions ends with sin(M pi t) in place of cos(M pi t), which Haar functions and their even
+/// derivatives do not see.
+solvers::TimePair make_pair(const Time& time);
+
+/// The structure without damping in its own linear modes, all of them.
+struct StructureModes {
+  solvers::ModalModel model;
+  Eigen::MatrixXd shapes;  ///< n x r, mass-normalised
+};
+
+/// Throws std::runtime_error if the eigenvalue solver does not converge. O(n^3), n of the reduced structure.
+StructureModes make_modes(const StructureModel& model);
+
+/// The scene's nonlinear mode on these modes.
+solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model);
+
+/// Structure, law's place and pair condensed on the contacts; at forcing.frequency if that is set.
+solvers::CondensedProblem make_problem(const Scene& scene);
+/// The same for the scene's structure composed before.
+solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model);
+
+}  // namespace wavebalance::app

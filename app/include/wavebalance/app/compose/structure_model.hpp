@@ -1,0 +1,58 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wavebalance/fem/blade.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+
+namespace wavebalance::app {
+
+/// A scene's structure, composed once: what the solvers see of it, and the way back to the whole structure.
+/// Immutable once made.
+struct StructureModel {
+  /// Reduced if the scene asks for it; its displacements in contact count towards their obstacles. Its load
+  /// is the force's amplitude.
+  solvers::LinearStructure structure;
+  std::vector<int> contact_dofs;   ///< of the reduced structure
+  Eigen::VectorXd gaps;            ///< m, one a contact
+  int unknowns = 0;                ///< of the structure before its reduction
+  double reduction_seconds = 0.0;  ///< assembly, rotation and reduction; 0 for a bar
+  /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are the same but
+  /// for signs.
+  Eigen::MatrixXd recovery;
+  Eigen::VectorXd signs;  ///< unknowns, 1 or -1 where the obstacle is on the negative side; empty: all 1
+  std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
+
+  int contacts() const { return structure.contacts(); }
+  int size() const { return structure.size(); }
+  bool reduced() const { return recovery.size() > 0; }
+  /// unknowns x points: displacements (or velocities) of the whole structure from those of the reduced one, r
+  /// x points. Throws std::invalid_argument if the rows do not fit. O(unknowns r points).
+  Eigen::MatrixXd recover(const Eigen::MatrixXd& coordinates) const;
+};
+
+/// The scene's bar, blade or matrices with their damping, reduced if the scene asks for it. A blade turns
+/// about its axis, which stiffens it. Throws std::invalid_argument for scenes that load_scene() would not
+/// have let pass (blades: also elements turned inside out), std::domain_error if the structure can move
+/// freely, std::runtime_error if the kept modes are not found.
+StructureModel make_model(const Scene& scene);
+
+/// How many degrees of freedom touch in a scene. O(1).
+int contacts_of(const Structure& structure);
+
+/// Degrees of freedom of the scene's structure, and of the reduced one that the solvers see. Files of
+/// matrices that load_scene() has not read are read.
+std::int64_t unknowns_of(const Scene& scene);
+int size_of(const Scene& scene);
+
+/// Degrees of freedom of a blade's mesh, its root held. O(1).
+std::int64_t blade_unknowns(const BladeStructure& blade);
+
+/// The blade that a scene describes, its mesh clamped at the root.
+fem::BladeOptions blade_options(const Structure& structure);
+
+}  // namespace wavebalance::app

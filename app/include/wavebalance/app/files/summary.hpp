@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "wavebalance/app/files/table.hpp"
+
+namespace wavebalance::app {
+
+/// A Table is written as an array of objects, one a row.
+using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
+                                  std::vector<std::string>, Table>;
+using Summary = std::vector<std::pair<std::string, SummaryValue>>;
+
+/// `summary` as a JSON object in its order; numbers that are not finite become null.
+std::string json_text(const Summary& summary);
+
+}  // namespace wavebalance::app

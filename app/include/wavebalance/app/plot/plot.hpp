@@ -1,0 +1,165 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/plot/surface.hpp"
+#include "wavebalance/app/files/table.hpp"
+
+namespace wavebalance::app {
+
+/// gnuplot could not be started, or refused the figure; holds its own words.
+class PlotError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// How the points of a series are drawn.
+enum class SeriesStyle {
+  line,
+  points,
+  line_points,
+  steps,     ///< each value holds until the next abscissa
+  impulses,  ///< vertical lines from zero
+};
+
+enum class Dash { solid, dashed, dotted, dash_dotted };
+
+/// One curve. NaN is a missing value: a line is interrupted there, never bridged.
+struct Series {
+  Series() = default;
+  template <DoubleArray X, DoubleArray Y>
+  Series(std::string name, const X& x_values, const Y& y_values, SeriesStyle drawn_as = SeriesStyle::line)
+      : label(std::move(name)),
+        x(as_span(x_values).begin(), as_span(x_values).end()),
+        y(as_span(y_values).begin(), as_span(y_values).end()),
+        style(drawn_as) {}
+  /// Two columns of a table.
+  Series(std::string name, const Table& table, std::string_view x_column, std::string_view y_column,
+         SeriesStyle drawn_as = SeriesStyle::line)
+      : Series(std::move(name), table.numbers(x_column), table.numbers(y_column), drawn_as) {}
+
+  std::string label;  ///< in the legend; none when empty
+  std::vector<double> x;
+  std::vector<double> y;  ///< of x's length
+  std::vector<double> z;  ///< of x's length in a panel of three dimensions, empty otherwise
+  SeriesStyle style = SeriesStyle::line;
+  Colour colour = Colour::automatic;
+  Dash dash = Dash::solid;
+  double width = 1.6;               ///< points
+  int marker = 0;                   ///< 0 takes the next symbol of the panel, n > 0 the n-th
+  std::optional<int> marker_every;  ///< a symbol on every n-th point only
+};
+
+/// A labelled axis. Labels hold quantity and unit, "Frequency (Hz)"; see enhanced() for sub- and
+/// superscripts.
+struct Axis {
+  std::string label;
+  std::optional<double> lower;
+  std::optional<double> upper;
+  bool logarithmic = false;
+  std::vector<double> ticks;  ///< chosen by gnuplot when empty
+  std::string tick_format;    ///< of gnuplot, "%.1f"; empty for its default
+};
+
+/// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest.
+struct HeatMap {
+  std::vector<double> x;       ///< columns, uniform
+  std::vector<double> y;       ///< rows, uniform
+  std::vector<double> values;  ///< rows of x's length, one a y; NaN is left out
+  double largest = 1.0;        ///< > 0: colours end at -largest and largest
+  std::string label;           ///< of the colours
+};
+
+/// Where the legend of a panel stands.
+enum class Legend {
+  none,
+  top_left,
+  top_right,
+  bottom_left,
+  bottom_right,
+  top_centre,
+  right_of_panel,
+  below_panel
+};
+
+/// A straight line from (x1, y1) to (x2, y2); unset ends run to the panel's edge.
+struct Segment {
+  std::optional<double> x1, y1, x2, y2;
+  bool arrow = false;
+  Dash dash = Dash::solid;
+  Colour colour = Colour::grey;
+  double width = 1.0;
+};
+
+struct Rectangle {
+  double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+  Colour fill = Colour::grey;
+  double opacity = 0.3;  ///< 0..1
+};
+
+struct TextMark {
+  double x = 0, y = 0;
+  std::string text;
+  enum class Align { left, centre, right } align = Align::centre;
+};
+
+struct Panel {
+  std::string title;
+  Axis x;
+  Axis y;
+  std::optional<Axis> z;            ///< set: three dimensions in perspective; each series needs its z
+  std::optional<HeatMap> heat_map;  ///< below the series
+  /// Without axes; x and y limits then bound the projection, which it fills otherwise. Series and texts have
+  /// the coordinates of projected().
+  std::optional<SurfaceView> surface;
+  std::vector<Series> series;
+  Legend legend = Legend::top_right;
+  bool frame = true;  ///< false leaves axes, ticks and grid out, for sketches
+  std::vector<Segment> segments;
+  std::vector<Rectangle> rectangles;
+  std::vector<TextMark> texts;
+
+  Panel& add(Series one) {
+    series.push_back(std::move(one));
+    return *this;
+  }
+  /// A dotted line across the panel at an abscissa or an ordinate, such as the gap.
+  Panel& mark_x(double x_value);
+  Panel& mark_y(double y_value);
+};
+
+/// Panels in rows, filled from the left; several are lettered (a), (b), ...
+struct Figure {
+  std::string title;
+  std::vector<Panel> panels;
+  int columns = 1;
+  int panel_width = 480;   ///< pixels at 96 per inch, text is 11 points
+  int panel_height = 320;  ///< pixels
+  bool letters = true;     ///< letter the panels when there are several
+
+  Panel& add_panel(std::string panel_title = "");
+};
+
+enum class PictureFormat { svg, png };
+
+/// The picture as the bytes of a file. One figure gives the same bytes every time. Throws PlotError, and
+/// std::invalid_argument if a figure has no panel, the coordinates of a series or a heat map differ in
+/// length, a logarithmic axis has a limit that is not positive or a surface is not valid.
+std::string render(const Figure& figure, PictureFormat format);
+
+/// Writes stem.svg and stem.png, each complete or not at all; a folder that is missing is made.
+/// "results/fig06" gives results/fig06.svg and results/fig06.png. Throws PlotError and IoError.
+void write_pictures(const std::filesystem::path& stem, const Figure& figure);
+
+/// The gnuplot commands of `figure` without terminal or output, data included: to see what is drawn.
+std::string gnuplot_script(const Figure& figure);
+
+/// Text for labels that shows `text` as it is. Labels otherwise read `_` and `^` as sub- and superscript,
+/// with {braces} around more than one character ("u_{tip} (m)", "10^{-3}").
+std::string plain(const std::string& text);
+
+}  // namespace wavebalance::app

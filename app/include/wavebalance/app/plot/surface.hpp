@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace wavebalance::app {
+
+/// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` takes the next one of the panel.
+enum class Colour { automatic, black, orange, sky_blue, green, blue, vermillion, purple, grey };
+
+/// Vertices of a surface that are picked out by a symbol, those on faces turned away left out.
+struct SurfaceMarks {
+  std::string label;  ///< in the legend
+  std::vector<int> vertices;
+  Colour colour = Colour::vermillion;
+  int marker = 1;  ///< the n-th symbol
+};
+
+/// A closed surface of polygons in space.
+struct Surface {
+  Eigen::Matrix3Xd vertices;
+  std::vector<std::vector<int>> faces;  ///< vertex numbers anticlockwise seen from outside
+  std::vector<double> values;           ///< one a vertex, shown as bands of colour; empty: light grey
+  bool outline = false;                 ///< only its sharp edges, dashed
+  std::vector<SurfaceMarks> marks;
+};
+
+/// How values become colours.
+struct ColourBands {
+  enum class Map {
+    diverging,  ///< blue, white, orange
+    sequential  ///< white to dark blue
+  };
+  Map map = Map::sequential;
+  double lower = 0.0;
+  double upper = 1.0;  ///< > lower; values beyond take the last colour
+  int bands = 12;      ///< >= 2
+  std::string label;   ///< of the colour bar
+  bool bar = true;     ///< draw the colour bar
+};
+
+/// Surfaces in parallel projection with equal scales. Faces turned away are left out and the others painted
+/// from the back, so that nearer ones hide what is behind them; outlines lie behind all faces.
+struct SurfaceView {
+  std::vector<Surface> surfaces;
+  double azimuth = -60.0;   ///< degrees, from x to y: where the eye stands
+  double elevation = 25.0;  ///< degrees above the x-y plane, -90..90
+  ColourBands colours;
+  double shading = 0.3;  ///< 0..1, how dark faces turned from the light become; values are never shaded
+  double axes = 0.0;     ///< length of the three arrows that show the axes, in units of the vertices; 0: none
+};
+
+/// A point of space as the picture shows it, to the right and up.
+Eigen::Vector2d projected(const SurfaceView& view, const Eigen::Vector3d& point);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,186 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wavebalance::app {
+
+enum class StructureType { bar, blade, matrices };
+enum class BladeElement { hexahedron20, hexahedron20_reduced, hexahedron8 };
+enum class Direction { x, y, z };
+enum class TipPlace { leading_edge, mid_chord, trailing_edge };
+enum class ContactLawType { none, exponential, linear, rigid };
+enum class Formulation { strong, weak, distributional };
+enum class InnerProducts { quadrature, exact };
+enum class ModeFormulation { consistent, published };
+enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
+
+/// Contents of the files that a scene names; see structure_files.hpp.
+struct StructureFiles;
+
+/// What load_scene() has read and checked of the files that a scene names, so that nothing is read twice.
+/// Their paths are what identifies a scene: scenes are equal whatever has been read.
+struct ReadFiles {
+  std::shared_ptr<const StructureFiles> contents = {};
+
+  bool operator==(const ReadFiles&) const { return true; }
+};
+
+/// A structure from any finite element code. Paths are absolute once loaded; in a file they are relative to
+/// it.
+struct MatricesStructure {
+  std::string mass = {};               ///< Matrix Market file, n x n, kg
+  std::string stiffness = {};          ///< Matrix Market file, n x n, N/m
+  std::string damping = {};            ///< Matrix Market file, n x n, N s/m; or empty
+  std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side
+  ReadFiles files = {};
+
+  bool operator==(const MatricesStructure&) const = default;
+};
+
+/// A cambered, tapered, twisted blade, clamped at z = 0 [fem::BladeOptions]; its material and length are in
+/// Structure. Pairs hold the values at root and tip. Its tip's corner nodes may touch an obstacle radially.
+struct BladeStructure {
+  std::array<double, 2> chord = {0.052, 0.056};           ///< m, > 0
+  std::array<double, 2> thickness_ratio = {0.09, 0.031};  ///< over the chord, > 0
+  std::array<double, 2> camber_ratio = {0.098, 0.011};    ///< over the chord
+  std::array<double, 2> angle_degrees = {10.0, 35.0};
+  double edge_thickness = 0.35;  ///< over that at mid chord, in (0, 1]
+  double poissons_ratio = 0.31;
+  BladeElement element = BladeElement::hexahedron20;
+  int chord_elements = 11;
+  int thickness_elements = 1;
+  int span_elements = 16;
+  double rotation_speed = 0.0;  ///< rad/s, >= 0
+  double hub_radius = 0.2;      ///< m, >= 0: the axis passes through z = -hub_radius
+  std::array<double, 3> rotation_axis = {1.0, 0.0, 0.0};  ///< direction of the axis
+
+  bool operator==(const BladeStructure&) const = default;
+};
+
+/// The vibrating structure: an axial bar, clamped at x = 0, whose tip x = length may touch an obstacle [JL14,
+/// Fig. 1]; a blade; or any structure as matrices.
+struct Structure {
+  StructureType type = StructureType::bar;
+  double youngs_modulus = 0.0;        ///< Pa, > 0
+  double density = 0.0;               ///< kg/m^3, > 0
+  double area = 0.0;                  ///< m^2, > 0
+  double length = 0.0;                ///< m, > 0
+  int elements = 0;                   ///< two-node elements, >= 1; as many degrees of freedom
+  double stiffness_damping = 0.0;     ///< s, beta in C = beta K, >= 0
+  double lumped_mass_fraction = 0.0;  ///< 0 consistent mass, 1 lumped mass, between them a mixture
+  bool massless_tip = false;          ///< the tip's mass is moved to its neighbour: forced_response and sweep
+  double modal_damping = 0.0;         ///< ratio to critical of every mode; not a bar's
+  int kept_modes = -1;                ///< of a Craig-Bampton reduction; -1: none, all unknowns stay
+  MatricesStructure matrices = {};
+  BladeStructure blade = {};
+
+  bool operator==(const Structure&) const = default;
+};
+
+/// The contact force at a contact degree of freedom as a function of its displacement u towards the obstacle;
+/// zero for u < gap. Rigid contact has no such function: u <= gap, force >= 0, product 0.
+struct Contact {
+  ContactLawType law = ContactLawType::none;
+  double constant = 0.0;          ///< N, > 0, a_c of the exponential law [JL14, eq. (5)]
+  double exponent = 0.0;          ///< 1/m, > 0, alpha of the exponential law
+  double stiffness = 0.0;         ///< N/m, > 0, slope of the linear law
+  double gap = 0.0;               ///< m, displacement at which contact starts
+  std::vector<double> gaps = {};  ///< m, one a contact in place of gap; empty: gap holds for all
+
+  /// The gap of one contact, from 0.
+  double gap_of(int contact) const;
+  bool operator==(const Contact&) const = default;
+};
+
+/// The force amplitude * cos(2 pi frequency t), at a bar's tip; along load (1/1) of matrices; at one place of
+/// a blade's tip. Nonlinear modes do not use it.
+struct Forcing {
+  double amplitude = 0.0;                   ///< N
+  double frequency = 0.0;                   ///< Hz, > 0; a frequency sweep does not use it
+  std::string load = {};                    ///< matrices: Matrix Market file of n values, or empty
+  std::vector<int> load_dofs = {};          ///< matrices: from 1, each with value 1; -i: dof i with -1
+  TipPlace place = TipPlace::leading_edge;  ///< blade
+  Direction direction = Direction::y;       ///< blade
+
+  bool operator==(const Forcing&) const = default;
+};
+
+/// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
+/// 2>". Time stepping and nonlinear modes do not use it. A tolerance stands in place of functions and
+/// quadrature_points, which are then chosen, and where it stands without trial and weight these are too.
+struct Time {
+  std::string trial;
+  std::string weight;
+  int functions = 0;  ///< trial functions, >= 1; a power of two when a wavelet basis takes part
+  Formulation formulation = Formulation::distributional;
+  int quadrature_points = 0;  ///< uniform points of one period, >= functions
+  InnerProducts inner_products = InnerProducts::quadrature;
+  double tolerance = 0.0;  ///< > 0: relative rms error of the tip displacement to be met; 0: none
+
+  bool operator==(const Time&) const = default;
+};
+
+/// What is computed, and how finely it is written down.
+struct Analysis {
+  AnalysisType type = AnalysisType::forced_response;
+  int output_points = 1024;  ///< uniform points of one period in the output
+
+  int motion_points = -1;  ///< instants of the period at which the whole structure's motion is written
+
+  double frequency_from = 0.0;  ///< Hz, frequency_sweep: where the branch starts
+  double frequency_to = 0.0;    ///< Hz, frequency_sweep: where it ends; may lie below frequency_from
+  double first_step = 0.0;      ///< Hz, frequency_sweep: first step along the branch
+  double largest_step = 0.0;    ///< Hz, frequency_sweep: no step along the branch is larger
+  int max_points = 20000;       ///< frequency_sweep: the branch is given up after so many points
+
+  double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
+  int max_periods = 5000;   ///< time_stepping: given up after so many periods
+
+  ModeFormulation formulation = ModeFormulation::consistent;  ///< nonlinear_mode
+  int mode = 1;                       ///< nonlinear_mode: the linear mode that is continued, from 1
+  int harmonics = 10;                 ///< nonlinear_mode: N of the Fourier series
+  int samples = 0;                    ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
+  bool cosine_only = false;           ///< nonlinear_mode: motions that are even in time only
+  double energy_ratio = 0.0;          ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
+  double largest_energy = 10.0;       ///< nonlinear_mode: energy ratio at which the curve ends
+  double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
+  int points =
+      200;  ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio; published: in energy
+
+  bool operator==(const Analysis&) const = default;
+};
+
+/// Everything that defines one computation. SI units. Read from a TOML file by load_scene(), written by
+/// write_scene(); scene_keys() describes each entry.
+struct Scene {
+  Structure structure;
+  Contact contact;
+  Forcing forcing;
+  Time time;
+  Analysis analysis;
+
+  bool operator==(const Scene&) const = default;
+};
+
+/// The name of an enumerator as it stands in a scene file.
+std::string name_of(StructureType value);
+std::string name_of(BladeElement value);
+std::string name_of(TipPlace value);
+std::string name_of(Direction value);
+std::string name_of(ContactLawType value);
+std::string name_of(Formulation value);
+std::string name_of(InnerProducts value);
+std::string name_of(ModeFormulation value);
+std::string name_of(AnalysisType value);
+
+/// Number of coefficients of the Daubechies basis called `basis` ("daubechies6" gives 6), 0 for any other
+/// basis. Throws std::invalid_argument if `basis` names no basis.
+int daubechies_coefficients(const std::string& basis);
+
+/// True for "haar", "bspline" and "daubechiesN", false for "fourier". Throws std::invalid_argument for other
+/// names.
+bool is_wavelet(const std::string& basis);
+
+}  // namespace wavebalance::app

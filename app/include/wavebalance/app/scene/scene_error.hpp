@@ -1,0 +1,27 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::app {
+
+/// What is wrong with a scene, and where: `case.toml:12: contact.gap = "big": expected a number in m`.
+class SceneError : public std::runtime_error {
+ public:
+  struct Details {
+    std::string file;      ///< as given to the loader
+    int line = 0;          ///< 1 is the first; 0 when no line is to blame
+    std::string override;  ///< "--set contact.gap=big" when an override is to blame, which then stands for
+                           ///< file and line
+    std::string key;       ///< "contact.gap"; empty when no key is to blame
+    std::string found;     ///< the value as written; empty when none was found
+    std::string allowed;   ///< what would have been right
+  };
+
+  explicit SceneError(Details details);
+  const Details& details() const { return details_; }
+
+ private:
+  Details details_;
+};
+
+}  // namespace wavebalance::app

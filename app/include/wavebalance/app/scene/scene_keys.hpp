@@ -1,0 +1,110 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// The value of a scene's key.
+using SceneValue =
+    std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>, std::vector<double>>;
+
+/// The numbers that a key admits.
+struct Bounds {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_excluded = false;
+
+  bool contain(double value) const;
+  /// "> 0", "in 0..1" or "" when every number is admitted.
+  std::string text() const;
+};
+
+/// Scenes in which each of several keys has one of its values, every scene when there is no such clause; but
+/// none in which the key of unless() is given.
+class Condition {
+ public:
+  Condition() = default;
+  /// The key called `key` ("section.name") has one of `values`.
+  Condition(std::string_view key, std::vector<std::string_view> values)
+      : clauses_{{key, std::move(values)}} {}
+
+  /// The same, except in scenes that hold the key called `key`.
+  Condition unless(std::string_view key) const;
+
+  bool empty() const { return clauses_.empty(); }
+  bool holds(const Scene& scene) const;
+  /// Whether it depends on the key of this name.
+  bool concerns(std::string_view key) const;
+  /// `contact.law = "exponential" or "linear"`; empty for every scene.
+  std::string text() const;
+  /// The key of the first clause that does not hold in `scene`; empty if all do.
+  std::string_view broken_by(const Scene& scene) const;
+
+  friend Condition operator&&(Condition left, const Condition& right);
+
+ private:
+  struct Clause {
+    std::string_view key;
+    std::vector<std::string_view> values;
+    bool holds(const Scene& scene) const;
+  };
+  std::vector<Clause> clauses_;
+  std::string_view unless_;
+};
+
+/// One key of a scene file: all that the loader, the writer and the help know about it.
+struct SceneKey {
+  enum class Type { integer, number, text, boolean, path };
+  enum class Form { single, list, single_or_list };  ///< lists are of integers or numbers
+  /// Where the key is missing: an error, the value that its member is initialised with, or one derived from
+  /// other keys. A derived default does not excuse from `needed`, when that is not empty.
+  enum class Default { required, value, derived };
+
+  std::string_view section;
+  std::string_view name;
+  Type type = Type::number;
+  Form form = Form::single;
+  int length = 0;                         ///< of a list; 0: any from 1 on
+  std::string_view unit;                  ///< empty for text and for pure numbers
+  Bounds bounds;                          ///< of integers and numbers, those of a list one by one
+  std::vector<std::string_view> choices;  ///< of text
+  Condition belongs;                      ///< elsewhere the key is an error
+  Condition needed;                       ///< where the key is required if it has no default
+  Default fallback = Default::required;
+  std::string_view derived_text;                  ///< the derived default in words
+  SceneValue (*derived)(const Scene&) = nullptr;  ///< computes it from the other keys
+  std::string_view help;
+  SceneValue (*get)(const Scene&) = nullptr;
+  void (*set)(Scene&, const SceneValue&) = nullptr;  ///< the value must have been checked
+
+  std::string full_name() const;
+  /// "a number in m, > 0"; what an error message says was expected.
+  std::string expected() const;
+  /// "1024", "4 x functions", "required"; for the help.
+  std::string default_text() const;
+  /// Whether `scene` has to hold the key.
+  bool required_in(const Scene& scene) const;
+};
+
+/// Every key, in the order in which a scene is written. Keys that decide whether others belong are those with
+/// choices.
+std::span<const SceneKey> scene_keys();
+
+/// The key called "section.name", or nullptr.
+const SceneKey* find_scene_key(std::string_view full_name);
+
+/// Every key with its meaning, unit, range and default as lines of text of at most `width` columns.
+std::string describe_scene_keys(int width = 100);
+
+/// `value` as it would stand in a scene file: 0.001, 64, "haar". Numbers are the shortest text that reads
+/// back equal.
+std::string toml_text(const SceneValue& value);
+
+}  // namespace wavebalance::app

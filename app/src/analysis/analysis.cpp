@@ -1,0 +1,243 @@
+#include "wavebalance/app/analysis/analysis.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "analysis/mode_record.hpp"
+#include "analysis/motion_files.hpp"
+#include "analysis/record_figure.hpp"
+#include "analysis/summary_parts.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// Fraction of the frequency interval; falls where the curve turns back.
+Progress sweep_progress(const Analysis& analysis, int points, double frequency) {
+  const double share =
+      (frequency - analysis.frequency_from) / (analysis.frequency_to - analysis.frequency_from);
+  return {"frequency sweep",
+          std::to_string(points) + " points, " + std::to_string(std::lround(frequency)) + " Hz",
+          std::clamp(share, 0.0, 1.0)};
+}
+
+solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  solvers::FrequencySweepOptions options;
+  options.from = analysis.frequency_from;
+  options.to = analysis.frequency_to;
+  options.output_points = analysis.output_points;
+  options.max_points = analysis.max_points;
+  auto& arc = options.arc_length;
+  arc.parameter_scale = std::abs(options.to - options.from) / 20.0;
+  arc.initial_step = analysis.first_step / arc.parameter_scale;
+  arc.largest_step = analysis.largest_step / arc.parameter_scale;
+  arc.smallest_step = std::min(arc.smallest_step, arc.initial_step / 20.0);
+  return options;
+}
+
+Table ladder_table(const Refinement& refinement) {
+  Table table({"trial", "weight", "functions", "quadrature_points", "estimated_error", "truncation_error",
+               "quadrature_error", "residual", "iterations", "seconds"});
+  for (const auto& rung : refinement.ladder)
+    table.append_row({refinement.trial, refinement.weight, std::int64_t{rung.functions},
+                      std::int64_t{rung.points}, rung.estimated_error, rung.truncation, rung.quadrature,
+                      rung.residual, std::int64_t{rung.iterations}, rung.seconds});
+  return table;
+}
+
+void append_refinement(Summary& summary, const Refinement& refinement, double tolerance) {
+  const auto& last = refinement.ladder.back();
+  summary.emplace_back("tolerance", tolerance);
+  summary.emplace_back("estimated_error", refinement.estimated_error);
+  summary.emplace_back("trial", refinement.trial);
+  summary.emplace_back("weight", refinement.weight);
+  summary.emplace_back("functions", std::int64_t{last.functions});
+  summary.emplace_back("quadrature_points", std::int64_t{last.points});
+  summary.emplace_back("ladder", ladder_table(refinement));
+  summary.emplace_back("ladder_seconds", refinement.seconds);
+}
+
+Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
+  Record record;
+  record.converged = response.converged;
+  record.status = response.status;
+  record.summary = opening(response.converged, response.status, response.residual, response.iterations,
+                           response.unknowns, response.wall_seconds);
+  append_motion(record.summary, response.samples);
+  record.summary.emplace_back("analysis", name_of(scene.analysis.type));
+  record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
+  if (scene.analysis.type == AnalysisType::forced_response)
+    record.summary.emplace_back("used_homotopy", response.used_homotopy);
+  if (response.rigid) {
+    record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
+    record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);
+    record.summary.emplace_back("complementarity", response.rigid->product);
+    record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
+  }
+  append_condition(record, response.condition);
+  if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
+  append_structure(record.summary, model);
+  if (response.contacts.points() == 0) return record;
+  record.response = response_table(response.samples);
+  record.figure = response_figure(scene, response);
+  add_contacts(record, response.contacts, response.contact);
+  record.files = motion_files(model, response.motion);
+  return record;
+}
+
+double largest(const solvers::FrequencySweep& curve, double solvers::SweepPoint::*member) {
+  double value = missing;
+  for (const auto& point : curve.points) value = std::fmax(value, point.*member);
+  return value;
+}
+
+/// The law's force at the largest displacement; missing where contacts have different gaps.
+double force_at(const Contact& contact, double displacement) {
+  return contact.gaps.empty() ? make_law(contact).force(displacement) : missing;
+}
+
+Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
+  Record record;
+  record.converged = sweep.converged();
+  record.status = to_string(sweep.curve.status);
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  if (sweep.unsolved > 0)
+    record.status = "no response at " + std::to_string(sweep.unsolved) + " of " +
+                    std::to_string(sweep.curve.points.size() + sweep.unsolved) + " frequencies";
+  const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
+  const int points = static_cast<int>(sweep.curve.points.size());
+  record.summary =
+      opening(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
+              model.contacts() * scene.time.functions, sweep.wall_seconds);
+  record.summary.emplace_back("max_displacement_m", highest);
+  record.summary.emplace_back("min_displacement_m", missing);
+  record.summary.emplace_back("rms_displacement_m",
+                              largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
+  record.summary.emplace_back("max_contact_force_N", points == 0 ? missing
+                                                     : rigid     ? sweep.max_force
+                                                                 : force_at(scene.contact, highest));
+  record.summary.emplace_back("contact_fraction", missing);
+  record.summary.emplace_back("analysis", name_of(scene.analysis.type));
+  record.summary.emplace_back("points", std::int64_t{points});
+  std::vector<double> turns;
+  for (const auto& turn : sweep.curve.turning_points) turns.push_back(turn.frequency);
+  record.summary.emplace_back("turning_points_Hz", turns);
+  if (rigid) {
+    record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
+    record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
+  }
+  append_condition(record, sweep.curve.condition);
+  append_structure(record.summary, model);
+  record.sweep = sweep_table(sweep.curve);
+  if (points > 0) record.figure = sweep_figure(scene, sweep);
+  return record;
+}
+
+Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
+  solvers::FrequencySweepOptions options = sweep_options(scene);
+  int points = 0;
+  if (observer)
+    options.observer = [&](const solvers::SweepPoint& point) {
+      observer(sweep_progress(scene.analysis, ++points, point.frequency));
+      return true;
+    };
+  Sweep sweep;
+  solvers::CondensedProblem problem = make_problem(scene, model);
+  sweep.curve = solvers::frequency_sweep(problem, make_laws(scene), options);
+  return sweep;
+}
+
+/// One point of a rigid sweep; nothing when there is no response.
+std::optional<solvers::SweepPoint> rigid_point(Scene& scene, const StructureModel& model, double frequency,
+                                               Sweep& sweep) {
+  scene.forcing.frequency = frequency;
+  const Response response = weighted_residual_response(scene, model);
+  sweep.curve.condition = std::max(sweep.curve.condition, response.condition);
+  if (!response.converged) return std::nullopt;
+  sweep.max_penetration = std::max(sweep.max_penetration, response.rigid->max_penetration);
+  sweep.max_force = std::max(sweep.max_force, response.contacts.force.maxCoeff());
+  const Eigen::MatrixXd& u = response.contacts.displacement;
+  solvers::SweepPoint point;
+  point.frequency = frequency;
+  point.max_displacement = u.maxCoeff();
+  point.rms_displacement = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
+  point.max_abs_displacement = u.cwiseAbs().maxCoeff();
+  point.residual = response.residual;
+  return point;
+}
+
+Sweep rigid_sweep(Scene scene, const StructureModel& model, const ProgressObserver& observer) {
+  const Analysis& analysis = scene.analysis;
+  const double interval = analysis.frequency_to - analysis.frequency_from;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(interval) / analysis.largest_step)));
+  Sweep sweep;
+  sweep.curve.status = solvers::SweepStatus::reached_end;
+  for (int i = 0; i <= steps; ++i) {
+    if (i >= analysis.max_points) {
+      sweep.curve.status = solvers::SweepStatus::point_limit;
+      break;
+    }
+    const double frequency = analysis.frequency_from + interval * i / steps;
+    if (const auto point = rigid_point(scene, model, frequency, sweep))
+      sweep.curve.points.push_back(*point);
+    else
+      ++sweep.unsolved;
+    if (observer) observer(sweep_progress(analysis, i + 1, frequency));
+  }
+  return sweep;
+}
+
+}  // namespace
+
+Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
+  return frequency_sweep(scene, make_model(scene), observer);
+}
+
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  Sweep sweep = rigid ? rigid_sweep(scene, model, observer) : arc_length_sweep(scene, model, observer);
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return sweep;
+}
+
+Record analyse(const Scene& scene, const ProgressObserver& observer) {
+  if (observer && scene.structure.kept_modes >= 0) observer({"structure", "reduction", {}});
+  const StructureModel model = make_model(scene);
+  ResponseOptions options;
+  options.observer = observer;
+  options.motion_points = std::max(0, scene.analysis.motion_points);
+  switch (scene.analysis.type) {
+    case AnalysisType::frequency_sweep:
+      return sweep_record(scene, model, frequency_sweep(scene, model, observer));
+    case AnalysisType::nonlinear_mode:
+      return mode_record(scene, model, observer);
+    case AnalysisType::time_stepping:
+      return response_record(scene, model, time_stepping_response(scene, model, options));
+    case AnalysisType::forced_response:
+      break;
+  }
+  return response_record(scene, model, weighted_residual_response(scene, model, options));
+}
+
+Table response_table(const solvers::PeriodSamples& samples) {
+  Table table;
+  table.add_column("time_fraction", time_fractions(samples.points()))
+      .add_column("displacement_m", samples.displacement)
+      .add_column("velocity_m_per_s", samples.velocity)
+      .add_column("contact_force_N", samples.contact_force);
+  return table;
+}
+
+Table sweep_table(const solvers::FrequencySweep& curve) {
+  Table table({"frequency_Hz", "max_displacement_m", "rms_displacement_m"});
+  for (const auto& point : curve.points)
+    table.append_row({point.frequency, point.max_displacement, point.rms_displacement});
+  return table;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,50 @@
+#include "wavebalance/app/analysis/measures.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+
+namespace wavebalance::app {
+
+double rms(const Eigen::VectorXd& values) {
+  return values.stableNorm() / std::sqrt(static_cast<double>(values.size()));
+}
+
+double relative_rms_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference) {
+  if (values.size() != reference.size())
+    throw std::invalid_argument("relative_rms_error: there are " + std::to_string(values.size()) +
+                                " values and " + std::to_string(reference.size()) +
+                                " of the reference; their numbers must be equal");
+  return rms(values - reference) / rms(reference);
+}
+
+Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& samples) {
+  const solvers::LinearStructure structure = make_structure(scene);
+  const auto& u = samples.displacements;
+  const auto& v = samples.velocities;
+  if (u.rows() != structure.size() || v.rows() != structure.size() || u.cols() != v.cols())
+    throw std::invalid_argument("system_energy: the samples hold " + std::to_string(u.rows()) +
+                                " degrees of freedom; they must hold all " +
+                                std::to_string(structure.size()));
+  // A rigid obstacle stores no energy.
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  return solvers::system_energy(structure, rigid ? solvers::ContactLaws() : make_laws(scene), {u, v});
+}
+
+double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples) {
+  return rms(system_energy(scene, samples));
+}
+
+double contact_fraction(const solvers::PeriodSamples& samples) {
+  return (samples.contact_force.array() > 0.0).cast<double>().mean();
+}
+
+Eigen::VectorXd time_fractions(int points) {
+  return Eigen::VectorXd::LinSpaced(points, 0.0, static_cast<double>(points - 1)) /
+         static_cast<double>(points);
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,241 @@
+#include "analysis/mode_record.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/motion_files.hpp"
+#include "analysis/record_figure.hpp"
+#include "analysis/summary_parts.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using solvers::ModePoint;
+using solvers::ModeStatus;
+
+/// The largest of a number over the accepted points.
+template <class Number>
+double largest(const Backbone& curve, Number number) {
+  double value = missing;
+  for (const ModePoint& point : curve.points)
+    if (point.accepted()) value = std::fmax(value, number(point));
+  return value;
+}
+
+std::string joined_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::string> all_tongues(const Backbone& curve) {
+  std::vector<std::string> names;
+  for (const Interruption& gap : curve.interruptions)
+    for (const auto& name : gap.tongues)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+int iterations_of(const Backbone& curve) {
+  int total = 0;
+  for (const ModePoint& point : curve.points) total += point.iterations;
+  return total;
+}
+
+double worst_residual(const Backbone& curve) {
+  double value = missing;
+  for (std::size_t i = 0; i < curve.points.size(); ++i)
+    if (curve.points[i].accepted()) value = std::fmax(value, curve.residuals[i]);
+  return value;
+}
+
+void append_discretisation(Summary& summary, const ModeStudy& study) {
+  const Analysis& analysis = study.scene().analysis;
+  summary.emplace_back("analysis", name_of(analysis.type));
+  summary.emplace_back("mode", std::int64_t{analysis.mode});
+  summary.emplace_back("harmonics", std::int64_t{analysis.harmonics});
+  summary.emplace_back("samples", std::int64_t{analysis.samples});
+  summary.emplace_back("linear_frequency_Hz", study.linear_frequency());
+  append_structure(summary, study.model());
+}
+
+/// The gap of all contacts; missing if they differ.
+double common_gap(const ModeStudy& study) {
+  const Eigen::VectorXd& gaps = study.model().gaps;
+  return (gaps.array() == gaps[0]).all() ? gaps[0] : missing;
+}
+
+void append_curve(Summary& summary, const Backbone& curve, double gap) {
+  const double penetration = largest(curve, [](const auto& point) { return point.max_penetration; });
+  summary.emplace_back("max_displacement_m", gap * (1.0 + penetration));
+  summary.emplace_back("min_displacement_m", missing);
+  summary.emplace_back("rms_displacement_m", missing);
+  summary.emplace_back("max_contact_force_N",
+                       largest(curve, [](const auto& point) { return point.force.maxCoeff(); }));
+  summary.emplace_back("contact_fraction",
+                       largest(curve, [](const auto& point) { return point.contact_fraction; }));
+}
+
+void append_statuses(Summary& summary, const Backbone& curve) {
+  summary.emplace_back("points", static_cast<std::int64_t>(curve.points.size()));
+  for (const auto status : {ModeStatus::converged, ModeStatus::tongue, ModeStatus::cycling,
+                            ModeStatus::no_contact, ModeStatus::singular})
+    summary.emplace_back("points_" + to_string(status), std::int64_t{curve.count(status)});
+  summary.emplace_back("tongues", joined_names(all_tongues(curve)));
+  summary.emplace_back("interruptions", static_cast<std::int64_t>(curve.interruptions.size()));
+}
+
+void append_quality(Summary& summary, double penetration, double min_force, double identity) {
+  summary.emplace_back("max_penetration_over_gap", std::max(0.0, penetration));
+  summary.emplace_back("min_contact_force_N", min_force);
+  summary.emplace_back("identity_defect", identity);
+}
+
+Record curve_record(const ModeStudy& study) {
+  const Backbone curve = study.backbone();
+  Record record;
+  record.converged = curve.converged();
+  record.status = curve.status();
+  record.summary =
+      opening(record.converged, record.status, worst_residual(curve), iterations_of(curve),
+              study.mode().model().contacts() * study.scene().analysis.samples, curve.wall_seconds);
+  append_curve(record.summary, curve, common_gap(study));
+  append_discretisation(record.summary, study);
+  append_statuses(record.summary, curve);
+  append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
+                 -largest(curve, [](const auto& point) { return -point.min_force; }),
+                 largest(curve, [](const auto& point) { return point.identity_defect; }));
+  record.summary.emplace_back("largest_energy_ratio",
+                              largest(curve, [](const auto& point) { return point.energy_ratio; }));
+  record.summary.emplace_back("largest_frequency_ratio", largest(curve, [&](const auto& point) {
+                                return point.omega / study.mode().linear_omega();
+                              }));
+  record.backbone = backbone_table(study, curve);
+  record.figure = backbone_figure(study.scene(), record.backbone);
+  if (!record.converged) record.figure.title += " (INCOMPLETE: " + record.status + ")";
+  return record;
+}
+
+Record motion_record(const ModeStudy& study) {
+  const Scene& scene = study.scene();
+  const auto start = std::chrono::steady_clock::now();
+  const ModePoint point = study.at_energy(scene.analysis.energy_ratio);
+  Response response;
+  const ContactMotion contacts = study.contact_motion(point, scene.analysis.output_points);
+  response.contact = contacts.leading(study.model().gaps);
+  response.samples = contacts.samples(response.contact);
+  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const bool moves = response.samples.points() > 0;
+  Record record;
+  record.converged = response.converged = point.accepted();
+  record.status = to_string(point.status);
+  if (point.status == ModeStatus::tongue) record.status += " " + tongue_name(point.tongue);
+  record.summary =
+      opening(record.converged, record.status, moves ? study.residual(point) : missing, point.iterations,
+              study.model().contacts() * scene.analysis.samples, response.wall_seconds);
+  append_motion(record.summary, response.samples);
+  append_discretisation(record.summary, study);
+  const double ratio = point.omega / study.mode().linear_omega();
+  record.summary.emplace_back("frequency_Hz", moves ? ratio * study.linear_frequency() : missing);
+  record.summary.emplace_back("frequency_ratio", moves ? ratio : missing);
+  record.summary.emplace_back("rayleigh_frequency_ratio",
+                              moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
+  record.summary.emplace_back("energy_ratio", moves ? point.energy_ratio : missing);
+  append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
+                 moves ? point.identity_defect : missing);
+  if (!moves) return record;
+  record.response = response_table(response.samples);
+  add_contacts(record, contacts, response.contact);
+  if (scene.analysis.motion_points > 0)
+    record.files =
+        motion_files(study.model(), study.samples(point, scene.analysis.motion_points, true).displacements);
+  record.figure =
+      motion_figure(scene, response, std::round(100.0 * ratio * study.linear_frequency()) / 100.0);
+  return record;
+}
+
+/// What all points of a branch of the printed equations say together.
+struct BranchMeasures {
+  double gradient = 0.0;  ///< largest that a Newton iteration ended with
+  double equation = 0.0;  ///< largest residual of the equation of motion of an accepted point
+  int iterations = 0;
+};
+
+BranchMeasures measured(const std::vector<solvers::LagrangianPoint>& branch) {
+  BranchMeasures measures;
+  for (const auto& point : branch) {
+    measures.iterations += point.newton_iterations();
+    if (!point.history.empty())
+      measures.gradient = std::max(measures.gradient, point.history.back().gradient);
+    if (point.accepted()) measures.equation = std::max(measures.equation, point.equation_residual);
+  }
+  return measures;
+}
+
+void append_published(Summary& summary, const ModeStudy& study,
+                      const std::vector<solvers::LagrangianPoint>& branch, double equation) {
+  const solvers::LagrangianPoint& last = branch.back();
+  append_discretisation(summary, study);
+  summary.emplace_back("formulation", name_of(study.scene().analysis.formulation));
+  summary.emplace_back("points", static_cast<std::int64_t>(branch.size()));
+  summary.emplace_back("equation_of_motion_residual", equation);
+  summary.emplace_back("energy_ratio", last.accepted() ? last.energy_ratio : missing);
+  summary.emplace_back("frequency_ratio",
+                       last.accepted() ? last.omega / study.mode().linear_omega() : missing);
+}
+
+void draw_branch(Record& record, const ModeStudy& study,
+                 const std::vector<solvers::LagrangianPoint>& branch) {
+  record.backbone = backbone_table(study, branch);
+  record.figure = backbone_figure(study.scene(), record.backbone);
+  record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + record.status + ")";
+}
+
+/// The curve of the printed equations, or its last motion.
+Record published_record(const ModeStudy& study) {
+  const Scene& scene = study.scene();
+  const double energy = scene.analysis.energy_ratio;
+  const auto start = std::chrono::steady_clock::now();
+  const auto branch = study.published_branch(energy > 1.0 ? energy : scene.analysis.largest_energy);
+  Response response;
+  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const solvers::LagrangianPoint& last = branch.back();
+  response.samples = study.samples(last, scene.analysis.output_points, false);
+  const BranchMeasures measures = measured(branch);
+  Record record;
+  record.converged = response.converged = last.accepted();
+  record.status = last.accepted()
+                      ? "converged"
+                      : to_string(last.status) + " at energy ratio " + cell_text(last.prescribed_ratio);
+  const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
+  record.summary = opening(record.converged, record.status, measures.gradient, measures.iterations, unknowns,
+                           response.wall_seconds);
+  append_motion(record.summary, response.samples);
+  append_published(record.summary, study, branch, measures.equation);
+  if (energy == 0.0) {
+    draw_branch(record, study, branch);
+  } else if (last.accepted()) {
+    record.response = response_table(response.samples);
+    record.figure =
+        motion_figure(scene, response, std::round(last.omega / (0.02 * std::numbers::pi)) / 100.0);
+  }
+  return record;
+}
+
+}  // namespace
+
+Record mode_record(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
+  if (observer) observer({"nonlinear mode", "linear modes", {}});
+  const ModeStudy study(scene, model);
+  if (observer) observer({"nonlinear mode", "backbone", {}});
+  const double energy = scene.analysis.energy_ratio;
+  const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
+  if (scene.analysis.formulation == ModeFormulation::published && with_contact)
+    return published_record(study);
+  return energy > 0.0 ? motion_record(study) : curve_record(study);
+}
+
+}  // namespace wavebalance::app

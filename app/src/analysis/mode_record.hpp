@@ -1,0 +1,9 @@
+#pragma once
+#include "wavebalance/app/analysis/analysis.hpp"
+
+namespace wavebalance::app {
+
+/// The record of a nonlinear mode: its curve, or the one motion of analysis.energy_ratio.
+Record mode_record(const Scene& scene, const StructureModel& model, const ProgressObserver& observer);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,260 @@
+#include "wavebalance/app/analysis/modes.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/resampling.hpp"
+#include "wavebalance/contact/multipliers.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using solvers::ModePoint;
+using solvers::ModeStatus;
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double first_penalty = 300.0;  // in units omega_1 = gap = 1
+constexpr int linear_points = 6;         // of the branch below contact, energies 0, 0.2, ..
+
+bool is_solution(const ModePoint& point) { return point.accepted() || point.status == ModeStatus::tongue; }
+
+solvers::BackboneOptions curve_options(const Analysis& analysis) {
+  solvers::BackboneOptions options;
+  options.last_ratio = analysis.last_frequency_ratio;
+  options.points = analysis.points;
+  options.largest_energy = analysis.largest_energy;
+  return options;
+}
+
+void add_to(Interruption& gap, const ModePoint& point, double ratio) {
+  gap.last_ratio = ratio;
+  if (point.status != ModeStatus::tongue) {
+    if (gap.status.empty()) gap.status = to_string(point.status);
+    return;
+  }
+  const std::string name = tongue_name(point.tongue);
+  if (std::find(gap.tongues.begin(), gap.tongues.end(), name) == gap.tongues.end())
+    gap.tongues.push_back(name);
+}
+
+std::vector<Interruption> interruptions_of(const std::vector<ModePoint>& points, double linear_omega) {
+  std::vector<Interruption> gaps;
+  bool open = false;
+  for (const ModePoint& point : points) {
+    const double ratio = point.omega / linear_omega;
+    if (point.accepted()) {
+      if (open) gaps.back().bridged = true;
+      open = false;
+      continue;
+    }
+    if (!open) gaps.push_back({ratio, ratio, {}, "", false});
+    open = true;
+    add_to(gaps.back(), point, ratio);
+  }
+  return gaps;
+}
+
+/// u_n of the structure, n x (N + 1).
+Eigen::MatrixXcd physical(const StructureModes& modes, const ModePoint& point) {
+  return modes.shapes * point.amplitudes;
+}
+
+/// Amplitudes of the velocity.
+Eigen::MatrixXcd rate(Eigen::MatrixXcd columns, double omega) {
+  for (Eigen::Index n = 0; n < columns.cols(); ++n)
+    columns.col(n) *= std::complex<double>(0.0, static_cast<double>(n) * omega);
+  return columns;
+}
+
+/// Re sum_n factor_n column_n exp(2 pi i n l / points), with both signs of n > 0.
+Eigen::MatrixXd synthesis(const Eigen::MatrixXcd& columns, int points) {
+  Eigen::MatrixXcd waves(columns.cols(), points);
+  for (Eigen::Index n = 0; n < waves.rows(); ++n)
+    for (Eigen::Index l = 0; l < points; ++l)
+      waves(n, l) =
+          std::polar(n == 0 ? 1.0 : 2.0, 2.0 * std::numbers::pi * static_cast<double>(n * l % points) /
+                                             static_cast<double>(points));
+  return (columns * waves).real();
+}
+
+}  // namespace
+
+int Backbone::count(ModeStatus status) const {
+  return static_cast<int>(std::count_if(points.begin(), points.end(),
+                                        [&](const ModePoint& point) { return point.status == status; }));
+}
+
+bool Backbone::converged() const { return status() == "converged"; }
+
+std::string Backbone::status() const {
+  if (count(ModeStatus::converged) == 0) return "no motion with contact was found";
+  for (const Interruption& gap : interruptions)
+    if (gap.tongues.empty())
+      return gap.status + " at frequency ratio " + std::to_string(gap.first_ratio) + ", on no known tongue";
+  return "converged";
+}
+
+ModeStudy::ModeStudy(const Scene& scene) : ModeStudy(scene, make_model(scene)) {}
+
+ModeStudy::ModeStudy(const Scene& scene, StructureModel model)
+    : scene_(scene),
+      model_(std::move(model)),
+      modes_(make_modes(model_)),
+      mode_(make_nonlinear_mode(scene, modes_.model)) {}
+
+double ModeStudy::linear_frequency() const { return mode_.linear_omega() / (2.0 * std::numbers::pi); }
+
+Backbone ModeStudy::backbone() const {
+  const auto start = std::chrono::steady_clock::now();
+  Backbone curve;
+  curve.points = solvers::backbone(mode_, curve_options(scene_.analysis));
+  curve.interruptions = interruptions_of(curve.points, mode_.linear_omega());
+  curve.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const ModePoint& point : curve.points)
+    curve.residuals.push_back(is_solution(point) ? residual(point) : missing);
+  return curve;
+}
+
+ModePoint ModeStudy::at_energy(double energy_ratio) const {
+  if (energy_ratio <= 1.0) return mode_.linear_mode(energy_ratio);
+  solvers::BackboneOptions options = curve_options(scene_.analysis);
+  options.largest_energy = energy_ratio;
+  return solvers::at_energy(mode_, solvers::backbone(mode_, options), energy_ratio);
+}
+
+ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const {
+  return solvers::at_energy(mode_, curve.points, energy_ratio);
+}
+
+ContactMotion ModeStudy::contact_motion(const ModePoint& point, int points) const {
+  if (!is_solution(point) || point.amplitudes.size() == 0) return {};
+  return touching(point.amplitudes, point.force, point.omega, points);
+}
+
+ContactMotion ModeStudy::contact_motion(const solvers::LagrangianPoint& point, int points) const {
+  if (!point.accepted()) return {};
+  return touching(point.amplitudes, point.force, point.omega, points);
+}
+
+solvers::PeriodSamples ModeStudy::samples(const ModePoint& point, int points, bool full_history) const {
+  return sampled(contact_motion(point, points), point.amplitudes, point.omega, full_history);
+}
+
+solvers::PeriodSamples ModeStudy::samples(const solvers::LagrangianPoint& point, int points,
+                                          bool full_history) const {
+  return sampled(contact_motion(point, points), point.amplitudes, point.omega, full_history);
+}
+
+ContactMotion ModeStudy::touching(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
+                                  double omega, int points) const {
+  const Eigen::MatrixXcd u = mode_.model().contact_shapes * amplitudes;
+  ContactMotion motion{synthesis(u, points), synthesis(rate(u, omega), points), {}};
+  motion.force.resize(motion.contacts(), points);
+  for (Eigen::Index contact = 0; contact < motion.force.rows(); ++contact)
+    motion.force.row(contact) = nearest_samples(force.row(contact), points);
+  return motion;
+}
+
+solvers::PeriodSamples ModeStudy::sampled(const ContactMotion& motion, const Eigen::MatrixXcd& amplitudes,
+                                          double omega, bool full_history) const {
+  solvers::PeriodSamples samples = motion.samples(motion.leading(model_.gaps));
+  if (!full_history || motion.points() == 0) return samples;
+  const Eigen::MatrixXcd u = modes_.shapes * amplitudes;
+  samples.displacements = synthesis(u, motion.points());
+  samples.velocities = synthesis(rate(u, omega), motion.points());
+  return samples;
+}
+
+std::vector<solvers::LagrangianPoint> ModeStudy::published_branch(double largest) const {
+  const Analysis& analysis = scene_.analysis;
+  solvers::LagrangianModeOptions options;
+  options.mode = analysis.mode;
+  options.harmonics = analysis.harmonics;
+  options.samples = analysis.samples;
+  options.cosine_only = analysis.cosine_only;
+  options.formulation = solvers::ModeFormulation::published;
+  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
+  const solvers::LagrangianMode mode(mode_.model(), options);
+  const contact::MultiplierUpdate strategy(
+      std::vector<double>(static_cast<std::size_t>(mode.constraints()), first_penalty), {first_penalty});
+  const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(analysis.points, 1.0, largest);
+  return mode.branch(std::span(energies.data(), static_cast<std::size_t>(energies.size())), strategy,
+                     mode.linear_start(1.0));
+}
+
+double ModeStudy::residual(const ModePoint& point) const {
+  const Eigen::MatrixXcd u = physical(modes_, point);
+  const solvers::LinearStructure& structure = model_.structure;
+  const auto count = point.force.cols();
+  double largest = 0.0, scale = 0.0;
+  for (Eigen::Index n = 0; n < u.cols(); ++n) {
+    const auto order = static_cast<double>(n) * point.omega;
+    const Eigen::VectorXcd elastic = structure.stiffness * u.col(n);
+    Eigen::VectorXcd rest = elastic - order * order * (structure.mass * u.col(n));
+    Eigen::VectorXcd wave(count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      wave[k] = std::polar(1.0 / static_cast<double>(count),
+                           -2.0 * std::numbers::pi * static_cast<double>(n * k) / static_cast<double>(count));
+    const Eigen::VectorXcd force = point.force * wave;
+    for (int contact = 0; contact < model_.contacts(); ++contact)
+      rest[model_.structure.contact_dofs[static_cast<std::size_t>(contact)]] += force[contact];
+    largest = std::max(largest, rest.norm());
+    scale = std::max(scale, elastic.norm());
+  }
+  return scale > 0.0 ? largest / scale : missing;
+}
+
+std::string tongue_name(const solvers::Tongue& tongue) {
+  return std::to_string(tongue.harmonic) + ":" + std::to_string(tongue.mode);
+}
+
+namespace {
+
+Table empty_backbone() {
+  return Table({"energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio",
+                "contact_fraction", "status", "residual", "identity_defect", "max_penetration_over_gap",
+                "min_contact_force_N", "tongue", "tongue_share"});
+}
+
+}  // namespace
+
+Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch) {
+  Table table = empty_backbone();
+  const double linear = study.mode().linear_omega();
+  table.append_row(
+      {0.0, study.linear_frequency(), 1.0, 1.0, 0.0, "linear", missing, 0.0, -1.0, 0.0, "none", 0.0});
+  for (const auto& point : branch) {
+    const auto value = [&](double number) { return point.accepted() ? number : missing; };
+    table.append_row({point.prescribed_ratio, value(point.omega / (2.0 * std::numbers::pi)),
+                      value(point.omega / linear), value(std::sqrt(point.rayleigh) / linear), missing,
+                      to_string(point.status), value(point.equation_residual), value(point.identity_defect),
+                      value(point.max_penetration), value(point.min_force), "none", missing});
+  }
+  return table;
+}
+
+Table backbone_table(const ModeStudy& study, const Backbone& curve) {
+  Table table = empty_backbone();
+  const double linear = study.mode().linear_omega();
+  const auto add = [&](const ModePoint& point, double residual) {
+    const bool found = is_solution(point);
+    const auto value = [&](double number) { return found ? number : missing; };
+    table.append_row({value(point.energy_ratio), point.omega / (2.0 * std::numbers::pi), point.omega / linear,
+                      value(std::sqrt(point.rayleigh) / linear), value(point.contact_fraction),
+                      to_string(point.status), residual, value(point.identity_defect),
+                      value(point.max_penetration), value(point.min_force),
+                      point.tongue.harmonic > 0 ? tongue_name(point.tongue) : std::string("none"),
+                      value(point.tongue.share)});
+  };
+  for (int i = 0; i < linear_points; ++i) {
+    const auto point = study.mode().linear_mode(static_cast<double>(i) / (linear_points - 1));
+    add(point, study.residual(point));
+  }
+  for (std::size_t i = 0; i < curve.points.size(); ++i) add(curve.points[i], curve.residuals[i]);
+  return table;
+}
+
+}  // namespace wavebalance::app

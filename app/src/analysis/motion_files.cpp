@@ -1,0 +1,59 @@
+#include "analysis/motion_files.hpp"
+
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+#include "files/number_text.hpp"
+#include "wavebalance/fem/vtu.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::string frame_name(Eigen::Index frame) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "motion_%04d.vtu", static_cast<int>(frame));
+  return text.data();
+}
+
+std::string vtu_text(const fem::SolidModel& solid, const Eigen::VectorXd& unknowns) {
+  const Eigen::Matrix3Xd displacement = solid.displacements(unknowns);
+  const std::array<fem::PointField, 2> fields{
+      {{"displacement", displacement}, {"stress", fem::nodal_stress(solid, displacement)}}};
+  std::ostringstream text;
+  fem::write_vtu(text, solid.mesh, fields);
+  return std::move(text).str();
+}
+
+std::vector<RecordFile> mesh_files(const fem::SolidModel& solid, const Eigen::MatrixXd& whole) {
+  std::vector<RecordFile> files;
+  std::vector<fem::PvdEntry> entries;
+  for (Eigen::Index frame = 0; frame < whole.cols(); ++frame) {
+    files.push_back({frame_name(frame), vtu_text(solid, whole.col(frame))});
+    entries.push_back({static_cast<double>(frame) / static_cast<double>(whole.cols()), files.back().name});
+  }
+  std::ostringstream series;
+  fem::write_pvd(series, entries);
+  files.push_back({"motion.pvd", std::move(series).str()});
+  return files;
+}
+
+std::string array_text(const Eigen::MatrixXd& whole) {
+  std::string text =
+      "%%MatrixMarket matrix array real general\n% displacement of every degree of freedom (row) " +
+      std::string("at uniform instants of the period (column), m\n") + std::to_string(whole.rows()) + " " +
+      std::to_string(whole.cols()) + "\n";
+  for (const double value : whole.reshaped()) text += number_text(value) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates) {
+  if (coordinates.cols() == 0) return {};
+  const Eigen::MatrixXd whole = model.recover(coordinates);
+  if (model.blade) return mesh_files(model.blade->model, whole);
+  return {{"motion.mtx", array_text(whole)}};
+}
+
+}  // namespace wavebalance::app

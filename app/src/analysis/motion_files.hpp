@@ -1,0 +1,15 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace wavebalance::app {
+
+/// The motion of the whole structure from that of the reduced one (r x frames, uniform over the period):
+/// with a mesh a series for ParaView, whose times are fractions of the period, with displacement and stress;
+/// without one motion.mtx, a Matrix Market array of a column an instant. Nothing for no frames.
+std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,160 @@
+#include "analysis/record_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// A factor of 1000 with its prefix where that makes numbers readable.
+struct Scale {
+  double factor = 1.0;
+  std::string prefix;
+};
+
+Scale scale_of(double largest) {
+  if (!(largest > 0.0)) return {};
+  if (largest < 1e-3) return {1e6, "µ"};
+  if (largest < 1.0) return {1e3, "m"};
+  if (largest < 1e3) return {};
+  if (largest < 1e6) return {1e-3, "k"};
+  return {1e-6, "M"};
+}
+
+std::string basis_title(const std::string& basis) {
+  if (const int coefficients = daubechies_coefficients(basis); coefficients > 0)
+    return "Daubechies " + std::to_string(coefficients);
+  return basis == "fourier" ? "Fourier" : basis == "haar" ? "Haar" : "B-spline";
+}
+
+std::string structure_title(const Structure& structure) {
+  if (structure.type == StructureType::bar) return std::to_string(structure.elements) + " elements";
+  const std::string kind = structure.type == StructureType::blade ? "blade" : "matrices";
+  const int contacts = contacts_of(structure);
+  return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
+}
+
+std::string method_title(const Scene& scene) {
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    return "Mode " + std::to_string(scene.analysis.mode) +
+           ", N = " + std::to_string(scene.analysis.harmonics) +
+           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene.structure);
+  if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
+  return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
+         std::to_string(scene.time.functions) + " functions";
+}
+
+std::string frequency_text(double value) { return cell_text(value) + " Hz"; }
+
+/// The value that closes the period, so that curves end at 1.
+Eigen::VectorXd closed(const Eigen::VectorXd& values) {
+  Eigen::VectorXd result(values.size() + 1);
+  result << values, values[0];
+  return result;
+}
+
+void add_motion(Figure& figure, const std::string& quantity, const std::string& unit,
+                const Eigen::VectorXd& values, bool converged) {
+  const Scale scale = scale_of(values.cwiseAbs().maxCoeff());
+  Panel& panel = figure.add_panel();
+  panel.x = {
+      .label = "Time (fraction of a period)", .lower = 0.0, .upper = 1.0, .ticks = {}, .tick_format = "%.1f"};
+  panel.y.label = quantity + " (" + scale.prefix + unit + ")";
+  const auto points = static_cast<Eigen::Index>(values.size());
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(points + 1, 0.0, 1.0);
+  Series series("", time, closed(scale.factor * values));
+  if (!converged) {
+    series.colour = Colour::grey;
+    series.dash = Dash::dashed;
+  }
+  panel.add(std::move(series));
+}
+
+}  // namespace
+
+Figure response_figure(const Scene& scene, const Response& response) {
+  Scene solved = scene;
+  if (response.refinement) {
+    solved.time.trial = response.refinement->trial;
+    solved.time.weight = response.refinement->weight;
+    solved.time.functions = response.refinement->ladder.back().functions;
+  }
+  return motion_figure(solved, response, scene.forcing.frequency);
+}
+
+Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
+  Figure figure;
+  figure.title = method_title(scene) + ", " + frequency_text(frequency);
+  if (!response.converged) figure.title += " (NOT CONVERGED: last iterate)";
+  figure.panel_height = 240;
+  figure.panel_width = 600;
+  add_motion(figure, "Displacement", "m", response.samples.displacement, response.converged);
+  add_motion(figure, "Velocity", "m/s", response.samples.velocity, response.converged);
+  add_motion(figure, "Contact force", "N", response.samples.contact_force, response.converged);
+  if (scene.contact.law != ContactLawType::none) {
+    const double factor = scale_of(response.samples.displacement.cwiseAbs().maxCoeff()).factor;
+    figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact));
+  }
+  return figure;
+}
+
+Figure backbone_figure(const Scene& scene, const Table& backbone) {
+  const auto column = [&](std::string_view name, bool tongues) {
+    auto values = backbone.numbers(name);
+    const auto statuses = backbone.texts("status");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool accepted = statuses[i] == "converged" || statuses[i] == "linear";
+      if (tongues ? statuses[i] != "tongue" : !accepted) values[i] = std::nan("");
+    }
+    return values;
+  };
+  Figure figure;
+  figure.title = method_title(scene);
+  figure.panel_width = 640;
+  figure.panel_height = 420;
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Energy over that of linear grazing";
+  panel.x.lower = 0.0;
+  panel.x.upper = scene.analysis.largest_energy;
+  panel.y.label = "Frequency over the linear one";
+  panel.legend = Legend::bottom_right;
+  // Points: neighbours may lie either side of an internal resonance.
+  panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false), SeriesStyle::points});
+  panel.add({"√r, Rayleigh quotient", column("energy_ratio", false),
+             column("rayleigh_frequency_ratio", false), SeriesStyle::points});
+  Series tongues("on an internal resonance", column("energy_ratio", true), column("frequency_ratio", true),
+                 SeriesStyle::points);
+  tongues.colour = Colour::grey;
+  panel.add(std::move(tongues)).mark_x(1.0);
+  return figure;
+}
+
+Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
+  const Table table = sweep_table(sweep.curve);
+  const auto scaled = [&](std::string_view column, double factor) {
+    std::vector<double> values = table.numbers(column);
+    for (double& value : values) value *= factor;
+    return values;
+  };
+  const auto highest = table.numbers("max_displacement_m");
+  const Scale scale = scale_of(*std::max_element(highest.begin(), highest.end()));
+  Figure figure;
+  figure.title = method_title(scene);
+  if (!sweep.converged()) figure.title += " (INCOMPLETE: " + to_string(sweep.curve.status) + ")";
+  figure.panel_width = 640;
+  figure.panel_height = 420;
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Frequency (Hz)";
+  panel.y.label = "Displacement (" + scale.prefix + "m)";
+  // With rigid contact neighbours may lie on different branches: no line joins them.
+  const auto style = scene.contact.law == ContactLawType::rigid ? SeriesStyle::points : SeriesStyle::line;
+  panel.add({"largest", scaled("frequency_Hz", 1.0), scaled("max_displacement_m", scale.factor), style});
+  panel.add({"rms", scaled("frequency_Hz", 1.0), scaled("rms_displacement_m", scale.factor), style});
+  if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
+    panel.mark_y(scale.factor * scene.contact.gap);
+  return figure;
+}
+
+}  // namespace wavebalance::app

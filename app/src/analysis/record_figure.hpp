@@ -1,0 +1,20 @@
+#pragma once
+#include "wavebalance/app/analysis/analysis.hpp"
+
+namespace wavebalance::app {
+
+/// Displacement, velocity and contact force over one period. An iterate that did not converge says so in its
+/// title and is drawn dashed and grey.
+Figure response_figure(const Scene& scene, const Response& response);
+
+/// The motion of a nonlinear mode at `frequency`, Hz.
+Figure motion_figure(const Scene& scene, const Response& response, double frequency);
+
+/// Frequency over energy from a backbone_table(): accepted points, what the generalised Rayleigh quotient
+/// would give, and points on tongues as marks.
+Figure backbone_figure(const Scene& scene, const Table& backbone);
+
+/// Largest and rms displacement over the frequency, with its turning points.
+Figure sweep_figure(const Scene& scene, const Sweep& sweep);
+
+}  // namespace wavebalance::app

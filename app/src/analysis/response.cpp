@@ -1,0 +1,225 @@
+#include "wavebalance/app/analysis/response.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "analysis/resampling.hpp"
+#include "analysis/tolerance_response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return text;
+}
+
+void tell(const ProgressObserver& observer, const Progress& progress) {
+  if (observer) observer(progress);
+}
+
+/// Share of the way from 1 down to `tolerance` that a falling error has gone, on a logarithmic scale.
+double logarithmic_share(double error, double tolerance) {
+  if (!(error > 0.0) || !std::isfinite(error)) return 0.0;
+  return std::clamp(std::log(error) / std::log(tolerance), 0.0, 1.0);
+}
+
+solvers::SolveObserver solve_observer(const ProgressObserver& observer) {
+  if (!observer) return {};
+  return [observer](const std::string& phase, int step, double residual) {
+    observer({phase, "step " + std::to_string(step) + ", residual " + short_number(residual), {}});
+    return true;
+  };
+}
+
+/// Displacements and velocities of all contacts.
+ContactMotion sample_motion(const solvers::CondensedProblem& problem,
+                            const solvers::PeriodicResponse& response, int points) {
+  solvers::MotionEvaluator motion(problem.pair().trial(), points);
+  return {motion.displacement(response.coefficients).transpose(),
+          motion.velocity(response.coefficients, response.frequency).transpose(),
+          {}};
+}
+
+/// Contact forces that are known at the quadrature points only: those of the nearest ones.
+Eigen::MatrixXd nearest_forces(const solvers::PeriodicResponse& response, int contacts, int points) {
+  const Eigen::Index samples = response.contact_force.size() / contacts;
+  Eigen::MatrixXd forces(contacts, points);
+  for (Eigen::Index contact = 0; contact < contacts; ++contact)
+    forces.row(contact) = nearest_samples(response.contact_force.segment(contact * samples, samples), points);
+  return forces;
+}
+
+/// The contacts' motion, its leading one and what the options ask for of the whole structure.
+void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found,
+                 const StructureModel& model, ContactMotion contacts, const ResponseOptions& options,
+                 Response& result) {
+  result.contact = contacts.leading(model.gaps);
+  result.samples = contacts.samples(result.contact);
+  if (options.full_history) {
+    auto field = solvers::periodic_field(problem, found.contact_force, contacts.points());
+    result.samples.displacements = std::move(field.displacement);
+    result.samples.velocities = std::move(field.velocity);
+  }
+  if (options.motion_points > 0)
+    result.motion = solvers::periodic_field(problem, found.contact_force, options.motion_points).displacement;
+  result.contacts = std::move(contacts);
+}
+
+void note_solution(Response& result, const solvers::CondensedProblem& problem,
+                   const solvers::PeriodicResponse& found) {
+  result.converged = found.converged();
+  result.status = to_string(found.status);
+  result.residual = found.residual;
+  result.iterations = found.iterations;
+  result.used_homotopy = found.used_homotopy;
+  result.condition = std::max(problem.condensation().condition(), found.condition);
+}
+
+void solve_law(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
+               const ResponseOptions& options, Response& result) {
+  solvers::ForcedResponseOptions solver;
+  solver.observer = solve_observer(options.observer);
+  const solvers::ContactLaws laws = make_laws(scene);
+  const auto found = solvers::forced_response(problem, laws, solver, options.guess);
+  note_solution(result, problem, found);
+  note_motion(problem, found, model, sample_response(problem, found, laws, scene.analysis.output_points),
+              options, result);
+}
+
+void solve_ladder(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                  Response& result) {
+  auto found = solve_to_tolerance(scene, model, options, result);
+  note_motion(*found.problem, found.response, model,
+              sample_response(*found.problem, found.response, make_laws(scene), scene.analysis.output_points),
+              options, result);
+}
+
+void solve_rigid(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
+                 const ResponseOptions& options, Response& result) {
+  solvers::RigidResponseOptions solver;
+  solver.observer = solve_observer(options.observer);
+  const auto found = solvers::rigid_response(problem, model.gaps, solver);
+  note_solution(result, problem, found.response);
+  const auto& contact = found.complementarity;
+  result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
+  result.residual = std::max(found.response.residual, contact.product);
+  const int points = scene.analysis.output_points;
+  ContactMotion contacts = sample_motion(problem, found.response, points);
+  contacts.force = nearest_forces(found.response, problem.contacts(), points);
+  note_motion(problem, found.response, model, std::move(contacts), options, result);
+}
+
+}  // namespace
+
+ContactMotion sample_response(const solvers::CondensedProblem& problem,
+                              const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
+                              int points) {
+  ContactMotion motion = sample_motion(problem, response, points);
+  if (response.force_by_balance) {
+    motion.force = nearest_forces(response, problem.contacts(), points);
+    return motion;
+  }
+  motion.force =
+      Eigen::MatrixXd::NullaryExpr(motion.contacts(), points, [&](Eigen::Index contact, Eigen::Index l) {
+        return laws[static_cast<int>(contact)].force(motion.displacement(contact, l));
+      });
+  return motion;
+}
+
+Response weighted_residual_response(const Scene& scene, const ResponseOptions& options) {
+  return weighted_residual_response(scene, make_model(scene), options);
+}
+
+Response weighted_residual_response(const Scene& scene, const StructureModel& model,
+                                    const ResponseOptions& options) {
+  const auto start = Clock::now();
+  Response result;
+  result.unknowns = model.contacts() * scene.time.functions;
+  try {
+    if (scene.time.tolerance > 0.0) {
+      solve_ladder(scene, model, options, result);
+    } else {
+      solvers::CondensedProblem problem = make_problem(scene, model);
+      const bool rigid = scene.contact.law == ContactLawType::rigid;
+      (rigid ? solve_rigid : solve_law)(scene, model, problem, options, result);
+    }
+  } catch (const solvers::SingularSystem& error) {
+    result.converged = false;  // also when only the field of the whole structure cannot be had
+    result.status = std::string("singular: ") + error.what();
+    result.residual = std::numeric_limits<double>::quiet_NaN();
+    result.condition = std::numeric_limits<double>::infinity();
+  }
+  result.wall_seconds = seconds_since(start);
+  return result;
+}
+
+Response time_stepping_response(const Scene& scene, const ResponseOptions& options) {
+  return time_stepping_response(scene, make_model(scene), options);
+}
+
+Response time_stepping_response(const Scene& scene, const StructureModel& model,
+                                const ResponseOptions& options) {
+  const auto start = Clock::now();
+  solvers::TimeSteppingOptions stepping;
+  stepping.output_points = scene.analysis.output_points;
+  stepping.period_tolerance = scene.analysis.tolerance;
+  stepping.max_periods = scene.analysis.max_periods;
+  stepping.full_history = options.full_history;
+  stepping.observer = [&](int period, double difference) {
+    tell(options.observer,
+         {"time stepping", "period " + std::to_string(period) + ", difference " + short_number(difference),
+          logarithmic_share(difference, scene.analysis.tolerance)});
+    return true;
+  };
+  auto found =
+      solvers::integrate_to_periodic(model.structure, make_laws(scene), scene.forcing.frequency, stepping);
+  Response result;
+  result.wall_seconds = seconds_since(start);
+  result.converged = found.status == solvers::TimeSteppingStatus::converged;
+  result.status = to_string(found.status);
+  result.residual =
+      found.period_error.empty() ? std::numeric_limits<double>::quiet_NaN() : found.period_error.back();
+  result.iterations = found.periods;
+  result.unknowns = 2 * model.size();
+  result.contacts = ContactMotion::of(found.samples);
+  result.contact = result.contacts.leading(model.gaps);
+  result.samples = result.contacts.samples(result.contact);
+  result.samples.displacements = std::move(found.samples.displacements);
+  result.samples.velocities = std::move(found.samples.velocities);
+  return result;
+}
+
+Response shooting_response(const Scene& scene, const ResponseOptions& options) {
+  const auto start = Clock::now();
+  solvers::ShootingOptions shooting;
+  shooting.output_points = scene.analysis.output_points;
+  shooting.full_history = options.full_history;
+  auto found =
+      solvers::shoot(make_structure(scene), make_law(scene.contact), scene.forcing.frequency, shooting);
+  Response result;
+  result.wall_seconds = seconds_since(start);
+  result.converged = found.status == solvers::ShootingStatus::converged;
+  result.status = to_string(found.status);
+  result.residual = found.residual;
+  result.iterations = found.iterations;
+  result.unknowns = 2 * scene.structure.elements;
+  result.samples = std::move(found.samples);
+  return result;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,58 @@
+#include "analysis/summary_parts.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "wavebalance/app/analysis/measures.hpp"
+
+namespace wavebalance::app {
+
+Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
+                double wall_seconds) {
+  return {{"converged", converged},
+          {"status", status},
+          {"residual", residual},
+          {"iterations", std::int64_t{iterations}},
+          {"unknowns", std::int64_t{unknowns}},
+          {"wall_seconds", wall_seconds}};
+}
+
+void append_structure(Summary& summary, const StructureModel& model) {
+  summary.emplace_back("contacts", std::int64_t{model.contacts()});
+  summary.emplace_back("degrees_of_freedom", std::int64_t{model.unknowns});
+  summary.emplace_back("reduced_degrees_of_freedom", std::int64_t{model.size()});
+  summary.emplace_back("reduction_seconds", model.reduction_seconds);
+}
+
+void append_condition(Record& record, double condition) {
+  constexpr double largest_condition = 1e12;
+  if (std::isinf(condition)) {
+    record.warnings.emplace_back("a system of the solution is singular to working precision");
+  } else if (condition > largest_condition) {
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "the condition estimate %.1e is past %.0e: up to %d of 16 digits may be lost", condition,
+                  largest_condition, static_cast<int>(std::ceil(std::log10(condition))));
+    record.warnings.emplace_back(text);
+  }
+  record.summary.emplace_back("condition_estimate", condition);
+  record.summary.emplace_back("warnings", record.warnings);
+}
+
+void add_contacts(Record& record, const ContactMotion& contacts, int leading) {
+  if (contacts.contacts() < 2) return;
+  record.summary.emplace_back("leading_contact", std::int64_t{leading + 1});
+  record.contacts = contacts_table(contacts);
+}
+
+void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
+  const bool empty = samples.points() == 0;
+  const auto& u = samples.displacement;
+  summary.emplace_back("max_displacement_m", empty ? missing : u.maxCoeff());
+  summary.emplace_back("min_displacement_m", empty ? missing : u.minCoeff());
+  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u));
+  summary.emplace_back("max_contact_force_N", empty ? missing : samples.contact_force.maxCoeff());
+  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(samples));
+}
+
+}  // namespace wavebalance::app

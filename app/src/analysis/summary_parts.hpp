@@ -1,0 +1,29 @@
+#pragma once
+#include <limits>
+#include <string>
+
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace wavebalance::app {
+
+inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// The fields that open every summary.
+Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
+                double wall_seconds);
+
+/// How large the structure is, before and after its reduction.
+void append_structure(Summary& summary, const StructureModel& model);
+
+/// condition_estimate (NaN: none) and `warnings`, in the summary and in the record. Past 1e12 there is one:
+/// of the sixteen digits of a double fewer than four are left.
+void append_condition(Record& record, double condition);
+
+/// The table of all contacts, and which of them the record shows, where there are several.
+void add_contacts(Record& record, const ContactMotion& contacts, int leading);
+
+/// The fields of one motion of the leading contact; missing values when `samples` are empty.
+void append_motion(Summary& summary, const solvers::PeriodSamples& samples);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,11 @@
+#pragma once
+#include "wavebalance/app/analysis/response.hpp"
+
+namespace wavebalance::app {
+
+/// Solves a scene with time.tolerance and notes in `result` all but motions and wall_seconds. Throws
+/// solvers::SingularSystem.
+solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureModel& model,
+                                           const ResponseOptions& options, Response& result);
+
+}  // namespace wavebalance::app

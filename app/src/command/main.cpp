@@ -1,0 +1,84 @@
+// The command `wavebalance`. CLI11 is included here alone: it takes longer to compile than the rest of the
+// command.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "command/commands.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+
+constexpr const char* description =
+    "Periodic vibrations of structures that touch an obstacle, in any time basis: Fourier (harmonic\n"
+    "balance), Haar, Daubechies or B-spline (wavelet balance). A scene is a TOML file that says what\n"
+    "vibrates, what it touches, what drives it and how the period is discretised.";
+
+std::string footer() {
+  return "A scene (the bar of Jones & Legrand 2014, case 1; `wavebalance keys` explains every key):\n\n" +
+         write_scene(example_scene()) +
+         "\nCommands to start with, the scene being in case.toml:\n\n"
+         "  wavebalance check case.toml\n"
+         "  wavebalance run case.toml --output results/case\n"
+         "  wavebalance run case.toml --output results/haar --set time.trial=haar --set contact.gap=2e-3\n"
+         "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n\n"
+         "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
+         "\"nonlinear_mode\" (reproduce/scenes/laxalde_legrand_2010/rod.toml).\n\n"
+         "`run` writes summary.json, response.csv (or sweep.csv, backbone.csv), a picture (SVG) and the "
+         "scene\n"
+         "as it was solved. All of them appear at once, or none. Without gnuplot the picture is left out.\n\n"
+         "Exit codes: 0 solved; 2 bad input or output that cannot be written, nothing written; 3 not\n"
+         "converged, the record is written and says so; 130 interrupted (Ctrl-C), nothing written.";
+}
+
+void add_scene(CLI::App& command, RunArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
+  command
+      .add_option("--set", arguments.overrides,
+                  "section.key=value in place of what the file says; may be given more than once")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app(description, "wavebalance");
+  RunArguments arguments;
+  app.set_version_flag("--version", "wavebalance " + std::string(version()));
+  app.footer(footer);
+  app.require_subcommand(1);
+  CLI::App& run = *app.add_subcommand("run", "solve a scene and write its results");
+  add_scene(run, arguments);
+  run.add_option("--output,-o", arguments.output, "folder of the results, made if missing")->required();
+  run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
+  CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
+  add_scene(check, arguments);
+  CLI::App& keys = *app.add_subcommand("keys", "list every key of a scene: meaning, unit, range, default");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? solved : bad_input;
+  }
+  if (keys.parsed()) return print(describe_scene_keys());
+  return check.parsed() ? check_scene(arguments.scene, arguments.overrides) : run_scene(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, told like a full disk
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("wavebalance: not enough memory for this scene\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "wavebalance: %s\n", error.what());
+  }
+  return wavebalance::app::bad_input;
+}

@@ -1,0 +1,49 @@
+#include "command/progress_bar.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace wavebalance::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int bar_width = 24;
+
+std::string bar_text(double fraction) {
+  if (std::isnan(fraction)) return "";
+  const int filled = static_cast<int>(std::lround(std::clamp(fraction, 0.0, 1.0) * bar_width));
+  return "[" + std::string(static_cast<std::size_t>(filled), '#') +
+         std::string(static_cast<std::size_t>(bar_width - filled), '.') + "] ";
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar()
+    : terminal_(::isatty(STDERR_FILENO) == 1), next_(Clock::now() + (terminal_ ? 500ms : 5s)) {}
+
+ProgressBar::~ProgressBar() { finish(); }
+
+void ProgressBar::show(const Progress& progress) {
+  const auto now = Clock::now();
+  if (now < next_) return;
+  next_ = now + (terminal_ ? 100ms : 10s);
+  const std::string text = progress.stage + ": " + progress.detail;
+  if (terminal_)
+    std::fprintf(stderr, "\r%s%s\033[K", bar_text(progress.fraction).c_str(), text.substr(0, 50).c_str());
+  else
+    std::fprintf(stderr, "%s\n", text.c_str());
+  std::fflush(stderr);
+  visible_ = terminal_;
+}
+
+void ProgressBar::finish() {
+  if (visible_) std::fputs("\r\033[K", stderr);
+  visible_ = false;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,149 @@
+#include "wavebalance/app/compose/compose.hpp"
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "wavebalance/contact/exponential_law.hpp"
+#include "wavebalance/contact/linear_law.hpp"
+#include "wavebalance/contact/no_contact.hpp"
+#include "wavebalance/fem/eigenmodes.hpp"
+#include "wavebalance/spectral/fourier_basis.hpp"
+#include "wavebalance/wavelets/connection.hpp"
+#include "wavebalance/wavelets/periodic_basis.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+wavelets::PeriodicBasis wavelet_basis(const std::string& name, int functions) {
+  if (functions < 1 || !std::has_single_bit(static_cast<unsigned>(functions)))
+    throw std::invalid_argument("functions is " + std::to_string(functions) + "; with the basis \"" + name +
+                                "\" it must be a power of two");
+  const int level = std::countr_zero(static_cast<unsigned>(functions));
+  if (name == "haar") return {wavelets::ScalingFunction::haar(), level};
+  if (name == "bspline") return {wavelets::ScalingFunction::orthonormal_bspline(), level};
+  return {wavelets::ScalingFunction::daubechies(daubechies_coefficients(name)), level};
+}
+
+solvers::Formulation solver_value(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::strong:
+      return solvers::Formulation::strong;
+    case Formulation::weak:
+      return solvers::Formulation::weak;
+    case Formulation::distributional:
+      break;
+  }
+  return solvers::Formulation::distributional;
+}
+
+solvers::InnerProducts solver_value(InnerProducts products) {
+  return products == InnerProducts::exact ? solvers::InnerProducts::exact
+                                          : solvers::InnerProducts::quadrature;
+}
+
+bool is_haar(const std::string& basis) { return basis == "haar" || basis == "daubechies2"; }
+
+/// Opposite a Haar function, whose Fourier coefficient at the Nyquist harmonic is imaginary, only the sine
+/// remains.
+solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string& other, const Time& time) {
+  const bool blind = is_haar(other) && effective_inner_products(time) == InnerProducts::exact;
+  if (name == "fourier" && blind) return spectral::FourierBasis(time.functions, spectral::Nyquist::sine);
+  return make_basis(name, time.functions);
+}
+
+}  // namespace
+
+solvers::LinearStructure make_structure(const Scene& scene) { return make_model(scene).structure; }
+
+solvers::AnyContactLaw make_law(const Contact& contact, int index) {
+  const double gap = contact.gap_of(index);
+  switch (contact.law) {
+    case ContactLawType::exponential:
+      return contact::ExponentialLaw(contact.constant, contact.exponent, gap);
+    case ContactLawType::linear:
+      return contact::LinearLaw(contact.stiffness, gap);
+    case ContactLawType::rigid:
+      throw std::invalid_argument("make_law: rigid contact has no force as a function of the displacement");
+    case ContactLawType::none:
+      break;
+  }
+  return contact::NoContact();
+}
+
+solvers::ContactLaws make_laws(const Scene& scene) {
+  if (scene.contact.gaps.empty()) return make_law(scene.contact);
+  std::vector<solvers::AnyContactLaw> laws;
+  for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
+    laws.push_back(make_law(scene.contact, contact));
+  return laws;
+}
+
+solvers::AnyTimeBasis make_basis(const std::string& name, int functions) {
+  if (!is_wavelet(name)) return spectral::FourierBasis(functions);
+  return wavelet_basis(name, functions);
+}
+
+InnerProducts effective_inner_products(const Time& time) {
+  const bool daubechies_galerkin = time.trial == time.weight && daubechies_coefficients(time.trial) > 0;
+  return daubechies_galerkin ? InnerProducts::exact : time.inner_products;
+}
+
+solvers::Admissibility pair_admissibility(const Time& time) {
+  return solvers::admissibility(basis_opposite(time.trial, time.weight, time),
+                                basis_opposite(time.weight, time.trial, time), solver_value(time.formulation),
+                                solver_value(effective_inner_products(time)));
+}
+
+solvers::TimePair make_pair(const Time& time) {
+  solvers::TimePairOptions options;
+  options.formulation = solver_value(time.formulation);
+  options.inner_products = solver_value(effective_inner_products(time));
+  options.quadrature_points = time.quadrature_points;
+  if (is_wavelet(time.trial) && is_wavelet(time.weight)) {
+    // A filter takes longer to compute than a pair of small bases: one for all.
+    const wavelets::PeriodicBasis trial = wavelet_basis(time.trial, time.functions);
+    const wavelets::PeriodicBasis weight =
+        time.weight == time.trial ? trial : wavelet_basis(time.weight, time.functions);
+    options.exact_column = [trial, weight](int derivative) {
+      return wavelets::periodic_inner_products(trial, weight, derivative);
+    };
+    return {trial, weight, std::move(options)};
+  }
+  return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
+          std::move(options)};
+}
+
+StructureModes make_modes(const StructureModel& model) {
+  const solvers::LinearStructure& structure = model.structure;
+  auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
+  if (modes.status != fem::EigenmodesStatus::converged)
+    throw std::runtime_error("make_modes: the eigenvalue solver did not find all linear modes");
+  Eigen::MatrixXd contact_shapes(model.contacts(), modes.shapes.cols());
+  for (int contact = 0; contact < model.contacts(); ++contact)
+    contact_shapes.row(contact) =
+        modes.shapes.row(model.structure.contact_dofs[static_cast<std::size_t>(contact)]);
+  return {{modes.omega.cwiseAbs2(), std::move(contact_shapes), model.gaps}, std::move(modes.shapes)};
+}
+
+solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model) {
+  solvers::NonlinearModeOptions options;
+  options.mode = scene.analysis.mode;
+  options.harmonics = scene.analysis.harmonics;
+  options.samples = scene.analysis.samples;
+  options.cosine_only = scene.analysis.cosine_only;
+  return {model, options};
+}
+
+solvers::CondensedProblem make_problem(const Scene& scene) { return make_problem(scene, make_model(scene)); }
+
+solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model) {
+  Eigen::VectorXcd cosine(2);
+  cosine << 0.0, 1.0;
+  solvers::CondensedProblem problem(make_pair(scene.time), model.structure, std::move(cosine));
+  if (scene.forcing.frequency > 0.0) problem.set_frequency(scene.forcing.frequency);
+  return problem;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,166 @@
+#include "compose/scene_rules.hpp"
+
+#include <bit>
+#include <cmath>
+#include <initializer_list>
+
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr int most_dense_unknowns = 2000;  // time stepping: dense matrices of twice that size; modes: of that
+
+bool is_power_of_two(int value) { return value > 0 && std::has_single_bit(static_cast<unsigned>(value)); }
+
+void check_wavelet_sizes(const Document& document, const Scene& scene) {
+  const Time& time = scene.time;
+  if (!is_wavelet(time.trial) && !is_wavelet(time.weight)) return;
+  const std::string basis =
+      "the wavelet basis \"" + (is_wavelet(time.trial) ? time.trial : time.weight) + "\"";
+  if (!is_power_of_two(time.functions))
+    fail_rule(document, {"time.functions"}, "expected a power of two for " + basis);
+  if (!is_power_of_two(time.quadrature_points))
+    fail_rule(document, {"time.quadrature_points"}, "expected a power of two for " + basis);
+  if (is_wavelet(time.trial) && !is_power_of_two(scene.analysis.output_points))
+    fail_rule(document, {"analysis.output_points"}, "expected a power of two for " + basis);
+  if (is_wavelet(time.trial) && scene.analysis.motion_points > 0 &&
+      !is_power_of_two(scene.analysis.motion_points))
+    fail_rule(document, {"analysis.motion_points"}, "expected 0 or a power of two for " + basis);
+}
+
+void check_pair(const Document& document, const Time& time) {
+  const auto pair = pair_admissibility(time);
+  if (!pair.admissible)
+    fail_rule(document, {"time.trial", "time.weight"},
+              "not an admissible trial basis for weight = \"" + time.weight + "\": " + pair.reason);
+}
+
+/// What a tolerance chooses must not be given too.
+void check_tolerance(const Document& document, const Scene& scene) {
+  Time time = scene.time;
+  if (time.functions != 0 || time.quadrature_points != 0)
+    fail_rule(document, {"time.functions", "time.quadrature_points"},
+              "not beside time.tolerance, which chooses it; expected one or the other");
+  if (time.trial.empty() != time.weight.empty())
+    fail_rule(document, {"time.trial", "time.weight"},
+              "beside time.tolerance expected both time.trial and time.weight, or none of them");
+  if (scene.contact.law == ContactLawType::rigid)
+    fail_rule(
+        document, {"time.tolerance"},
+        "not with contact.law = \"rigid\", whose force does not converge at its points; expected trial, "
+        "weight and functions");
+  if (time.trial.empty()) return;
+  time.functions = 16;  // no matter how many: exponents and derivatives decide
+  time.quadrature_points = 4 * time.functions;
+  check_pair(document, time);
+  if (is_wavelet(time.trial) && !is_power_of_two(scene.analysis.output_points))
+    fail_rule(document, {"analysis.output_points"},
+              "expected a power of two for the wavelet basis \"" + time.trial + "\"");
+}
+
+void check_time(const Document& document, const Scene& scene) {
+  const Time& time = scene.time;
+  if (time.tolerance > 0.0) return check_tolerance(document, scene);
+  const std::string functions = std::to_string(time.functions);
+  if (time.quadrature_points < time.functions)
+    fail_rule(
+        document, {"time.quadrature_points", "time.functions"},
+        "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
+  check_wavelet_sizes(document, scene);
+  check_pair(document, time);
+}
+
+void check_sweep(const Document& document, const Analysis& analysis) {
+  if (analysis.frequency_from == analysis.frequency_to)
+    fail_rule(document, {"analysis.frequency_to"}, "expected another frequency than frequency_from");
+  if (analysis.first_step > analysis.largest_step)
+    fail_rule(document, {"analysis.first_step", "analysis.largest_step"},
+              "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
+}
+
+/// What limits the number of linear modes.
+std::string size_text(const Scene& scene) {
+  const int size = size_of(scene);
+  if (scene.structure.type == StructureType::bar) return "structure.elements = " + std::to_string(size);
+  return "the structure's degrees of freedom" +
+         std::string(scene.structure.kept_modes < 0 ? "" : " once reduced");
+}
+
+void check_dense_size(const Document& document, const Scene& scene) {
+  const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
+  const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  const bool damped = scene.structure.modal_damping > 0.0;
+  if ((!stepping && !mode && !damped) || size_of(scene) <= most_dense_unknowns) return;
+  const std::string most = "expected at most " + std::to_string(most_dense_unknowns) + " ";
+  const std::string why = mode       ? "for a nonlinear mode, which takes all linear modes"
+                          : stepping ? "for time stepping, whose matrices are dense"
+                                     : "for modal damping, which takes all linear modes";
+  if (scene.structure.type == StructureType::bar) fail_rule(document, {"structure.elements"}, most + why);
+  const std::string advice = "; structure.kept_modes reduces them";
+  const std::string count = std::to_string(size_of(scene)) + " degrees of freedom; ";
+  fail_rule(document, {"structure.kept_modes", "structure.stiffness"}, count + most + why + advice);
+}
+
+void check_mode(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  if (scene.contact.law != ContactLawType::rigid)
+    fail_rule(document, {"contact.law"}, "expected \"rigid\" for a nonlinear mode");
+  for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
+    if (!(scene.contact.gap_of(contact) > 0.0))
+      fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
+  if (analysis.mode > size_of(scene))
+    fail_rule(document, {"analysis.mode"},
+              "expected at most " + std::to_string(size_of(scene)) + ", " + size_text(scene));
+  if (analysis.samples < 2 * analysis.harmonics)
+    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
+              "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+}
+
+void check_rigid(const Document& document, const Scene& scene) {
+  if (scene.contact.law != ContactLawType::rigid) return;
+  if (scene.analysis.type == AnalysisType::time_stepping)
+    fail_rule(
+        document, {"contact.law", "analysis.type"},
+        "not with time stepping: at a rigid obstacle the motion of a structure cut into elements goes "
+        "on only with a law of impact, which the scene does not have; expected a stiff \"linear\" law, or "
+        "analysis.type = \"forced_response\"");
+}
+
+/// Each number may be in range and their products not.
+void check_products(const Document& document, const Scene& scene) {
+  const Structure& bar = scene.structure;
+  const auto check = [&](double value, std::initializer_list<std::string_view> names,
+                         const std::string& what) {
+    if (!(value >= 1e-300 && value <= 1e300))
+      fail_rule(document, names, what + " is " + toml_text(value) + "; expected a product in 1e-300..1e300");
+  };
+  const double size = bar.length / bar.elements;
+  const double stiffness = bar.youngs_modulus * bar.area / size;
+  check(stiffness, {"structure.area", "structure.youngs_modulus"},
+        "the stiffness of an element, youngs_modulus x area x elements / length");
+  check(bar.density * bar.area * size, {"structure.area", "structure.density"},
+        "the mass of an element, density x area x length / elements");
+  if (scene.forcing.amplitude != 0.0)
+    check(std::abs(scene.forcing.amplitude) * bar.length / (bar.youngs_modulus * bar.area),
+          {"forcing.amplitude"},
+          "the static displacement of the tip, amplitude x length / (youngs_modulus x area)");
+}
+
+}  // namespace
+
+void check_scene_rules(const Document& document, Scene& scene) {
+  check_structure_rules(document, scene);
+  const AnalysisType type = scene.analysis.type;
+  const bool stepping = type == AnalysisType::time_stepping, mode = type == AnalysisType::nonlinear_mode;
+  if (!stepping && !mode) check_time(document, scene);
+  if (mode) check_mode(document, scene);
+  check_rigid(document, scene);
+  if (scene.structure.type == StructureType::bar) check_products(document, scene);
+  if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
+  check_dense_size(document, scene);
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,158 @@
+#include "compose/structure_files.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "wavebalance/fem/matrix_market.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::string_view mass_key = "structure.mass";
+constexpr std::string_view stiffness_key = "structure.stiffness";
+constexpr std::string_view damping_key = "structure.damping";
+constexpr std::string_view load_key = "forcing.load";
+
+template <class Read>
+auto read(const std::string& path, std::string_view key, Read reader) {
+  try {
+    return reader(std::filesystem::path(path));
+  } catch (const fem::MatrixMarketError& error) {
+    throw StructureFault(std::string(key), error.what());
+  }
+}
+
+Eigen::SparseMatrix<double> read_matrix(const std::string& path, std::string_view key) {
+  return read(path, key, [](const std::filesystem::path& file) { return fem::read_matrix_market(file); });
+}
+
+void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view key, Eigen::Index size) {
+  if (matrix.rows() == size && matrix.cols() == size && size > 0) return;
+  const std::string found = "the matrix is " + std::to_string(matrix.rows()) + " x " +
+                            std::to_string(matrix.cols()) + "; expected ";
+  if (key == stiffness_key) throw StructureFault(std::string(key), found + "a square one that is not empty");
+  throw StructureFault(std::string(key), found + std::to_string(size) + " x " + std::to_string(size) +
+                                             ", the size of structure.stiffness");
+}
+
+/// fem's checks, whose errors open with the name of the matrix at fault.
+void check_matrices(const fem::Matrices& matrices) {
+  try {
+    fem::check_structure(matrices, {.first_index = 1});
+  } catch (const std::invalid_argument& error) {
+    std::string reason = error.what();
+    if (const auto colon = reason.find(": "); colon != std::string::npos) reason.erase(0, colon + 2);
+    for (const auto key : {mass_key, stiffness_key, damping_key}) {
+      const std::string_view name = key.substr(key.find('.') + 1);
+      if (reason.starts_with(name))
+        throw StructureFault(std::string(key), "the matrix" + reason.substr(name.size()));
+    }
+    throw;
+  }
+}
+
+StructureFiles read_files(const std::array<std::string, 4>& paths) {
+  StructureFiles files;
+  files.paths = paths;
+  fem::Matrices& matrices = files.matrices;
+  matrices.stiffness = read_matrix(paths[1], stiffness_key);
+  const Eigen::Index size = matrices.stiffness.rows();
+  require_size(matrices.stiffness, stiffness_key, size);
+  matrices.mass = read_matrix(paths[0], mass_key);
+  require_size(matrices.mass, mass_key, size);
+  if (!paths[2].empty()) {
+    matrices.damping = read_matrix(paths[2], damping_key);
+    require_size(matrices.damping, damping_key, size);
+  }
+  check_matrices(matrices);
+  if (paths[3].empty()) return files;
+  files.load = read(paths[3], load_key,
+                    [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
+  if (files.load.size() != size)
+    throw StructureFault(std::string(load_key), "the vector has " + std::to_string(files.load.size()) +
+                                                    " entries; expected " + std::to_string(size) +
+                                                    ", one for each row of structure.stiffness");
+  return files;
+}
+
+/// Rows counted from 1 with a sign: in 1..n, none twice.
+void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_view key) {
+  std::vector<int> rows;
+  for (const int dof : dofs) {
+    const int row = std::abs(dof);
+    if (row < 1 || row > size)
+      throw StructureFault(std::string(key), "there is no degree of freedom " + std::to_string(dof) +
+                                                 "; expected 1.." + std::to_string(size) +
+                                                 ", or one of them with a minus sign");
+    if (std::find(rows.begin(), rows.end(), row) != rows.end())
+      throw StructureFault(std::string(key), "degree of freedom " + std::to_string(row) +
+                                                 " is there twice; expected each once");
+    rows.push_back(row);
+  }
+}
+
+void check_load(const Scene& scene) {
+  const bool file = !scene.forcing.load.empty(), list = !scene.forcing.load_dofs.empty();
+  if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
+  if (!file && !list && scene.analysis.type != AnalysisType::nonlinear_mode)
+    throw StructureFault(std::string(load_key),
+                         "missing; expected load (a Matrix Market file) or load_dofs (a list), which "
+                         "say where the force acts");
+}
+
+}  // namespace
+
+StructureFault::StructureFault(std::string key, const std::string& reason)
+    : std::runtime_error(reason), key_(std::move(key)) {}
+
+std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
+  const MatricesStructure& structure = scene.structure.matrices;
+  const std::array<std::string, 4> paths{structure.mass, structure.stiffness, structure.damping,
+                                         scene.forcing.load};
+  if (structure.files.contents && structure.files.contents->paths == paths) return structure.files.contents;
+  return std::make_shared<const StructureFiles>(read_files(paths));
+}
+
+void check_against_files(const Scene& scene, const StructureFiles& files) {
+  const Eigen::Index size = files.matrices.stiffness.rows();
+  check_dofs(scene.structure.matrices.contact_dofs, size, "structure.contact_dofs");
+  check_dofs(scene.forcing.load_dofs, size, "forcing.load_dofs");
+  check_load(scene);
+  const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
+  if (scene.structure.kept_modes < 0) return;
+  if (boundary >= size)
+    throw StructureFault("structure.kept_modes",
+                         "all degrees of freedom are in contact or loaded; expected "
+                         "no reduction, that is no kept_modes");
+  if (scene.structure.kept_modes > size - boundary)
+    throw StructureFault("structure.kept_modes",
+                         "expected at most " + std::to_string(size - boundary) + ", of " +
+                             std::to_string(size) +
+                             " degrees of freedom those neither in contact nor loaded");
+}
+
+Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {
+  if (files.load.size() > 0) return files.load;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(files.matrices.stiffness.rows());
+  for (const int dof : scene.forcing.load_dofs) load[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
+  return load;
+}
+
+std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
+  const Eigen::VectorXd load = unit_load(scene, files);
+  std::vector<int> rows;
+  for (Eigen::Index row = 0; row < load.size(); ++row)
+    if (load[row] != 0.0) rows.push_back(static_cast<int>(row));
+  if (rows.size() > most_loaded_dofs) rows.clear();
+  return rows;
+}
+
+std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files) {
+  std::vector<int> rows;
+  for (const int dof : scene.structure.matrices.contact_dofs) rows.push_back(std::abs(dof) - 1);
+  for (const int row : loaded_rows(scene, files))
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+  return rows;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "wavebalance/fem/matrices.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// The files of a structure of matrices, read and checked.
+struct StructureFiles {
+  std::array<std::string, 4> paths;  ///< of mass, stiffness, damping and load; empty: none
+  fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
+  Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
+};
+
+/// A key of a structure of matrices that does not fit its files, and why.
+class StructureFault : public std::runtime_error {
+ public:
+  StructureFault(std::string key, const std::string& reason);
+  const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
+/// Those that load_scene() has read if the scene still names them, otherwise read and checked now: sizes,
+/// symmetry, definiteness. Throws StructureFault. Two sparse factorisations.
+std::shared_ptr<const StructureFiles> structure_files(const Scene& scene);
+
+/// Holds the lists and numbers of a scene to the size n of its matrices: contact_dofs, load_dofs, kept_modes,
+/// and whether a force that is needed has a place. Throws StructureFault.
+void check_against_files(const Scene& scene, const StructureFiles& files);
+
+/// Rows (from 0) of the loaded degrees of freedom, ascending. Empty if the load has more than
+/// most_loaded_dofs of them: it then acts through the modes of a reduction.
+std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files);
+inline constexpr int most_loaded_dofs = 30;
+
+/// The force of amplitude 1 on all n degrees of freedom.
+Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
+
+/// The unknowns that a reduction keeps beside its modes: those in contact, in their order, then those loaded.
+std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files);
+
+}  // namespace wavebalance::app

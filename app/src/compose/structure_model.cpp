@@ -1,0 +1,286 @@
+#include "wavebalance/app/compose/structure_model.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "compose/structure_files.hpp"
+#include "wavebalance/fem/bar.hpp"
+#include "wavebalance/fem/centrifugal.hpp"
+#include "wavebalance/fem/craig_bampton.hpp"
+#include "wavebalance/fem/eigenmodes.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// The tip's row of the consistent or lumped mass goes to its neighbour, where it acts as one rigid piece.
+void move_tip_mass(Sparse& mass) {
+  const Eigen::Index tip = mass.rows() - 1;
+  const double moved = mass.coeff(tip, tip) + 2.0 * mass.coeff(tip, tip - 1);
+  mass.coeffRef(tip - 1, tip - 1) += moved;
+  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
+    mass.coeffRef(row, column) = 0.0;
+  mass.prune(0.0);
+}
+
+StructureModel bar_model(const Scene& scene) {
+  const Structure& bar = scene.structure;
+  fem::Matrices matrices = fem::bar({.youngs_modulus = bar.youngs_modulus,
+                                     .density = bar.density,
+                                     .area = bar.area,
+                                     .length = bar.length,
+                                     .elements = bar.elements,
+                                     .stiffness_damping = bar.stiffness_damping,
+                                     .lumped_fraction = bar.lumped_mass_fraction});
+  if (bar.massless_tip) move_tip_mass(matrices.mass);
+  StructureModel model;
+  model.structure.mass = std::move(matrices.mass);
+  model.structure.damping = std::move(matrices.damping);
+  model.structure.stiffness = std::move(matrices.stiffness);
+  model.structure.contact_dofs = {bar.elements - 1};
+  model.structure.load = Eigen::VectorXd::Zero(bar.elements);
+  model.structure.load[bar.elements - 1] = scene.forcing.amplitude;
+  model.unknowns = bar.elements;
+  return model;
+}
+
+/// The structure with every unknown, and the reduced one where kept_modes says so.
+void set_structure(StructureModel& model, fem::Matrices matrices, const Eigen::VectorXd& load) {
+  const Eigen::Index size = load.size();
+  if (matrices.damping.size() == 0) matrices.damping = Sparse(size, size);
+  model.structure.mass = std::move(matrices.mass);
+  model.structure.damping = std::move(matrices.damping);
+  model.structure.stiffness = std::move(matrices.stiffness);
+  model.structure.load = load;
+}
+
+void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::VectorXd& load,
+            const std::vector<int>& boundary, int kept_modes) {
+  fem::CraigBampton reduced = fem::craig_bampton(matrices, boundary, {.modes = kept_modes, .solver = {}});
+  if (reduced.status != fem::EigenmodesStatus::converged)
+    throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
+                             ": the eigenvalue solver did not find them all");
+  model.structure.mass = reduced.mass.sparseView();
+  model.structure.damping = reduced.damping.sparseView();
+  model.structure.stiffness = reduced.stiffness.sparseView();
+  model.structure.load = reduced.project_load(load);
+  model.recovery = std::move(reduced.transformation);
+}
+
+/// C = M Phi diag(2 ratio omega) Phi^T M with all modes Phi. O(size^3).
+void add_modal_damping(solvers::LinearStructure& structure, double ratio) {
+  if (ratio == 0.0) return;
+  const auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
+  const Eigen::MatrixXd momenta = structure.mass * modes.shapes;
+  const Eigen::MatrixXd damping = momenta * (2.0 * ratio * modes.omega).asDiagonal() * momenta.transpose();
+  structure.damping = (0.5 * (damping + damping.transpose())).sparseView();
+}
+
+/// Nodes of the tip that share the force; at mid chord the one or two nearest pairs.
+std::vector<int> loaded_nodes(const fem::Blade& blade, TipPlace place) {
+  const auto& nodes = blade.contact_nodes;  // in pairs from the leading edge on
+  const auto pairs = static_cast<std::ptrdiff_t>(nodes.size() / 2);
+  switch (place) {
+    case TipPlace::leading_edge:
+      return {nodes.begin(), nodes.begin() + 2};
+    case TipPlace::trailing_edge:
+      return {nodes.end() - 2, nodes.end()};
+    case TipPlace::mid_chord:
+      break;
+  }
+  return {nodes.begin() + 2 * ((pairs - 1) / 2), nodes.begin() + 2 * (pairs / 2 + 1)};
+}
+
+Eigen::VectorXd blade_load(const Scene& scene, const fem::Blade& blade) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(blade.model.dofs.count());
+  const auto nodes = loaded_nodes(blade, scene.forcing.place);
+  const int axis = static_cast<int>(scene.forcing.direction);
+  for (const int node : nodes)
+    load[blade.model.dofs.unknown(3 * node + axis)] =
+        scene.forcing.amplitude / static_cast<double>(nodes.size());
+  return load;
+}
+
+/// The stiffness of the turning blade; its damping stays that of the material at rest.
+void turn(fem::Matrices& matrices, const fem::SolidModel& solid, const BladeStructure& blade) {
+  if (blade.rotation_speed == 0.0) return;
+  const auto& axis = blade.rotation_axis;
+  const auto stiffening = fem::centrifugal_stiffness(
+      solid, matrices.stiffness,
+      {.direction = {axis[0], axis[1], axis[2]}, .point = {0, 0, -blade.hub_radius}});
+  matrices.stiffness = stiffening.stiffness(matrices.stiffness, blade.rotation_speed);
+}
+
+StructureModel blade_model(const Scene& scene) {
+  StructureModel model;
+  const auto blade = std::make_shared<const fem::Blade>(fem::blade(blade_options(scene.structure)));
+  fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
+  turn(matrices, blade->model, scene.structure.blade);
+  reduce(model, matrices, blade_load(scene, *blade), blade->boundary_unknowns, scene.structure.kept_modes);
+  model.structure.contact_dofs.clear();
+  for (std::size_t contact = 0; contact < blade->contact_unknowns.size(); ++contact)
+    model.structure.contact_dofs.push_back(static_cast<int>(3 * contact + 2));  // z of each corner node
+  model.unknowns = blade->model.dofs.count();
+  model.blade = blade;
+  return model;
+}
+
+/// 1, or -1 for the unknowns whose obstacle is on the negative side; empty if there are none.
+Eigen::VectorXd signs_of(const std::vector<int>& contact_dofs, Eigen::Index size) {
+  if (std::all_of(contact_dofs.begin(), contact_dofs.end(), [](int dof) { return dof > 0; })) return {};
+  Eigen::VectorXd signs = Eigen::VectorXd::Ones(size);
+  for (const int dof : contact_dofs)
+    if (dof < 0) signs[-dof - 1] = -1.0;
+  return signs;
+}
+
+fem::Matrices turned_round(const fem::Matrices& matrices, const Eigen::VectorXd& signs) {
+  if (signs.size() == 0) return matrices;
+  const auto turned = [&](const Sparse& matrix) -> Sparse {
+    return matrix.size() == 0 ? matrix : Sparse(signs.asDiagonal() * matrix * signs.asDiagonal());
+  };
+  return {turned(matrices.mass), turned(matrices.damping), turned(matrices.stiffness)};
+}
+
+StructureModel matrices_model(const Scene& scene) {
+  const auto files = structure_files(scene);
+  check_against_files(scene, *files);
+  const Structure& structure = scene.structure;
+  StructureModel model;
+  model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
+  model.signs = signs_of(structure.matrices.contact_dofs, model.unknowns);
+  fem::Matrices matrices = turned_round(files->matrices, model.signs);
+  if (structure.stiffness_damping > 0.0) matrices.damping = structure.stiffness_damping * matrices.stiffness;
+  Eigen::VectorXd load = scene.forcing.amplitude * unit_load(scene, *files);
+  if (model.signs.size() > 0) load.array() *= model.signs.array();
+  const std::vector<int> boundary = boundary_rows(scene, *files);
+  const auto contacts = static_cast<std::ptrdiff_t>(structure.matrices.contact_dofs.size());
+  if (structure.kept_modes < 0) {
+    set_structure(model, std::move(matrices), load);
+    model.structure.contact_dofs.assign(boundary.begin(), boundary.begin() + contacts);
+    return model;
+  }
+  reduce(model, matrices, load, boundary, structure.kept_modes);
+  model.structure.contact_dofs.resize(structure.matrices.contact_dofs.size());
+  std::iota(model.structure.contact_dofs.begin(), model.structure.contact_dofs.end(), 0);
+  return model;
+}
+
+StructureModel model_of_type(const Scene& scene) {
+  switch (scene.structure.type) {
+    case StructureType::blade:
+      return blade_model(scene);
+    case StructureType::matrices:
+      return matrices_model(scene);
+    case StructureType::bar:
+      break;
+  }
+  return bar_model(scene);
+}
+
+}  // namespace
+
+Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) const {
+  if (coordinates.rows() != size())
+    throw std::invalid_argument("StructureModel::recover: there are " + std::to_string(coordinates.rows()) +
+                                " rows of coordinates; there must be " + std::to_string(size()));
+  Eigen::MatrixXd whole = reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates;
+  if (signs.size() > 0) whole.array().colwise() *= signs.array();
+  return whole;
+}
+
+StructureModel make_model(const Scene& scene) {
+  const auto start = std::chrono::steady_clock::now();
+  StructureModel model = model_of_type(scene);
+  add_modal_damping(model.structure, scene.structure.modal_damping);
+  const int contacts = model.contacts();
+  if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
+    throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +
+                                " numbers; there must be one, or one for each of " +
+                                std::to_string(contacts) + " contacts");
+  model.gaps.resize(contacts);
+  for (int contact = 0; contact < contacts; ++contact) model.gaps[contact] = scene.contact.gap_of(contact);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  if (scene.structure.type != StructureType::bar) model.reduction_seconds = elapsed.count();
+  return model;
+}
+
+int contacts_of(const Structure& structure) {
+  switch (structure.type) {
+    case StructureType::blade:
+      return 2 * (structure.blade.chord_elements + 1);
+    case StructureType::matrices:
+      return static_cast<int>(structure.matrices.contact_dofs.size());
+    case StructureType::bar:
+      break;
+  }
+  return 1;
+}
+
+int size_of(const Scene& scene) {
+  const Structure& structure = scene.structure;
+  switch (structure.type) {
+    case StructureType::bar:
+      return structure.elements;
+    case StructureType::blade:
+      return 3 * contacts_of(structure) + structure.kept_modes;
+    case StructureType::matrices:
+      break;
+  }
+  const auto files = structure_files(scene);
+  if (structure.kept_modes < 0) return static_cast<int>(files->matrices.stiffness.rows());
+  return static_cast<int>(boundary_rows(scene, *files).size()) + structure.kept_modes;
+}
+
+std::int64_t unknowns_of(const Scene& scene) {
+  switch (scene.structure.type) {
+    case StructureType::blade:
+      return blade_unknowns(scene.structure.blade);
+    case StructureType::matrices:
+      return structure_files(scene)->matrices.stiffness.rows();
+    case StructureType::bar:
+      break;
+  }
+  return scene.structure.elements;
+}
+
+std::int64_t blade_unknowns(const BladeStructure& blade) {
+  const std::int64_t x = blade.chord_elements, y = blade.thickness_elements, z = blade.span_elements;
+  const std::int64_t corners = (x + 1) * (y + 1);
+  if (blade.element == BladeElement::hexahedron8) return 3 * corners * z;
+  const std::int64_t level = corners + x * (y + 1) + (x + 1) * y;  // with the edges' midpoints
+  return 3 * (level + corners) * z;
+}
+
+fem::BladeOptions blade_options(const Structure& structure) {
+  const BladeStructure& blade = structure.blade;
+  fem::BladeOptions options;
+  options.chord = blade.chord;
+  options.thickness_ratio = blade.thickness_ratio;
+  options.camber_ratio = blade.camber_ratio;
+  options.angle_degrees = blade.angle_degrees;
+  options.edge_thickness = blade.edge_thickness;
+  options.length = structure.length;
+  options.material = {structure.youngs_modulus, blade.poissons_ratio, structure.density};
+  options.chord_elements = blade.chord_elements;
+  options.thickness_elements = blade.thickness_elements;
+  options.span_elements = blade.span_elements;
+  switch (blade.element) {
+    case BladeElement::hexahedron20:
+      options.element = fem::SolidElement::hexahedron20;
+      break;
+    case BladeElement::hexahedron20_reduced:
+      options.element = fem::SolidElement::hexahedron20_reduced;
+      break;
+    case BladeElement::hexahedron8:
+      options.element = fem::SolidElement::hexahedron8;
+      break;
+  }
+  return options;
+}
+
+}  // namespace wavebalance::app

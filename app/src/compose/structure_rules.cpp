@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+
+#include "compose/scene_rules.hpp"
+#include "compose/structure_files.hpp"
+#include "scene/scene_reader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+void check_damping(const Document& document, const Scene& scene) {
+  const Structure& structure = scene.structure;
+  const bool file = !structure.matrices.damping.empty();
+  const int given = static_cast<int>(structure.stiffness_damping > 0.0) +
+                    static_cast<int>(structure.modal_damping > 0.0) + static_cast<int>(file);
+  const auto names = {"structure.damping", "structure.modal_damping", "structure.stiffness_damping"};
+  if (given > 1) {
+    const auto first = std::find_if(names.begin(), names.end(), [&](const char* name) {
+      const SceneKey& key = *find_scene_key(name);
+      return document.find(key.section, key.name) != nullptr && key.get(scene) != key.get(Scene{});
+    });
+    fail_rule(
+        document, {*first},
+        "another damping is given as well; expected one of damping, modal_damping and stiffness_damping");
+  }
+  if (given == 1 && scene.analysis.type == AnalysisType::nonlinear_mode)
+    fail_rule(document,
+              {file                            ? "structure.damping"
+               : structure.modal_damping > 0.0 ? "structure.modal_damping"
+                                               : "structure.stiffness_damping"},
+              file ? "expected none for a nonlinear mode, which is a motion without damping"
+                   : "expected 0 for a nonlinear mode, which is a motion without damping");
+}
+
+void check_blade(const Document& document, const Structure& structure) {
+  const auto& axis = structure.blade.rotation_axis;
+  if (std::hypot(axis[0], axis[1], axis[2]) == 0.0)
+    fail_rule(document, {"structure.rotation_axis"}, "expected a direction, which is not zero");
+  const std::int64_t interior = blade_unknowns(structure.blade) - 3 * contacts_of(structure);
+  if (structure.kept_modes > interior)
+    fail_rule(document, {"structure.kept_modes", "structure.span_elements"},
+              "expected at most " + std::to_string(interior) +
+                  ", the mesh's degrees of freedom beside those of the tip's corner nodes");
+}
+
+void check_gaps(const Document& document, const Scene& scene) {
+  const int contacts = contacts_of(scene.structure);
+  const auto given = static_cast<int>(scene.contact.gaps.size());
+  if (given > 0 && given != contacts)
+    fail_rule(document, {"contact.gap"},
+              "there are " + std::to_string(given) + " numbers; expected one, or one for each of " +
+                  (contacts == 1 ? "1 degree" : std::to_string(contacts) + " degrees") +
+                  " of freedom in contact");
+}
+
+void check_files(const Document& document, Scene& scene) {
+  try {
+    const auto files = structure_files(scene);
+    scene.structure.matrices.files.contents = files;
+    check_against_files(scene, *files);
+  } catch (const StructureFault& fault) {
+    fail_rule(document, {fault.key()}, fault.what());
+  }
+}
+
+}  // namespace
+
+void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
+               const std::string& rule) {
+  for (const auto name : names) {
+    const SceneKey& key = *find_scene_key(name);
+    if (const auto* entry = document.find(key.section, key.name)) fail_at(document, *entry, rule);
+  }
+  const SceneKey& first = *find_scene_key(*names.begin());
+  throw SceneError({document.name, document.section_line(first.section), "", first.full_name(), "", rule});
+}
+
+void check_structure_rules(const Document& document, Scene& scene) {
+  const Structure& structure = scene.structure;
+  if (structure.massless_tip && structure.elements < 2)
+    fail_rule(document, {"structure.elements"},
+              "expected 2 or more with massless_tip, whose mass goes to a neighbour");
+  check_damping(document, scene);
+  if (structure.type == StructureType::blade) check_blade(document, structure);
+  if (structure.type == StructureType::matrices) check_files(document, scene);
+  check_gaps(document, scene);
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,24 @@
+#include "files/number_text.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace wavebalance::app {
+
+std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  std::string text(buffer.data(), end);
+  const auto exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  // 7e+10 and 1e-04 read better as 7e10 and 1e-4.
+  if (text[exponent + 1] == '+') text.erase(exponent + 1, 1);
+  const auto digits = exponent + (text[exponent + 1] == '-' ? 2 : 1);
+  if (text[digits] == '0') text.erase(digits, 1);
+  return text;
+}
+
+}  // namespace wavebalance::app

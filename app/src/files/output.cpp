@@ -1,0 +1,186 @@
+#include "wavebalance/app/files/output.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace wavebalance::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason_of(int error) { return std::strerror(error); }
+
+/// Closes a descriptor on every way out; close() reports whether that worked, since a full disk may show only
+/// there.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return descriptor_; }
+  bool close() {
+    const int descriptor = std::exchange(descriptor_, -1);
+    return descriptor < 0 || ::close(descriptor) == 0;
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// A new file beside `target`; O_EXCL makes sure that nothing is overwritten and no link is followed.
+std::pair<int, fs::path> open_temporary(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  for (;;) {
+    const std::string suffix = "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
+    // A long name keeps its temporary within what file systems allow.
+    const fs::path temporary =
+        target.parent_path() / ("." + target.filename().string().substr(0, 200) + suffix);
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return {descriptor, temporary};
+    if (errno != EEXIST) throw IoError(target, "cannot be created: " + reason_of(errno));
+  }
+}
+
+int write_all(int descriptor, std::string_view contents) {
+  while (!contents.empty()) {
+    const ssize_t written = ::write(descriptor, contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    contents.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// fsync() does not exist for pipes and devices, which is no failure.
+int flush(int descriptor) {
+  if (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS) return 0;
+  return errno;
+}
+
+/// Writes a temporary for `target` and returns its path; removes it again on failure.
+fs::path write_temporary(const fs::path& target, std::string_view contents) {
+  auto [raw, temporary] = open_temporary(target);
+  Descriptor descriptor(raw);
+  int error = write_all(descriptor.get(), contents);
+  if (error == 0) error = flush(descriptor.get());
+  if (!descriptor.close() && error == 0) error = errno;
+  if (error == 0) return temporary;
+  ::unlink(temporary.c_str());
+  throw IoError(target, "cannot be written: " + reason_of(error));
+}
+
+void flush_directory(const fs::path& directory) {
+  Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.get() >= 0) ::fsync(descriptor.get());  // a courtesy: the files themselves are safe
+}
+
+/// Makes `directory` and returns the folders that had to be made, outermost first.
+std::vector<fs::path> make_directories(const fs::path& directory) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path path = directory; !path.empty() && !fs::exists(path, error); path = path.parent_path())
+    missing.insert(missing.begin(), path);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (::mkdir(missing[i].c_str(), 0777) == 0 || errno == EEXIST) continue;
+    const std::string reason = reason_of(errno);
+    for (std::size_t made = i; made-- > 0;) ::rmdir(missing[made].c_str());
+    throw IoError(directory, "cannot be created: " + reason);
+  }
+  if (!fs::is_directory(directory, error)) throw IoError(directory, "is not a folder");
+  return missing;
+}
+
+/// A trailing slash would make the last component empty.
+fs::path without_trailing_slash(const fs::path& path) {
+  fs::path result = path.lexically_normal();
+  if (result.filename().empty() && result.has_relative_path()) result = result.parent_path();
+  return result.empty() ? fs::path(".") : result;
+}
+
+}  // namespace
+
+IoError::IoError(fs::path path, std::string reason)
+    : std::runtime_error(path.string() + ": " + reason), path_(std::move(path)), reason_(std::move(reason)) {}
+
+OutputFiles::OutputFiles(fs::path directory) : directory_(without_trailing_slash(directory)) {
+  created_ = make_directories(directory_);
+  try {
+    const fs::path probe = write_temporary(directory_ / "probe", "wavebalance\n");
+    ::unlink(probe.c_str());
+  } catch (const IoError& error) {
+    for (std::size_t i = created_.size(); i-- > 0;) ::rmdir(created_[i].c_str());
+    throw IoError(directory_, "cannot be written to: " + error.reason());
+  }
+}
+
+OutputFiles::~OutputFiles() { discard(); }
+
+void OutputFiles::add(const std::string& name, std::string_view contents) {
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
+    throw std::invalid_argument("OutputFiles::add: name is \"" + name + "\"; it must be a plain file name");
+  const std::scoped_lock lock(mutex_);
+  if (discarded_) return;
+  const fs::path target = directory_ / name;
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) throw IoError(target, "cannot be written: it is a folder");
+  staged_.push_back({write_temporary(target, contents), target});
+}
+
+void OutputFiles::commit() {
+  const std::scoped_lock lock(mutex_);
+  if (discarded_) return;
+  while (!staged_.empty()) {
+    const Staged& file = staged_.front();
+    if (::rename(file.temporary.c_str(), file.target.c_str()) != 0)
+      throw IoError(file.target, "cannot be written: " + reason_of(errno));
+    staged_.erase(staged_.begin());
+    committed_ = true;
+  }
+  flush_directory(directory_);
+}
+
+void OutputFiles::discard() noexcept {
+  const std::scoped_lock lock(mutex_);
+  remove_staged();
+  discarded_ = true;
+}
+
+void OutputFiles::remove_staged() noexcept {
+  for (const Staged& file : staged_) ::unlink(file.temporary.c_str());
+  staged_.clear();
+  if (committed_) return;
+  for (std::size_t i = created_.size(); i-- > 0;)
+    ::rmdir(created_[i].c_str());  // fails where others put files
+  created_.clear();
+}
+
+void write_file(const fs::path& file, std::string_view contents) {
+  OutputFiles files(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  files.add(file.filename().string(), contents);
+  files.commit();
+}
+
+std::string read_file(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) throw IoError(file, "cannot be read: it is a folder");
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw IoError(file, "cannot be read: " + reason_of(errno));
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (stream.bad()) throw IoError(file, "cannot be read: " + reason_of(errno));
+  return std::move(text).str();
+}
+
+std::string_view version() { return WAVEBALANCE_VERSION; }
+
+}  // namespace wavebalance::app

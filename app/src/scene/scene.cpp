@@ -1,0 +1,43 @@
+#include "wavebalance/app/scene/scene.hpp"
+
+#include <charconv>
+#include <stdexcept>
+
+#include "scene/enum_names.hpp"
+
+namespace wavebalance::app {
+
+std::string name_of(StructureType value) { return enum_name(value); }
+std::string name_of(BladeElement value) { return enum_name(value); }
+std::string name_of(Direction value) { return enum_name(value); }
+std::string name_of(TipPlace value) { return enum_name(value); }
+std::string name_of(ContactLawType value) { return enum_name(value); }
+std::string name_of(Formulation value) { return enum_name(value); }
+std::string name_of(InnerProducts value) { return enum_name(value); }
+std::string name_of(ModeFormulation value) { return enum_name(value); }
+std::string name_of(AnalysisType value) { return enum_name(value); }
+
+double Contact::gap_of(int contact) const {
+  return gaps.empty() ? gap : gaps.at(static_cast<std::size_t>(contact));
+}
+
+int daubechies_coefficients(const std::string& basis) {
+  if (basis == "fourier" || basis == "haar" || basis == "bspline") return 0;
+  constexpr std::string_view family = "daubechies";
+  int coefficients = 0;
+  if (basis.starts_with(family)) {
+    const char* end = basis.data() + basis.size();
+    const auto parsed = std::from_chars(basis.data() + family.size(), end, coefficients);
+    if (parsed.ec != std::errc{} || parsed.ptr != end) coefficients = 0;
+  }
+  if (coefficients < 2 || coefficients > 40 || coefficients % 2 != 0)
+    throw std::invalid_argument(
+        "basis is \"" + basis +
+        "\"; it must be \"fourier\", \"haar\", \"bspline\" or \"daubechiesN\" with an even "
+        "number N of coefficients in 2..40");
+  return coefficients;
+}
+
+bool is_wavelet(const std::string& basis) { return daubechies_coefficients(basis) > 0 || basis != "fourier"; }
+
+}  // namespace wavebalance::app

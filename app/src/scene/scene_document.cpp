@@ -1,0 +1,145 @@
+#include "scene/scene_document.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::size_t longest_found = 60;
+
+std::string shortened(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() <= longest_found ? text : text.substr(0, longest_found - 3) + "...";
+}
+
+int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+/// Integers as such if there is nothing else; monostate unless all are numbers.
+DocumentValue list_of(const toml::array& array) {
+  std::vector<std::int64_t> integers;
+  std::vector<double> numbers;
+  for (const auto& node : array) {
+    const bool integer = node.is_integer();
+    if (!integer && !node.is_floating_point()) return std::monostate{};
+    if (integer) integers.push_back(node.as_integer()->get());
+    numbers.push_back(integer ? static_cast<double>(integers.back()) : node.as_floating_point()->get());
+  }
+  if (integers.size() == numbers.size()) return integers;
+  return numbers;
+}
+
+DocumentValue value_of(const toml::node& node) {
+  if (const auto* array = node.as_array()) return list_of(*array);
+  if (node.is_boolean()) return node.as_boolean()->get();
+  if (node.is_integer()) return node.as_integer()->get();
+  if (node.is_floating_point()) return node.as_floating_point()->get();
+  if (node.is_string()) return node.as_string()->get();
+  return std::monostate{};
+}
+
+std::string found_text(const toml::node& node) {
+  if (node.is_integer()) return toml_text(node.as_integer()->get());
+  if (node.is_floating_point()) return toml_text(node.as_floating_point()->get());
+  if (node.is_string()) return shortened(toml_text(node.as_string()->get()));
+  if (node.is_table()) return "a table";
+  std::ostringstream text;
+  node.visit([&](const auto& concrete) { text << concrete; });
+  return shortened(text.str());
+}
+
+DocumentEntry entry_of(std::string section, std::string key, const toml::node& node) {
+  return {std::move(section), std::move(key), value_of(node), found_text(node), line_of(node), ""};
+}
+
+void add_section(Document& document, const std::string& name, const toml::table& table, int line) {
+  document.sections.push_back({name, line});
+  for (const auto& [key, node] : table) {
+    document.entries.push_back(entry_of(name, std::string(key.str()), node));
+    // A dotted key has no line of its own for the table between.
+    if (document.entries.back().line == 0)
+      document.entries.back().line = static_cast<int>(key.source().begin.line);
+  }
+}
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw SceneError({name, static_cast<int>(error.source().begin.line), "", "", "",
+                      "not valid TOML: " + std::string(error.description())});
+  }
+}
+
+/// The value of an override: TOML if it is one value, text otherwise.
+DocumentEntry parse_override(const std::string& text, const std::string& section, const std::string& key,
+                             const std::string& value) {
+  DocumentEntry entry{section, key, value, shortened(toml_text(value)), 0, "--set " + text};
+  try {
+    const toml::table table = toml::parse("value = " + value);
+    if (table.size() == 1) {
+      entry.value = value_of(*table.get("value"));
+      entry.found = found_text(*table.get("value"));
+    }
+  } catch (const toml::parse_error&) {
+    // Not TOML: text without its quotes.
+  }
+  return entry;
+}
+
+}  // namespace
+
+const DocumentEntry* Document::find(std::string_view section, std::string_view key) const {
+  for (const auto& entry : entries)
+    if (entry.section == section && entry.key == key) return &entry;
+  return nullptr;
+}
+
+int Document::section_line(std::string_view section) const {
+  for (const auto& [name_of_section, line] : sections)
+    if (name_of_section == section) return line;
+  return 0;
+}
+
+Document parse_document(std::string_view text, const std::string& name) {
+  const toml::table root = parse_toml(text, name);
+  Document document;
+  document.name = name;
+  for (const auto& [key, node] : root) {
+    const int line = static_cast<int>(key.source().begin.line);
+    if (const auto* table = node.as_table())
+      add_section(document, std::string(key.str()), *table, line);
+    else
+      document.entries.push_back(entry_of("", std::string(key.str()), node));
+  }
+  // Errors are reported in the order of the file, not of the alphabet.
+  std::stable_sort(document.entries.begin(), document.entries.end(),
+                   [](const DocumentEntry& a, const DocumentEntry& b) { return a.line < b.line; });
+  return document;
+}
+
+void apply_overrides(Document& document, std::span<const std::string> overrides) {
+  for (const std::string& text : overrides) {
+    const auto equals = text.find('=');
+    const auto dot = text.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
+      throw SceneError(
+          {document.name, 0, "--set " + text, "", "", "expected section.key=value, as in contact.gap=2e-3"});
+    const std::string section = text.substr(0, dot);
+    const std::string key = text.substr(dot + 1, equals - dot - 1);
+    DocumentEntry entry = parse_override(text, section, key, text.substr(equals + 1));
+    const auto same = [&](const DocumentEntry& other) { return other.full_name() == entry.full_name(); };
+    const auto place = std::find_if(document.entries.begin(), document.entries.end(), same);
+    if (place == document.entries.end())
+      document.entries.push_back(std::move(entry));
+    else
+      *place = std::move(entry);
+  }
+}
+
+}  // namespace wavebalance::app

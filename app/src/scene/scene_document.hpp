@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace wavebalance::app {
+
+/// A TOML value as far as scenes know it, lists of integers or of numbers among them; monostate is anything
+/// else (another array, table, date).
+using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                                   std::vector<std::int64_t>, std::vector<double>>;
+
+/// One `key = value` of a scene file or of an override.
+struct DocumentEntry {
+  std::string section;  ///< empty for a key outside of any table
+  std::string key;
+  DocumentValue value;
+  std::string found;     ///< the value as messages show it
+  int line = 0;          ///< 1 is the first
+  std::string override;  ///< "--set contact.gap=big", or empty
+
+  std::string full_name() const { return section.empty() ? key : section + "." + key; }
+};
+
+struct DocumentSection {
+  std::string name;
+  int line = 0;
+};
+
+/// A scene file taken apart, not yet checked against the table of keys.
+struct Document {
+  std::string name;
+  std::vector<DocumentSection> sections;
+  std::vector<DocumentEntry> entries;
+
+  const DocumentEntry* find(std::string_view section, std::string_view key) const;
+  int section_line(std::string_view section) const;  ///< 0 if the file has no such section
+};
+
+/// Parses TOML. Throws SceneError with the line of a syntax error.
+Document parse_document(std::string_view text, const std::string& name);
+
+/// Sets or replaces entries by "section.key=value". Throws SceneError if an override has no such form.
+void apply_overrides(Document& document, std::span<const std::string> overrides);
+
+}  // namespace wavebalance::app

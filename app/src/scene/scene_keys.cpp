@@ -1,0 +1,77 @@
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+#include <algorithm>
+
+#include "scene/scene_key_builders.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::vector<SceneKey> make_keys() {
+  std::vector<SceneKey> keys;
+  add_structure_keys(keys);
+  add_contact_keys(keys);
+  add_forcing_keys(keys);
+  add_time_keys(keys);
+  add_analysis_keys(keys);
+  return keys;
+}
+
+}  // namespace
+
+std::span<const SceneKey> scene_keys() {
+  static const std::vector<SceneKey> keys = make_keys();
+  return keys;
+}
+
+const SceneKey* find_scene_key(std::string_view full_name) {
+  const auto keys = scene_keys();
+  const auto found = std::find_if(keys.begin(), keys.end(),
+                                  [&](const SceneKey& key) { return key.full_name() == full_name; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+bool Bounds::contain(double value) const {
+  return (lower_excluded ? value > lower : value >= lower) && value <= upper;
+}
+
+bool Condition::Clause::holds(const Scene& scene) const {
+  const std::string value = std::get<std::string>(find_scene_key(key)->get(scene));
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+Condition Condition::unless(std::string_view key) const {
+  Condition result = *this;
+  result.unless_ = key;
+  return result;
+}
+
+bool Condition::holds(const Scene& scene) const { return broken_by(scene).empty(); }
+
+bool Condition::concerns(std::string_view key) const {
+  return key == unless_ || std::any_of(clauses_.begin(), clauses_.end(),
+                                       [&](const Clause& clause) { return clause.key == key; });
+}
+
+std::string_view Condition::broken_by(const Scene& scene) const {
+  if (const SceneKey* key = find_scene_key(unless_); key && key->get(scene) != key->get(Scene{}))
+    return unless_;
+  const auto broken = std::find_if(clauses_.begin(), clauses_.end(),
+                                   [&](const Clause& clause) { return !clause.holds(scene); });
+  return broken == clauses_.end() ? std::string_view{} : broken->key;
+}
+
+Condition operator&&(Condition left, const Condition& right) {
+  left.clauses_.insert(left.clauses_.end(), right.clauses_.begin(), right.clauses_.end());
+  return left;
+}
+
+bool SceneKey::required_in(const Scene& scene) const {
+  if (!belongs.holds(scene)) return false;
+  if (fallback == Default::derived) return !needed.empty() && needed.holds(scene);
+  return fallback == Default::required && needed.holds(scene);
+}
+
+std::string SceneKey::full_name() const { return std::string(section) + "." + std::string(name); }
+
+}  // namespace wavebalance::app

@@ -1,0 +1,164 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "files/number_text.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+/// `"a", "b" or "c"`; the twenty Daubechies names are said in one.
+std::string alternatives(const std::vector<std::string_view>& values) {
+  std::vector<std::string> names;
+  bool daubechies = false;
+  for (const auto value : values) {
+    if (!value.starts_with("daubechies"))
+      names.push_back(quoted(value));
+    else if (!std::exchange(daubechies, true))
+      names.push_back("\"daubechiesN\" with an even N in 2..40");
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
+/// Limits are whole numbers or short ones, written without an exponent.
+std::string limit_text(double value) {
+  std::array<char, 32> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed).ptr;
+  return {buffer.data(), end};
+}
+
+/// `text` broken at spaces, each line opened by `indent` spaces.
+std::string wrapped(const std::string& text, int indent, int width) {
+  std::istringstream words(text);
+  const std::string margin(static_cast<std::size_t>(indent), ' ');
+  std::string result;
+  std::string line = margin;
+  for (std::string word; words >> word;) {
+    const bool empty = line.size() == margin.size();
+    if (!empty && static_cast<int>(line.size() + 1 + word.size()) > width) {
+      result += line + "\n";
+      line = margin;
+    }
+    if (line.size() > margin.size()) line += ' ';
+    line += word;
+  }
+  return result + line + "\n";
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += std::string("\\") + c;
+    else if (c == '\n')
+      result += "\\n";
+    else if (c == '\t')
+      result += "\\t";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      constexpr char digits[] = "0123456789ABCDEF";
+      result += std::string("\\u00") + digits[static_cast<unsigned char>(c) >> 4] + digits[c & 15];
+    } else
+      result += c;
+  }
+  return result;
+}
+
+template <class Number>
+std::string list_text(const std::vector<Number>& list) {
+  std::string text;
+  for (const Number one : list) text += (text.empty() ? "" : ", ") + toml_text(one);
+  return "[" + text + "]";
+}
+
+std::string number_words(const SceneKey& key) {
+  std::string text = key.type == SceneKey::Type::integer ? "an integer" : "a number";
+  if (key.form == SceneKey::Form::list) {
+    const std::string many = key.type == SceneKey::Type::integer ? "integers" : "numbers";
+    text = key.length > 0 ? "a list of " + std::to_string(key.length) + " " + many : "a list of " + many;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string toml_text(const SceneValue& value) {
+  if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value)) return list_text(*integers);
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return list_text(*numbers);
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
+  if (const auto* text = std::get_if<std::string>(&value)) return "\"" + escaped(*text) + "\"";
+  const std::string number = number_text(std::get<double>(value));
+  return number.find_first_of(".en") == std::string::npos ? number + ".0" : number;
+}
+
+std::string Bounds::text() const {
+  if (lower <= std::numeric_limits<int>::min() + 1.0) return "";  // whatever an int holds
+  if (std::isfinite(upper))
+    return (lower_excluded ? "> " + limit_text(lower) + " and <= " : "in " + limit_text(lower) + "..") +
+           limit_text(upper);
+  return (lower_excluded ? "> " : ">= ") + limit_text(lower);
+}
+
+std::string Condition::text() const {
+  std::string text;
+  for (const Clause& clause : clauses_)
+    text += (text.empty() ? "" : " and ") + std::string(clause.key) + " = " + alternatives(clause.values);
+  return unless_.empty() ? text : text + " unless " + std::string(unless_) + " is given";
+}
+
+std::string SceneKey::expected() const {
+  if (type == Type::text) return alternatives(choices);
+  if (type == Type::boolean) return "true or false";
+  if (type == Type::path) return "the name of a Matrix Market file, relative to the scene's folder";
+  std::string text = number_words(*this);
+  if (!unit.empty()) text += " in " + std::string(unit);
+  const std::string range = bounds.text();
+  return range.empty() ? text : text + ", " + range;
+}
+
+std::string SceneKey::default_text() const {
+  switch (fallback) {
+    case Default::value: {
+      const SceneValue value = get(Scene{});
+      const bool unset =
+          value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
+      return unset ? "none" : toml_text(value);
+    }
+    case Default::derived:
+      return std::string(derived_text);
+    case Default::required:
+      break;
+  }
+  return needed.empty() ? "required" : "required with " + needed.text();
+}
+
+std::string describe_scene_keys(int width) {
+  std::string text;
+  std::string_view section;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.section != section) text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    section = key.section;
+    std::string status =
+        key.fallback == SceneKey::Default::required ? key.default_text() : "default " + key.default_text();
+    if (key.fallback == SceneKey::Default::derived && !key.needed.empty())
+      status += ", required with " + key.needed.text();
+    text += "  " + std::string(key.name) + "\n";
+    text += wrapped(std::string(key.help) + ".", 6, width);
+    text += wrapped(
+        key.expected() + "; " + status + (key.belongs.empty() ? "" : "; only with " + key.belongs.text()), 6,
+        width);
+  }
+  return text;
+}
+
+}  // namespace wavebalance::app

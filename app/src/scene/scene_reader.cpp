@@ -1,0 +1,196 @@
+#include "scene/scene_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "scene/spelling.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+[[noreturn]] void fail_missing(const Document& document, const SceneKey& key) {
+  const std::string section(key.section);
+  const std::string where = document.section_line(section) == 0 ? ", in a section [" + section + "]" : "";
+  throw SceneError({document.name, document.section_line(section), "", key.full_name(), "",
+                    "missing; expected " + key.expected() + where});
+}
+
+/// Names of `section`'s keys; of all sections when there is no such section.
+std::vector<std::string> known_names(const std::string& section) {
+  std::vector<std::string> names;
+  for (const SceneKey& key : scene_keys())
+    if (key.section == section) names.emplace_back(key.name);
+  if (!names.empty()) return names;
+  for (const SceneKey& key : scene_keys())
+    if (std::find(names.begin(), names.end(), key.section) == names.end()) names.emplace_back(key.section);
+  return names;
+}
+
+bool is_section(const std::string& name) {
+  const auto keys = scene_keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.section == name; });
+}
+
+/// What to say of an unknown name among known ones; `shown` writes the suggestion out.
+std::string unknown_text(const std::string& name, const std::vector<std::string>& known,
+                         const std::function<std::string(const std::string&)>& shown) {
+  const std::string close = closest(name, known);
+  return close.empty() ? "; known are " + joined(known) : "; did you mean " + shown(close) + "?";
+}
+
+std::string unknown_section_text(const std::string& section) {
+  const auto shown = [](const std::string& name) { return "[" + name + "]"; };
+  return "unknown section" + unknown_text(section, known_names(section), shown);
+}
+
+[[noreturn]] void fail_unknown(const Document& document, const DocumentEntry& entry) {
+  if (entry.section.empty() && is_section(entry.key))
+    fail_at(document, entry, "expected a section [" + entry.key + "] of keys");
+  if (entry.section.empty()) fail_at(document, entry, "unknown key outside of any section");
+  if (!is_section(entry.section)) fail_at(document, entry, unknown_section_text(entry.section));
+  const auto shown = [&](const std::string& name) { return entry.section + "." + name; };
+  fail_at(document, entry, "unknown key" + unknown_text(entry.key, known_names(entry.section), shown));
+}
+
+void reject_unknown(const Document& document) {
+  for (const DocumentSection& section : document.sections)
+    if (!is_section(section.name))
+      throw SceneError({document.name, section.line, "", "[" + section.name + "]", "",
+                        unknown_section_text(section.name)});
+  for (const DocumentEntry& entry : document.entries)
+    if (find_scene_key(entry.full_name()) == nullptr) fail_unknown(document, entry);
+}
+
+SceneValue checked_text(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* text = std::get_if<std::string>(&entry.value);
+  if (text != nullptr && std::find(key.choices.begin(), key.choices.end(), *text) != key.choices.end())
+    return *text;
+  std::string allowed = "expected " + key.expected();
+  if (text != nullptr) {
+    const std::string close =
+        closest(*text, std::vector<std::string>(key.choices.begin(), key.choices.end()));
+    if (!close.empty()) allowed += "; did you mean \"" + close + "\"?";
+  }
+  fail_at(document, entry, allowed);
+}
+
+void check_number(const Document& document, const DocumentEntry& entry, const SceneKey& key, double value) {
+  if (!std::isfinite(value)) fail_at(document, entry, "expected " + key.expected() + "; it must be finite");
+  if (!key.bounds.contain(value)) fail_at(document, entry, "out of range; expected " + key.expected());
+}
+
+SceneValue checked_number(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* integer = std::get_if<std::int64_t>(&entry.value);
+  const auto* number = std::get_if<double>(&entry.value);
+  const bool right_type = integer != nullptr || (number != nullptr && key.type == SceneKey::Type::number);
+  if (!right_type) fail_at(document, entry, "expected " + key.expected());
+  const double value = integer != nullptr ? static_cast<double>(*integer) : *number;
+  check_number(document, entry, key, value);
+  if (key.type == SceneKey::Type::integer) return *integer;
+  return value;
+}
+
+SceneValue checked_list(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* integers = std::get_if<std::vector<std::int64_t>>(&entry.value);
+  const auto* given = std::get_if<std::vector<double>>(&entry.value);
+  if (integers == nullptr && (given == nullptr || key.type == SceneKey::Type::integer))
+    fail_at(document, entry, "expected " + key.expected());
+  const std::vector<double> numbers =
+      integers == nullptr ? *given : std::vector<double>(integers->begin(), integers->end());
+  const bool right_length =
+      key.length == 0 ? !numbers.empty() : static_cast<int>(numbers.size()) == key.length;
+  if (!right_length)
+    fail_at(document, entry, "there are " + std::to_string(numbers.size()) + "; expected " + key.expected());
+  for (const double value : numbers) check_number(document, entry, key, value);
+  if (key.type == SceneKey::Type::integer) return *integers;
+  return numbers;
+}
+
+SceneValue checked_path(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  const auto* text = std::get_if<std::string>(&entry.value);
+  if (text == nullptr || text->empty()) fail_at(document, entry, "expected " + key.expected());
+  const auto folder = std::filesystem::absolute(document.name).parent_path();
+  return (folder / *text).lexically_normal().string();
+}
+
+bool is_list(const DocumentValue& value) {
+  return std::holds_alternative<std::vector<std::int64_t>>(value) ||
+         std::holds_alternative<std::vector<double>>(value);
+}
+
+SceneValue checked_truth(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  if (const auto* truth = std::get_if<bool>(&entry.value)) return *truth;
+  fail_at(document, entry, "expected " + key.expected());
+}
+
+SceneValue checked(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  using Form = SceneKey::Form;
+  if (key.form == Form::list || (key.form == Form::single_or_list && is_list(entry.value)))
+    return checked_list(document, entry, key);
+  if (key.form == Form::single_or_list && std::holds_alternative<std::monostate>(entry.value))
+    fail_at(document, entry, "expected " + key.expected() + ", or a list of them");
+  switch (key.type) {
+    case SceneKey::Type::boolean:
+      return checked_truth(document, entry, key);
+    case SceneKey::Type::text:
+      return checked_text(document, entry, key);
+    case SceneKey::Type::path:
+      return checked_path(document, entry, key);
+    case SceneKey::Type::integer:
+    case SceneKey::Type::number:
+      break;
+  }
+  return checked_number(document, entry, key);
+}
+
+/// Whether other keys belong or are needed depends on this one, which must therefore be read before them.
+bool governs(const SceneKey& key) {
+  const auto keys = scene_keys();
+  const std::string name = key.full_name();
+  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& other) {
+    return other.belongs.concerns(name) || other.needed.concerns(name);
+  });
+}
+
+void read_key(const Document& document, const SceneKey& key, Scene& scene) {
+  const DocumentEntry* entry = document.find(key.section, key.name);
+  if (const std::string_view broken = key.belongs.broken_by(scene); !broken.empty()) {
+    if (entry != nullptr)
+      fail_at(document, *entry,
+              "does not belong to a scene with " + std::string(broken) + " = " +
+                  toml_text(find_scene_key(broken)->get(scene)) + "; only with " + key.belongs.text());
+    return;
+  }
+  if (entry != nullptr)
+    key.set(scene, checked(document, *entry, key));
+  else if (key.required_in(scene))
+    fail_missing(document, key);
+  else if (key.fallback == SceneKey::Default::derived)
+    key.set(scene, key.derived(scene));
+}
+
+}  // namespace
+
+void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
+  throw SceneError(
+      {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
+}
+
+Scene read_scene(const Document& document) {
+  reject_unknown(document);
+  Scene scene;
+  const auto read = [&](const auto& wanted) {
+    for (const SceneKey& key : scene_keys())
+      if (wanted(key)) read_key(document, key, scene);
+  };
+  read([](const SceneKey& key) { return governs(key) && key.belongs.empty(); });
+  read([](const SceneKey& key) { return governs(key) && !key.belongs.empty(); });
+  read([](const SceneKey& key) { return !governs(key); });
+  return scene;
+}
+
+}  // namespace wavebalance::app

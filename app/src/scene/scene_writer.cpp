@@ -1,0 +1,39 @@
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/scene/scene_writer.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+bool is_empty(const SceneValue& value) {
+  return value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
+}
+
+/// A key that was never given and has no default, or one with nothing to derive from, stays out: time
+/// stepping needs no bases.
+bool is_unset(const SceneKey& key, const Scene& scene) {
+  const SceneValue value = key.get(scene);
+  if (key.required_in(scene) || value != key.get(Scene{})) return false;
+  return key.fallback != SceneKey::Default::value || is_empty(value);
+}
+
+std::string line_of(const SceneKey& key, const Scene& scene) {
+  std::string line = std::string(key.name) + " = " + toml_text(key.get(scene));
+  if (!key.unit.empty()) line += "  # " + std::string(key.unit);
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  std::string text;
+  std::string_view section;
+  for (const SceneKey& key : scene_keys()) {
+    if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
+    if (key.section != section) text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    section = key.section;
+    text += line_of(key, scene);
+  }
+  return text;
+}
+
+}  // namespace wavebalance::app

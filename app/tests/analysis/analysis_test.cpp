@@ -1,0 +1,252 @@
+#include "wavebalance/app/analysis/analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scene_texts.hpp"
+#include "support/summary_value.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+
+Scene scene_of(const std::vector<std::string>& overrides = {}) {
+  return parse_scene(bar_scene, "case.toml", overrides);
+}
+
+TEST(MakeStructure, LoadAndContactAreAtTheTip) {
+  const auto structure = make_structure(scene_of());
+  EXPECT_EQ(structure.size(), 25);
+  EXPECT_EQ(structure.contact_dofs, std::vector<int>{24});
+  EXPECT_EQ(structure.load[24], 250e3);
+  EXPECT_EQ(structure.load.head(24).norm(), 0.0);
+  const double eps = std::numeric_limits<double>::epsilon();
+  EXPECT_LE((structure.damping - 1e-4 * structure.stiffness).norm(), 8 * eps * structure.damping.norm());
+}
+
+TEST(MakeLaw, FollowsTheScene) {
+  EXPECT_EQ(make_law(scene_of().contact).gap(), 1e-3);
+  EXPECT_NEAR(make_law(scene_of().contact).force(2e-3), 1e8 * std::expm1(50.0 * 1e-3), 1e-6);
+  EXPECT_DOUBLE_EQ(make_law({ContactLawType::linear, 0, 0, 1e6, 1e-3}).force(3e-3), 2e3);
+  EXPECT_EQ(make_law({}).force(1.0), 0.0);
+}
+
+TEST(MakePair, DaubechiesGalerkinTakesConnectionCoefficients) {
+  Time time = scene_of().time;
+  time.trial = time.weight = "daubechies6";
+  EXPECT_EQ(effective_inner_products(time), InnerProducts::exact);
+  EXPECT_EQ(make_pair(time).inner_products(), wavebalance::solvers::InnerProducts::exact);
+  time.weight = "fourier";
+  EXPECT_EQ(effective_inner_products(time), InnerProducts::quadrature);
+  time.trial = time.weight = "bspline";
+  EXPECT_EQ(effective_inner_products(time), InnerProducts::quadrature);
+}
+
+TEST(MakePair, ExactHaarFourierSeesInertiaAtTheNyquistFunction) {
+  Time time = scene_of().time;
+  time.trial = "haar";
+  time.inner_products = InnerProducts::exact;
+  const auto pair = make_pair(time);
+  EXPECT_GT(std::abs(pair.symbol(2)[32]), 1e-3 * std::abs(pair.symbol(2)[31]));
+}
+
+TEST(MakeBasis, RefusesUnknownNamesAndSizes) {
+  EXPECT_THROW(make_basis("fourie", 8), std::invalid_argument);
+  EXPECT_THROW(make_basis("daubechies5", 8), std::invalid_argument);
+  EXPECT_THROW(make_basis("haar", 12), std::invalid_argument);
+  EXPECT_EQ(make_basis("fourier", 7).functions(), 7);
+}
+
+TEST(Analyse, ForcedResponseHoldsTheFieldsInOrder) {
+  const Record record = analyse(scene_of());
+  const std::vector<std::string> names{"converged",          "status",
+                                       "residual",           "iterations",
+                                       "unknowns",           "wall_seconds",
+                                       "max_displacement_m", "min_displacement_m",
+                                       "rms_displacement_m", "max_contact_force_N",
+                                       "contact_fraction"};
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(record.summary[i].first, names[i]);
+  EXPECT_TRUE(record.converged);
+  EXPECT_TRUE(value_of<bool>(record.summary, "converged"));
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "unknowns"), 64);
+  EXPECT_LT(value_of<double>(record.summary, "residual"), 1e-10);
+  EXPECT_EQ(record.response.columns(), (std::vector<std::string>{"time_fraction", "displacement_m",
+                                                                 "velocity_m_per_s", "contact_force_N"}));
+  EXPECT_EQ(record.response.rows(), 1024u);
+  EXPECT_EQ(record.figure.panels.size(), 3u);
+  EXPECT_TRUE(record.sweep.empty());
+}
+
+TEST(Analyse, SummaryIsThatOfTheResponse) {
+  const Record record = analyse(scene_of());
+  const auto u = record.response.numbers("displacement_m");
+  const auto force = record.response.numbers("contact_force_N");
+  EXPECT_EQ(value_of<double>(record.summary, "max_displacement_m"), *std::max_element(u.begin(), u.end()));
+  EXPECT_EQ(value_of<double>(record.summary, "min_displacement_m"), *std::min_element(u.begin(), u.end()));
+  const auto touching = std::count_if(force.begin(), force.end(), [](double f) { return f > 0; });
+  EXPECT_DOUBLE_EQ(value_of<double>(record.summary, "contact_fraction"),
+                   static_cast<double>(touching) / 1024);
+  const auto gaps = std::count_if(u.begin(), u.end(), [](double x) { return x > 1e-3; });
+  EXPECT_EQ(touching, gaps);
+}
+
+TEST(Analyse, VelocityIsTheRateOfTheDisplacement) {
+  const Record record = analyse(scene_of({"analysis.output_points=4096"}));
+  const auto u = record.response.numbers("displacement_m");
+  const auto v = record.response.numbers("velocity_m_per_s");
+  // The truncation error of the central difference, h^2/6 u''', with u''' <= (2 pi 32 f)^3 max|u|, is far
+  // below 1e-2 max|v|.
+  double largest = 0.0, worst = 0.0;
+  for (std::size_t i = 1; i + 1 < u.size(); ++i) {
+    worst = std::max(worst, std::abs(v[i] - (u[i + 1] - u[i - 1]) * 4096 * 150 / 2));
+    largest = std::max(largest, std::abs(v[i]));
+  }
+  EXPECT_LT(worst, 1e-2 * largest);
+}
+
+TEST(Analyse, NoContactIsTheLinearResponse) {
+  const Record record = analyse(
+      parse_scene(with(with(with(with(bar_scene, "\"exponential\"", "\"none\""), "constant = 1e8", ""),
+                            "exponent = 50.0", ""),
+                       "gap = 1e-3", ""),
+                  "case.toml"));
+  EXPECT_TRUE(record.converged);
+  EXPECT_EQ(value_of<double>(record.summary, "max_contact_force_N"), 0.0);
+  EXPECT_EQ(value_of<double>(record.summary, "contact_fraction"), 0.0);
+  // Amplitude without contact of JL14's case 1, found independently to four digits.
+  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 1.439e-3, 5e-7);
+  const double peak = value_of<double>(record.summary, "max_displacement_m");
+  EXPECT_NEAR(value_of<double>(record.summary, "rms_displacement_m"), peak / std::sqrt(2.0), 1e-5 * peak);
+}
+
+TEST(Analyse, SweepGivesACurve) {
+  const Record record =
+      analyse(parse_scene(with(bar_scene, "\"forced_response\"        # 23",
+                               "\"frequency_sweep\"\nfrequency_from = 100\nfrequency_to = 200"),
+                          "case.toml", {{"time.functions=31"}}));
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(record.sweep.columns(),
+            (std::vector<std::string>{"frequency_Hz", "max_displacement_m", "rms_displacement_m"}));
+  EXPECT_EQ(record.sweep.numbers("frequency_Hz").front(), 100.0);
+  EXPECT_TRUE(record.response.empty());
+  EXPECT_EQ(record.figure.panels.size(), 1u);
+}
+
+TEST(Analyse, UndampedResonanceIsToldByName) {
+  Scene scene =
+      scene_of({"structure.stiffness_damping=0", "structure.elements=1", "structure.youngs_modulus=1",
+                "structure.density=3", "structure.area=1", "structure.length=1", "time.functions=9"});
+  // One element: k = E A / l = 1 and m = rho A l / 3 = 1, so that the natural frequency is 1 / (2 pi).
+  scene.forcing.frequency = 1.0 / (2.0 * std::acos(-1.0));
+  const Record record = analyse(scene);
+  EXPECT_FALSE(record.converged);
+  EXPECT_NE(record.status.find("singular"), std::string::npos) << record.status;
+  EXPECT_TRUE(std::isinf(value_of<double>(record.summary, "condition_estimate")));
+  EXPECT_EQ(record.warnings.size(), 1u);
+  EXPECT_TRUE(std::isnan(value_of<double>(record.summary, "max_displacement_m")));
+}
+
+TEST(Analyse, OrdinaryConditionsAreWithoutWarning) {
+  const Record record = analyse(scene_of());
+  EXPECT_GT(value_of<double>(record.summary, "condition_estimate"), 1.0);
+  EXPECT_LT(value_of<double>(record.summary, "condition_estimate"), 1e12);
+  EXPECT_TRUE(record.warnings.empty());
+  EXPECT_TRUE(value_of<std::vector<std::string>>(record.summary, "warnings").empty());
+  const Record stepped = analyse(scene_of({"analysis.type=time_stepping"}));
+  EXPECT_TRUE(std::isnan(value_of<double>(stepped.summary, "condition_estimate")));
+  EXPECT_TRUE(stepped.warnings.empty());
+}
+
+// The dynamic stiffness k - omega^2 m is 2e-13 of k beside the natural frequency 1 / (2 pi).
+TEST(Analyse, ConditionsPast1e12Warn) {
+  Scene scene =
+      scene_of({"structure.stiffness_damping=0", "structure.elements=1", "structure.youngs_modulus=1",
+                "structure.density=3", "structure.area=1", "structure.length=1", "time.functions=9"});
+  scene.contact = {};
+  scene.forcing.frequency = (1.0 + 1e-13) / (2.0 * std::acos(-1.0));
+  const Record record = analyse(scene);
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_NEAR(value_of<double>(record.summary, "condition_estimate"), 1e13, 1e11);
+  ASSERT_EQ(record.warnings.size(), 1u);
+  EXPECT_EQ(record.warnings, value_of<std::vector<std::string>>(record.summary, "warnings"));
+  EXPECT_NE(record.warnings[0].find("past 1e+12"), std::string::npos) << record.warnings[0];
+  EXPECT_NE(json_text(record.summary).find("\"warnings\": [\n    \"the condition"), std::string::npos);
+}
+
+TEST(Analyse, ASweepHasTheLargestConditionOfItsCurve) {
+  const auto condition_up_to = [](const std::string& frequency) {
+    const Scene scene = scene_of({"time.functions=31", "analysis.type=frequency_sweep",
+                                  "analysis.frequency_from=100", "analysis.frequency_to=" + frequency});
+    return value_of<double>(analyse(scene).summary, "condition_estimate");
+  };
+  const double near = condition_up_to("110");
+  EXPECT_GE(near, 1.0);
+  EXPECT_GE(condition_up_to("200"), near);
+}
+
+TEST(Analyse, UnconvergedCurvesAreMarkedAsSuch) {
+  const Record record = analyse(scene_of({"analysis.type=time_stepping", "analysis.max_periods=1"}));
+  EXPECT_FALSE(record.converged);
+  EXPECT_NE(record.figure.title.find("NOT CONVERGED"), std::string::npos);
+  EXPECT_EQ(record.figure.panels[0].series[0].colour, Colour::grey);
+}
+
+TEST(Analyse, ObserverIsToldOfPeriods) {
+  int calls = 0;
+  double last = 0.0;
+  analyse(scene_of({"analysis.type=time_stepping", "analysis.tolerance=1e-3"}),
+          [&](const Progress& progress) {
+            ++calls;
+            last = progress.fraction;
+            EXPECT_EQ(progress.stage, "time stepping");
+          });
+  EXPECT_GE(calls, 2);
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(EnergyNorm, IsTheOscillatorsEnergyWithoutContact) {
+  // An undamped oscillator far below resonance: u = F/(k - m w^2) cos wt, E = (k cos^2 + m w^2 sin^2) u_max^2
+  // / 2.
+  const Scene scene =
+      parse_scene(with(with(with(with(bar_scene, "\"exponential\"", "\"none\""), "constant = 1e8", ""),
+                            "exponent = 50.0", ""),
+                       "gap = 1e-3", ""),
+                  "case.toml", {{"structure.elements=1", "structure.stiffness_damping=0"}});
+  const auto& bar = scene.structure;
+  const double k = bar.youngs_modulus * bar.area / bar.length;
+  const double m = bar.density * bar.area * bar.length / 3.0;
+  const double w = 2.0 * std::acos(-1.0) * scene.forcing.frequency;
+  const double peak = scene.forcing.amplitude / (k - m * w * w);
+  const double a = k * peak * peak / 2, b = m * w * w * peak * peak / 2;
+  const auto response =
+      weighted_residual_response(scene, {.full_history = true, .guess = {}, .observer = {}});
+  EXPECT_NEAR(energy_norm(scene, response.samples), std::sqrt((3 * a * a + 2 * a * b + 3 * b * b) / 8),
+              1e-9 * a);
+}
+
+TEST(EnergyNorm, NeedsTheFullHistory) {
+  const Scene scene = scene_of();
+  EXPECT_THROW(energy_norm(scene, weighted_residual_response(scene).samples), std::invalid_argument);
+}
+
+TEST(RelativeRmsError, IsRelativeToTheReference) {
+  const Eigen::VectorXd reference = Eigen::VectorXd::LinSpaced(10, 1.0, 2.0);
+  EXPECT_DOUBLE_EQ(relative_rms_error(1.5 * reference, reference), 0.5);
+  EXPECT_THROW(relative_rms_error(reference.head(3), reference), std::invalid_argument);
+}
+
+TEST(DescribeScene, SaysHowLargeAndWhetherAdmissible) {
+  const std::string text = describe_scene(scene_of());
+  for (const char* part : {"25 elements", "64 unknowns", "1600 before", "admissible", "1273 Hz"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+  Scene scene = scene_of();
+  scene.time.trial = "haar";
+  scene.time.weight = "haar";
+  EXPECT_NE(describe_scene(scene).find("NOT admissible"), std::string::npos);
+}
+
+}  // namespace

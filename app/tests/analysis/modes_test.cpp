@@ -1,0 +1,213 @@
+#include "wavebalance/app/analysis/modes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "support/scene_texts.hpp"
+#include "support/summary_value.hpp"
+#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+using wavebalance::contact::EnergyMeasure;
+using wavebalance::contact::ExactBarMode;
+using wavebalance::solvers::ModeStatus;
+
+Scene rod(const std::vector<std::string>& overrides = {}) {
+  return parse_scene(rod_scene, "rod.toml", overrides);
+}
+
+TEST(ModeStudy, LinearFrequencyIsThatOfThePaper) {
+  const ModeStudy study(rod({"structure.lumped_mass_fraction=0"}));
+  EXPECT_NEAR(study.linear_frequency(), 1297.5197, 1e-4);  // found independently
+  EXPECT_NEAR(study.mode().model().omega_squared[1] / study.mode().model().omega_squared[0],
+              3.00617 * 3.00617, 1e-4);
+}
+
+TEST(ModeStudy, FollowsTheExactModeWithinOnePercentOffTongues) {
+  const ModeStudy study(rod());
+  const Backbone curve = study.backbone();
+  for (const double energy : {1.8, 3.0, 5.0, 10.0}) {
+    const auto point = study.at_energy(curve, energy);
+    ASSERT_EQ(point.status, ModeStatus::converged) << energy;
+    const double exact = ExactBarMode::at_energy({}, 1, EnergyMeasure::modal, energy).frequency_ratio();
+    EXPECT_NEAR(point.omega / study.mode().linear_omega(), exact, 0.01 * exact) << energy;
+  }
+}
+
+TEST(ModeStudy, EquationOfMotionHoldsAtEveryAcceptedPoint) {
+  const Backbone curve = ModeStudy(rod()).backbone();
+  ASSERT_EQ(curve.points.size(), curve.residuals.size());
+  for (std::size_t i = 0; i < curve.points.size(); ++i)
+    if (curve.points[i].accepted()) {
+      EXPECT_LT(curve.residuals[i], 1e-9);
+      EXPECT_LT(curve.points[i].identity_defect, 1e-12);
+    }
+}
+
+TEST(ModeStudy, SamplesAreTheMotion) {
+  const ModeStudy study(rod());
+  const auto point = study.at_energy(1.8);
+  const auto tip = study.samples(point, 1024, false), all = study.samples(point, 1024, true);
+  EXPECT_EQ(all.displacements.rows(), 20);
+  const double scale = tip.displacement.cwiseAbs().maxCoeff();
+  EXPECT_LT((all.displacements.row(19).transpose() - tip.displacement).cwiseAbs().maxCoeff(), 1e-12 * scale);
+  EXPECT_NEAR(tip.displacement.maxCoeff(), 1e-3 * (1.0 + point.max_penetration), 1e-6);
+  // A central difference of a motion with 10 harmonics: its error is (2 pi 10/1024)^2/6 of the tenth at most.
+  const double rate = 1024.0 * point.omega / (2.0 * std::numbers::pi) / 2.0;
+  for (int l = 1; l + 1 < 1024; ++l)
+    EXPECT_NEAR(tip.velocity[l], rate * (tip.displacement[l + 1] - tip.displacement[l - 1]),
+                1e-3 * tip.velocity.cwiseAbs().maxCoeff());
+}
+
+TEST(ModeStudy, DoesNotDependOnTheGap) {
+  const ModeStudy study(rod()), wide(rod({"contact.gap=0.5"}));
+  EXPECT_NEAR(wide.at_energy(3.0).omega, study.at_energy(3.0).omega, 1e-6 * study.mode().linear_omega());
+}
+
+TEST(Backbone, FailureOnNoTongueIsNotConverged) {
+  Backbone curve;
+  EXPECT_FALSE(curve.converged());
+  curve.points.resize(1);
+  curve.points[0].status = ModeStatus::converged;
+  EXPECT_TRUE(curve.converged());
+  curve.interruptions.push_back({1.1, 1.2, {"3:2"}, "cycling", true});
+  EXPECT_TRUE(curve.converged());
+  curve.interruptions.push_back({1.25, 1.25, {}, "cycling", true});
+  EXPECT_FALSE(curve.converged());
+  EXPECT_NE(curve.status().find("cycling at frequency ratio 1.25"), std::string::npos) << curve.status();
+}
+
+TEST(Analyse, BackboneHoldsLinearBranchAndContact) {
+  const Record record = analyse(rod());
+  EXPECT_TRUE(record.converged) << record.status;
+  const auto energy = record.backbone.numbers("energy_ratio");
+  const auto ratio = record.backbone.numbers("frequency_ratio");
+  const auto quotient = record.backbone.numbers("rayleigh_frequency_ratio");
+  const auto statuses = record.backbone.texts("status");
+  EXPECT_EQ(energy[0], 0.0);
+  for (std::size_t i = 0; i < energy.size(); ++i) {
+    if (statuses[i] == "linear") {
+      EXPECT_DOUBLE_EQ(ratio[i], 1.0);
+    }
+    if (statuses[i] == "converged") {
+      EXPECT_LE(quotient[i], ratio[i]);
+    }
+    if (statuses[i] == "cycling") {
+      EXPECT_TRUE(std::isnan(energy[i]));
+    }
+  }
+  EXPECT_LT(value_of<double>(record.summary, "residual"), 1e-9);
+  EXPECT_GE(value_of<double>(record.summary, "largest_energy_ratio"), 10.0);
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "points"),
+            static_cast<std::int64_t>(std::count_if(statuses.begin(), statuses.end(),
+                                                    [](const auto& s) { return s != "linear"; })));
+}
+
+TEST(Analyse, EnergyBelowContactIsTheLinearMode) {
+  const Record record = analyse(rod({"analysis.energy_ratio=0.25"}));
+  EXPECT_TRUE(record.converged);
+  EXPECT_EQ(record.status, "linear");
+  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 0.5e-3, 1e-12);
+  EXPECT_EQ(value_of<double>(record.summary, "max_contact_force_N"), 0.0);
+  EXPECT_EQ(value_of<double>(record.summary, "frequency_ratio"), 1.0);
+}
+
+TEST(Analyse, PublishedEquationsRunWithTwoHarmonicsAndGiveNoMotion) {
+  const Record record = analyse(rod({"analysis.formulation=published", "analysis.harmonics=2",
+                                     "analysis.samples=20", "analysis.points=37"}));
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_LT(value_of<double>(record.summary, "residual"), 1e-9);
+  EXPECT_GT(value_of<double>(record.summary, "equation_of_motion_residual"), 0.01);
+  EXPECT_EQ(record.backbone.rows(), 38u);
+  const auto ratio = record.backbone.numbers("frequency_ratio");
+  EXPECT_EQ(ratio, record.backbone.numbers("rayleigh_frequency_ratio"));
+  EXPECT_GT(ratio.back(), ratio[10]);
+}
+
+TEST(Analyse, PublishedEquationsWithManyHarmonicsFailHonestly) {
+  const Record record = analyse(rod({"analysis.formulation=published", "analysis.points=10"}));
+  EXPECT_FALSE(record.converged);
+  EXPECT_NE(record.status.find("at energy ratio"), std::string::npos) << record.status;
+}
+
+TEST(Analyse, PublishedMotionOfAnEnergy) {
+  const Record record =
+      analyse(rod({"analysis.formulation=published", "analysis.harmonics=2", "analysis.samples=20",
+                   "analysis.points=10", "analysis.energy_ratio=1.8"}));
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(record.response.rows(), 1024u);
+  EXPECT_LT(value_of<double>(record.summary, "energy_ratio"), 1.8);  // h without n^2 is not the energy
+}
+
+Scene rigid_bar(const std::vector<std::string>& overrides = {}) {
+  std::vector<std::string> all{"time.quadrature_points=128", "structure.massless_tip=true"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return parse_scene(
+      with(with(with(bar_scene, "\"exponential\"", "\"rigid\""), "constant = 1e8  ", "# "), "exponent", "#"),
+      "rigid.toml", all);
+}
+
+TEST(MakeStructure, MasslessTipKeepsTheMass) {
+  const auto with_mass = make_structure(rigid_bar({"structure.massless_tip=false"}));
+  const auto without = make_structure(rigid_bar());
+  EXPECT_EQ(without.mass.coeff(24, 24), 0.0);
+  EXPECT_EQ(without.mass.coeff(24, 23), 0.0);
+  EXPECT_NEAR(without.mass.sum(), with_mass.mass.sum(), 1e-12 * with_mass.mass.sum());
+}
+
+TEST(Analyse, RigidContactHoldsForAllPairs) {
+  for (const auto& [trial, weight] :
+       std::vector<std::pair<std::string, std::string>>{{"fourier", "fourier"},
+                                                        {"bspline", "bspline"},
+                                                        {"daubechies6", "daubechies6"},
+                                                        {"haar", "fourier"},
+                                                        {"daubechies6", "fourier"},
+                                                        {"haar", "bspline"}}) {
+    const Record record = analyse(rigid_bar({"time.trial=" + trial, "time.weight=" + weight}));
+    EXPECT_TRUE(record.converged) << trial << weight << record.status;
+    // The scene's tolerance: 1e-6 of the contact-free amplitude of 1.44 mm.
+    EXPECT_LE(value_of<double>(record.summary, "max_penetration_m"), 1.5e-9) << trial << weight;
+    EXPECT_GE(value_of<double>(record.summary, "min_contact_force_N"), 0.0);
+    // The mean force converges to 0.0502..0.0515 amplitudes (found independently); 64 functions are near.
+    const auto force = record.response.numbers("contact_force_N");
+    double mean = 0.0;
+    for (const double one : force) mean += one / static_cast<double>(force.size());
+    EXPECT_NEAR(mean / 250e3, 0.0515, 0.003) << trial << weight;
+  }
+}
+
+TEST(Analyse, RigidContactIsTheLimitOfAStiffSpring) {
+  Scene spring = rigid_bar();
+  spring.contact.law = ContactLawType::linear;
+  spring.contact.stiffness = 1e13;
+  const Response stiff = weighted_residual_response(spring), rigid = weighted_residual_response(rigid_bar());
+  ASSERT_TRUE(stiff.converged && rigid.converged);
+  EXPECT_LT((stiff.samples.displacement - rigid.samples.displacement).cwiseAbs().maxCoeff(), 1e-3 * 1e-3);
+}
+
+TEST(FrequencySweep, RigidContactIsSolvedAtEachFrequency) {
+  Scene scene = rigid_bar();
+  scene.analysis.type = AnalysisType::frequency_sweep;
+  scene.analysis.frequency_from = 140.0;
+  scene.analysis.frequency_to = 160.0;
+  scene.analysis.first_step = 0.5;
+  scene.analysis.largest_step = 5.0;
+  const Sweep sweep = frequency_sweep(scene);
+  EXPECT_TRUE(sweep.converged());
+  ASSERT_EQ(sweep.curve.points.size(), 5u);
+  EXPECT_DOUBLE_EQ(sweep.curve.points[2].frequency, 150.0);
+  const Response alone = weighted_residual_response(rigid_bar());
+  EXPECT_DOUBLE_EQ(sweep.curve.points[2].max_displacement, alone.samples.displacement.maxCoeff());
+  EXPECT_LE(sweep.max_penetration, 1.5e-9);
+}
+
+TEST(MakeLaw, RigidContactHasNone) { EXPECT_THROW(make_law(rigid_bar().contact), std::invalid_argument); }
+
+}  // namespace

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "support/scene_texts.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+
+/// A positive number of any magnitude, with all its digits.
+double positive() {
+  const double mantissa =
+      *rc::gen::map(rc::gen::inRange<std::int64_t>(1, std::int64_t{1} << 52),
+                    [](std::int64_t i) { return 1.0 + static_cast<double>(i) / (1LL << 52); });
+  return std::ldexp(mantissa, *rc::gen::inRange(-300, 300));
+}
+
+template <class Value>
+Value one_of(std::initializer_list<Value> values) {
+  return *rc::gen::elementOf(std::vector<Value>(values));
+}
+
+Structure any_structure() {
+  return {StructureType::bar, positive(),
+          positive(),         positive(),
+          positive(),         *rc::gen::inRange(1, 2000),
+          positive(),         *rc::gen::inRange(0, 1000) / 999.0};
+}
+
+Analysis any_mode(int elements) {
+  Analysis analysis;
+  analysis.type = AnalysisType::nonlinear_mode;
+  analysis.formulation = one_of({ModeFormulation::consistent, ModeFormulation::published});
+  analysis.mode = *rc::gen::inRange(1, elements + 1);
+  analysis.harmonics = *rc::gen::inRange(1, 50);
+  analysis.samples = *rc::gen::inRange(2, 5) * analysis.harmonics;
+  analysis.cosine_only = *rc::gen::arbitrary<bool>();
+  analysis.energy_ratio = *rc::gen::inRange(0, 100) / 7.0;
+  analysis.largest_energy = 1.0 + *rc::gen::inRange(1, 100) / 7.0;
+  analysis.last_frequency_ratio = 1.001 + *rc::gen::inRange(1, 100) / 7.0;
+  analysis.points = *rc::gen::inRange(2, 1000);
+  return analysis;
+}
+
+Contact any_contact() {
+  Contact contact;
+  contact.law = one_of({ContactLawType::none, ContactLawType::exponential, ContactLawType::linear});
+  if (contact.law == ContactLawType::none) return contact;
+  contact.gap = one_of({-1.0, 0.0, 1.0}) * positive();
+  if (contact.law == ContactLawType::linear) contact.stiffness = positive();
+  if (contact.law != ContactLawType::exponential) return contact;
+  contact.constant = positive();
+  contact.exponent = positive();
+  return contact;
+}
+
+Time any_time() {
+  const auto [trial, weight] = one_of<std::pair<const char*, const char*>>({{"fourier", "fourier"},
+                                                                            {"bspline", "bspline"},
+                                                                            {"daubechies6", "daubechies6"},
+                                                                            {"haar", "fourier"},
+                                                                            {"daubechies10", "fourier"},
+                                                                            {"haar", "bspline"}});
+  const int functions = 1 << *rc::gen::inRange(0, 10);
+  return {trial,
+          weight,
+          functions,
+          Formulation::distributional,
+          functions << *rc::gen::inRange(0, 5),
+          one_of({InnerProducts::quadrature, InnerProducts::exact})};
+}
+
+Analysis any_analysis() {
+  Analysis analysis;
+  analysis.type =
+      one_of({AnalysisType::forced_response, AnalysisType::frequency_sweep, AnalysisType::time_stepping});
+  analysis.output_points = 1 << *rc::gen::inRange(1, 14);
+  if (analysis.type == AnalysisType::frequency_sweep) {
+    analysis.frequency_from = positive();
+    analysis.frequency_to = 3.0 * analysis.frequency_from;
+    analysis.first_step = positive();
+    analysis.largest_step = 2.0 * analysis.first_step;
+    analysis.max_points = *rc::gen::inRange(2, 100000);
+  } else if (analysis.type == AnalysisType::time_stepping) {
+    analysis.tolerance = *rc::gen::inRange(1, 1000) / 1e6;
+    analysis.max_periods = *rc::gen::inRange(1, 100000);
+  }
+  return analysis;
+}
+
+Scene any_mode_scene() {
+  Scene scene;
+  scene.structure = any_structure();
+  scene.structure.stiffness_damping = 0.0;
+  scene.contact = {.law = ContactLawType::rigid, .gap = positive()};
+  scene.analysis = any_mode(scene.structure.elements);
+  return scene;
+}
+
+Scene any_scene() {
+  if (*rc::gen::inRange(0, 4) == 0) return any_mode_scene();
+  Scene scene{any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
+  if (scene.analysis.type == AnalysisType::time_stepping) return scene;
+  if (scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0) {
+    scene.time.functions = scene.time.quadrature_points = 0;
+    scene.time.tolerance = *rc::gen::inRange(1, 1000) / 1e6;
+    if (*rc::gen::arbitrary<bool>()) scene.time.trial = scene.time.weight = "";
+    return scene;
+  }
+  if (scene.structure.elements > 1) scene.structure.massless_tip = *rc::gen::arbitrary<bool>();
+  if (*rc::gen::arbitrary<bool>()) scene.contact = {.law = ContactLawType::rigid, .gap = positive()};
+  return scene;
+}
+
+RC_GTEST_PROP(SceneWriter, WhatItWritesLoadsBackEqual, ()) {
+  const Scene scene = any_scene();
+  RC_ASSERT(parse_scene(write_scene(scene), "written") == scene);
+}
+
+RC_GTEST_PROP(SceneWriter, OverridingEveryKeyByItsOwnValueChangesNothing, ()) {
+  const Scene scene = any_scene();
+  std::vector<std::string> overrides;
+  for (const SceneKey& key : scene_keys())
+    if (key.belongs.holds(scene) && key.get(scene) != key.get(Scene{}))
+      overrides.push_back(key.full_name() + "=" + toml_text(key.get(scene)));
+  RC_ASSERT(parse_scene(write_scene(scene), "written", overrides) == scene);
+}
+
+RC_GTEST_PROP(SceneLoaderProperty, DamagedTextLoadsOrGivesASceneError, ()) {
+  std::string text = bar_scene;
+  const int changes = *rc::gen::inRange(1, 6);
+  for (int i = 0; i < changes; ++i) {
+    const auto place = *rc::gen::inRange<std::size_t>(0, text.size());
+    const auto length = *rc::gen::inRange<std::size_t>(0, 12);
+    text.replace(place, std::min(length, text.size() - place), *rc::gen::string<std::string>());
+  }
+  try {
+    parse_scene(text, "damaged");
+  } catch (const SceneError& error) {
+    RC_ASSERT(!std::string(error.what()).empty());
+  }
+}
+
+RC_GTEST_PROP(SceneLoaderProperty, EveryMissingRequiredKeyIsNamed, ()) {
+  const Scene scene = any_scene();
+  std::vector<const SceneKey*> required;
+  for (const SceneKey& key : scene_keys())
+    if (key.required_in(scene)) required.push_back(&key);
+  const SceneKey& victim = **rc::gen::elementOf(required);
+  const std::string text = write_scene(scene);
+  const auto section = text.find("[" + std::string(victim.section) + "]");
+  const auto begin = text.find("\n" + std::string(victim.name) + " = ", section) + 1;
+  const std::string without = text.substr(0, begin) + text.substr(text.find('\n', begin) + 1);
+  try {
+    parse_scene(without, "incomplete");
+    RC_FAIL("loaded without " + victim.full_name());
+  } catch (const SceneError& error) {
+    RC_ASSERT(error.details().key == victim.full_name());
+  }
+}
+
+}  // namespace

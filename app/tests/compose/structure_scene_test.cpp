@@ -1,0 +1,236 @@
+#include <gtest/gtest.h>
+
+#include "support/chain_files.hpp"
+#include "support/scene_texts.hpp"
+#include "wavebalance/fem/blade.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+
+const std::string blade_scene = R"([structure]
+type = "blade"                  # 2
+[contact]
+law = "rigid"                   # 4
+gap = 1e-3                      # 5
+[analysis]
+type = "nonlinear_mode"         # 7
+)";
+
+/// A folder with the chain, and the errors of scenes in it.
+class ChainScene : public testing::Test {
+ protected:
+  ChainScene() { write_chain(folder_); }
+
+  Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    return load_scene(folder_.write("case.toml", text), overrides);
+  }
+
+  SceneError::Details error_of(const std::string& text,
+                               const std::vector<std::string>& overrides = {}) const {
+    try {
+      load(text, overrides);
+    } catch (const SceneError& error) {
+      return error.details();
+    }
+    ADD_FAILURE() << "loaded without an error:\n" << text;
+    return {};
+  }
+
+  void expect_error(const std::string& text, int line, const std::string& key,
+                    const std::string& allowed) const {
+    const auto details = error_of(text);
+    EXPECT_EQ(details.line, line) << details.allowed;
+    EXPECT_EQ(details.key, key) << details.allowed;
+    EXPECT_NE(details.allowed.find(allowed), std::string::npos) << details.allowed;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ChainScene, LoadsWithPathsRelativeToItsFile) {
+  const Scene scene = load(chain_scene);
+  EXPECT_EQ(scene.structure.matrices.mass, (folder_ / "m.mtx").string());
+  EXPECT_EQ(scene.structure.matrices.contact_dofs, (std::vector<int>{2, 3}));
+  EXPECT_EQ(scene.structure.kept_modes, -1);
+  EXPECT_EQ(scene.analysis.motion_points, 0);
+  EXPECT_EQ(unknowns_of(scene), 3);
+  EXPECT_EQ(parse_scene(write_scene(scene), "elsewhere.toml"), scene);
+}
+
+TEST_F(ChainScene, UnreadableFilesAreErrorsAtTheirKey) {
+  expect_error(with(chain_scene, "m.mtx", "no.mtx"), 3, "structure.mass",
+               "no.mtx: the file cannot be opened");
+  folder_.write("bad.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 1\n4 1 2\n");
+  expect_error(with(chain_scene, "k.mtx", "bad.mtx"), 4, "structure.stiffness",
+               "bad.mtx:3: the row is 4; it must be in 1..3");
+  expect_error(with(chain_scene, "\"m.mtx\"", "3"), 3, "structure.mass", "the name of a Matrix Market file");
+}
+
+TEST_F(ChainScene, SizesThatDifferAreErrors) {
+  folder_.write("two.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1\n2 2 1\n");
+  expect_error(with(chain_scene, "m.mtx", "two.mtx"), 3, "structure.mass", "2 x 2; expected 3 x 3");
+  folder_.write("wide.mtx", "%%MatrixMarket matrix coordinate real general\n2 3 1\n1 1 1\n");
+  expect_error(with(chain_scene, "k.mtx", "wide.mtx"), 4, "structure.stiffness", "2 x 3; expected a square");
+  expect_error(with(chain_scene, "modal_damping = 0.01 ", "damping = \"two.mtx\" "), 6, "structure.damping",
+               "2 x 2; expected 3 x 3");
+}
+
+TEST_F(ChainScene, UnsymmetricMatricesAreErrorsWithRowsFromOne) {
+  folder_.write("skew.mtx",
+                "%%MatrixMarket matrix coordinate real general\n3 3 4\n1 1 2\n2 2 2\n3 3 2\n1 3 1\n");
+  expect_error(with(chain_scene, "k.mtx", "skew.mtx"), 4, "structure.stiffness",
+               "is not symmetric: row 3, column 1");
+}
+
+TEST_F(ChainScene, IndefiniteMassAndSingularStiffnessAreErrors) {
+  folder_.write("no_mass.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 2\n1 1 2\n3 3 2\n");
+  expect_error(with(chain_scene, "m.mtx", "no_mass.mtx"), 3, "structure.mass",
+               "not positive definite: its diagonal entry 2 is 0");
+  folder_.write(
+      "free.mtx",
+      "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 1\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n");
+  expect_error(with(chain_scene, "k.mtx", "free.mtx"), 4, "structure.stiffness", "free to move");
+}
+
+TEST_F(ChainScene, ContactDofsAreInRangeAndOnce) {
+  expect_error(with(chain_scene, "[2, 3]", "[2, 4]"), 5, "structure.contact_dofs", "no degree of freedom 4");
+  expect_error(with(chain_scene, "[2, 3]", "[0]"), 5, "structure.contact_dofs", "expected 1..3");
+  expect_error(with(chain_scene, "[2, 3]", "[3, -3]"), 5, "structure.contact_dofs", "3 is there twice");
+  expect_error(with(chain_scene, "[2, 3]", "[]"), 5, "structure.contact_dofs", "there are 0");
+  expect_error(with(chain_scene, "[2, 3]", "[2.5]"), 5, "structure.contact_dofs", "a list of integers");
+  expect_error(with(chain_scene, "[2, 3]", "3"), 5, "structure.contact_dofs", "a list of integers");
+  expect_error(with(chain_scene, "contact_dofs", "# "), 1, "structure.contact_dofs", "missing");
+}
+
+TEST_F(ChainScene, GapsAreOneOrOneAContact) {
+  const Scene scene = load(with(chain_scene, "gap = 1e-4", "gap = [1e-4, 2e-4]"));
+  EXPECT_EQ(scene.contact.gap_of(1), 2e-4);
+  EXPECT_EQ(parse_scene(write_scene(scene), "written.toml"), scene);
+  EXPECT_EQ(load(with(chain_scene, "gap = 1e-4", "gap = 1")).contact.gap_of(1), 1.0);
+  expect_error(with(chain_scene, "gap = 1e-4", "gap = [1, 2, 3]"), 10, "contact.gap", "each of 2 degrees");
+  expect_error(with(chain_scene, "gap = 1e-4", "gap = [1, inf]"), 10, "contact.gap", "finite");
+  expect_error(with(chain_scene, "gap = 1e-4", "gap = [\"a\"]"), 10, "contact.gap", "or a list of them");
+  const auto bar = error_of(with(bar_scene, "gap = 1e-3", "gap = [1e-3, 2e-3]"));
+  EXPECT_NE(bar.allowed.find("each of 1 degree of freedom"), std::string::npos) << bar.allowed;
+}
+
+TEST_F(ChainScene, LoadsAreAFileOrAList) {
+  const std::string file = with(chain_scene, "load_dofs = [3]", "load = \"f.mtx\"");
+  EXPECT_EQ(make_model(load(file)).structure.load, make_model(load(chain_scene)).structure.load);
+  folder_.write("short.mtx", "%%MatrixMarket matrix array real general\n2 1\n0\n1\n");
+  expect_error(with(file, "f.mtx", "short.mtx"), 12, "forcing.load", "2 entries; expected 3");
+  expect_error(with(file, "f.mtx", "k.mtx"), 12, "forcing.load", "it must be array");
+  expect_error(with(file, "[time]", "load_dofs = [1]\n[time]"), 15, "forcing.load_dofs", "not both");
+  expect_error(with(chain_scene, "load_dofs = [3]", ""), 11, "forcing.load", "missing; expected load");
+  expect_error(with(chain_scene, "load_dofs = [3]", "load_dofs = [-5]"), 12, "forcing.load_dofs",
+               "no degree of freedom -5");
+}
+
+TEST_F(ChainScene, OneDampingIsGivenAtMost) {
+  expect_error(with(chain_scene, "[contact]", "stiffness_damping = 1e-5\n[contact]"), 6,
+               "structure.modal_damping", "another damping");
+  expect_error(with(chain_scene, "[contact]", "damping = \"k.mtx\"\n[contact]"), 7, "structure.damping",
+               "another damping");
+}
+
+TEST_F(ChainScene, ReductionsKeepWhatIsThere) {
+  EXPECT_EQ(make_model(load(chain_scene, {"structure.kept_modes=1"})).size(), 3);
+  EXPECT_EQ(make_model(load(chain_scene, {"structure.kept_modes=0"})).size(), 2);
+  const auto many = error_of(chain_scene, {"structure.kept_modes=2"});
+  EXPECT_EQ(many.key, "structure.kept_modes");
+  EXPECT_NE(many.allowed.find("at most 1"), std::string::npos) << many.allowed;
+  EXPECT_EQ(error_of(chain_scene, {"structure.kept_modes=0", "structure.contact_dofs=[1,2,3]"}).key,
+            "structure.kept_modes");
+}
+
+TEST_F(ChainScene, KeysOfAnotherTypeAreErrorsThatNameIt) {
+  expect_error(with(chain_scene, "modal_damping = 0.01 ", "elements = 3 "), 6, "structure.elements",
+               "structure.type = \"matrices\"; only with structure.type = \"bar\"");
+  expect_error(with(chain_scene, "modal_damping = 0.01 ", "chord = [1, 2] "), 6, "structure.chord",
+               "only with structure.type = \"blade\"");
+  expect_error(with(bar_scene, "[contact]", "contact_dofs = [1]\n[contact]"), 9, "structure.contact_dofs",
+               "only with structure.type = \"matrices\"");
+}
+
+TEST_F(ChainScene, NonlinearModesAreWithoutDampingAndWithPositiveGaps) {
+  const std::string mode = with(with(with(chain_scene, "\"linear\"", "\"rigid\""), "stiffness = 1e7", "# "),
+                                "forced_response", "nonlinear_mode");
+  EXPECT_EQ(error_of(mode).key, "structure.modal_damping");
+  const std::string undamped = with(mode, "modal_damping = 0.01", "");
+  EXPECT_EQ(load(undamped).analysis.samples, 20);
+  EXPECT_EQ(error_of(with(undamped, "gap = 1e-4", "gap = [1e-4, 0]")).key, "contact.gap");
+  EXPECT_EQ(error_of(undamped, {"analysis.mode=4"}).key, "analysis.mode");
+  EXPECT_EQ(error_of(undamped, {"structure.damping=k.mtx"}).key, "structure.damping");
+}
+
+TEST_F(ChainScene, CheckSaysHowLargeItIs) {
+  const std::string text = describe_scene(load(chain_scene, {"structure.kept_modes=1"}));
+  for (const char* part : {"matrices, 3 degrees of freedom", "reduced to 3 (1 mode)",
+                           "at 2 degrees of freedom", "64 unknowns", "on 1 degree of freedom"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+}
+
+TEST(BladeScene, TypeAloneIsTheOpenBlade) {
+  const Scene scene = parse_scene(blade_scene, "blade.toml");
+  const auto options = blade_options(scene.structure);
+  const wavebalance::fem::BladeOptions defaults;
+  EXPECT_EQ(options.chord, defaults.chord);
+  EXPECT_EQ(options.thickness_ratio, defaults.thickness_ratio);
+  EXPECT_EQ(options.camber_ratio, defaults.camber_ratio);
+  EXPECT_EQ(options.angle_degrees, defaults.angle_degrees);
+  EXPECT_EQ(options.edge_thickness, defaults.edge_thickness);
+  EXPECT_EQ(options.length, defaults.length);
+  EXPECT_EQ(options.material.youngs_modulus, defaults.material.youngs_modulus);
+  EXPECT_EQ(options.material.poissons_ratio, defaults.material.poissons_ratio);
+  EXPECT_EQ(options.material.density, defaults.material.density);
+  EXPECT_EQ(options.element, defaults.element);
+  EXPECT_EQ(options.chord_elements, defaults.chord_elements);
+  EXPECT_EQ(options.thickness_elements, defaults.thickness_elements);
+  EXPECT_EQ(options.span_elements, defaults.span_elements);
+  EXPECT_EQ(scene.structure.kept_modes, 40);
+  EXPECT_EQ(scene.analysis.motion_points, 32);
+  EXPECT_EQ(unknowns_of(scene), 3936);
+  EXPECT_EQ(size_of(scene), 112);
+  EXPECT_EQ(contacts_of(scene.structure), 24);
+  EXPECT_EQ(parse_scene(write_scene(scene), "written.toml"), scene);
+}
+
+TEST(BladeScene, WrongValuesAreErrorsAtTheirPlace) {
+  const auto message = [](const std::string& line) {
+    try {
+      parse_scene(with(blade_scene, "[contact]", line + "\n[contact]"), "blade.toml");
+    } catch (const SceneError& error) {
+      EXPECT_EQ(error.details().line, 3);
+      return error.details().key + ": " + error.details().allowed;
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(
+      message("chord = [0.05]").find("structure.chord: there are 1; expected a list of 2 numbers in m, > 0"),
+      std::string::npos);
+  EXPECT_NE(message("chord = [0.05, -1]").find("out of range"), std::string::npos);
+  EXPECT_NE(message("element = \"hexahedron\"").find("did you mean"), std::string::npos);
+  EXPECT_NE(message("kept_modes = 4000").find("at most 3864"), std::string::npos);
+  EXPECT_NE(message("rotation_axis = [0, 0, 0]").find("not zero"), std::string::npos);
+  EXPECT_NE(message("poissons_ratio = 0.5").find("out of range"), std::string::npos);
+  EXPECT_NE(message("area = 1").find("only with structure.type = \"bar\""), std::string::npos);
+}
+
+TEST(BladeScene, UnknownsAreThoseOfTheMesh) {
+  for (const char* element : {"hexahedron20", "hexahedron20_reduced", "hexahedron8"}) {
+    const Scene scene = parse_scene(
+        blade_scene, "blade.toml",
+        std::vector<std::string>{"structure.chord_elements=3", "structure.thickness_elements=2",
+                                 "structure.span_elements=4", std::string("structure.element=") + element});
+    const auto blade = wavebalance::fem::blade(blade_options(scene.structure));
+    EXPECT_EQ(unknowns_of(scene), blade.model.dofs.count()) << element;
+    EXPECT_EQ(contacts_of(scene.structure), static_cast<int>(blade.contact_nodes.size()));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,171 @@
+#include "wavebalance/app/plot/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+int occurrences(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+Figure simple_figure() {
+  Figure figure;
+  Panel& panel = figure.add_panel("Tip");
+  panel.x.label = "Time";
+  panel.y.label = "Displacement (mm)";
+  panel.add({"Haar:Fourier", std::vector<double>{0, 1, 2}, std::vector<double>{0, 1, 0}});
+  return figure;
+}
+
+TEST(Render, SvgHoldsLabelsAndLegend) {
+  const std::string svg = render(simple_figure(), PictureFormat::svg);
+  for (const char* text : {"<svg", "</svg>", "Time", "Displacement (mm)", "Haar:Fourier", "Tip"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+}
+
+TEST(Render, IsTheSameEveryTime) {
+  EXPECT_EQ(render(simple_figure(), PictureFormat::svg), render(simple_figure(), PictureFormat::svg));
+}
+
+TEST(Render, PngIsAPng) {
+  EXPECT_EQ(render(simple_figure(), PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1a\n");
+}
+
+TEST(Render, MissingValuesInterruptALine) {
+  Figure whole = simple_figure();
+  Figure broken = simple_figure();
+  whole.panels[0].series[0] = {"", std::vector<double>{0, 1, 2, 3, 4}, std::vector<double>{0, 1, 2, 1, 0}};
+  broken.panels[0].series[0] = {"", std::vector<double>{0, 1, 2, 3, 4}, std::vector<double>{0, 1, nan, 1, 0}};
+  const auto moves = [](const std::string& svg) {  // of the curve's colour
+    const auto at = svg.find("<path stroke='rgb(  0, 114, 178)'");
+    EXPECT_NE(at, std::string::npos);
+    return occurrences(svg.substr(at, svg.find("/>", at) - at), "M");
+  };
+  EXPECT_EQ(moves(render(whole, PictureFormat::svg)), 1);
+  EXPECT_EQ(moves(render(broken, PictureFormat::svg)), 2);
+}
+
+TEST(Render, CurveWithoutAnyValueKeepsItsPlaceInTheLegend) {
+  Figure figure = simple_figure();
+  figure.panels[0].series[0].y = {nan, nan, nan};
+  EXPECT_NE(render(figure, PictureFormat::svg).find("Haar:Fourier"), std::string::npos);
+  figure.panels[0].y.logarithmic = true;
+  figure.panels[0].series[0].y = {0, -1, nan};
+  EXPECT_NE(render(figure, PictureFormat::svg).find("Haar:Fourier"), std::string::npos);
+}
+
+TEST(Render, LabelsCannotRunCommands) {
+  const TemporaryFolder folder;
+  const std::string mark = (folder / "mark").string();
+  Figure figure = simple_figure();
+  figure.panels[0].title = "`touch " + mark + "` $(touch " + mark + ")";
+  figure.panels[0].x.label = "'\nsystem(\"touch " + mark + "\")\nset xlabel '";
+  figure.panels[0].series[0].label = "x' , system('touch " + mark + "') title '";
+  render(figure, PictureFormat::svg);
+  EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+TEST(Render, ApostrophesAreShown) {
+  Figure figure = simple_figure();
+  figure.panels[0].title = "'it's'";
+  EXPECT_NE(render(figure, PictureFormat::svg).find("\u2019it\u2019s\u2019"), std::string::npos);
+}
+
+TEST(Render, PlainTextIsShownAsItIs) {
+  Figure figure = simple_figure();
+  figure.panels[0].title = plain("a_b^{c}");
+  EXPECT_NE(render(figure, PictureFormat::svg).find("a_b^{c}"), std::string::npos);
+}
+
+TEST(Render, SeveralPanelsAreLettered) {
+  Figure figure = simple_figure();
+  figure.panels.push_back(figure.panels[0]);
+  const std::string svg = render(figure, PictureFormat::svg);
+  EXPECT_NE(svg.find("(a)"), std::string::npos);
+  EXPECT_NE(svg.find("(b)"), std::string::npos);
+  EXPECT_EQ(render(simple_figure(), PictureFormat::svg).find("(a)"), std::string::npos);
+}
+
+TEST(Render, FiguresThatCannotBeDrawnAreRefused) {
+  EXPECT_THROW(render(Figure{}, PictureFormat::svg), std::invalid_argument);
+  Figure figure = simple_figure();
+  figure.panels[0].series[0].y.pop_back();
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+  figure = simple_figure();
+  figure.panels[0].x.logarithmic = true;
+  figure.panels[0].x.lower = 0.0;
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+}
+
+TEST(Render, HeatMapsDrawEveryValueOnce) {
+  Figure figure;
+  Panel& panel = figure.add_panel("map");
+  panel.heat_map = HeatMap{{0.0, 1.0, 2.0}, {0.0, 1.0}, {0.25, -0.5, 1.0, 0.125, 0.0, -1.0}, 1.0, "u / g_0"};
+  const std::string script = gnuplot_script(figure);
+  for (const char* line : {"0 0 0.25\n", "2 0 1\n", "0 1 0.125\n", "2 1 -1\n", "cbrange [-1:1]"})
+    EXPECT_NE(script.find(line), std::string::npos) << line;
+  EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
+  panel.heat_map->values.pop_back();
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+  panel.heat_map->values.push_back(0.0);
+  panel.heat_map->largest = 0.0;
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+}
+
+TEST(Render, CurvesInThreeDimensionsNeedTheirHeights) {
+  Figure figure;
+  Panel& panel = figure.add_panel("orbit");
+  panel.z.emplace().label = "Last node";
+  Series series("", std::vector<double>{0.0, 1.0}, std::vector<double>{2.0, 3.0});
+  panel.add(series);
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+  panel.series[0].z = {4.0, 5.0};
+  EXPECT_NE(gnuplot_script(figure).find("1 3 5\n"), std::string::npos);
+  EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
+  panel.z.reset();
+  EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+}
+
+TEST(Render, WordsOfGnuplotAreInTheError) {
+  Figure figure = simple_figure();
+  figure.panels[0].x.tick_format = "%";  // gnuplot refuses it only when it draws
+  figure.panels[0].x.lower = 1.0;
+  figure.panels[0].x.upper = 1.0;
+  figure.panels[0].series[0].marker_every = -1;
+  try {
+    render(figure, PictureFormat::svg);
+    FAIL() << "gnuplot drew it";
+  } catch (const PlotError& error) {
+    EXPECT_NE(std::string(error.what()).find("gnuplot"), std::string::npos);
+    EXPECT_GT(std::string(error.what()).size(), 30u);
+  }
+}
+
+TEST(Render, MissingGnuplotIsAnError) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  EXPECT_THROW(render(simple_figure(), PictureFormat::svg), PlotError);
+  ::setenv("PATH", path.c_str(), 1);
+}
+
+TEST(WritePictures, WritesBothBesideEachOther) {
+  const TemporaryFolder folder;
+  write_pictures(folder / "new folder's" / "fig 1", simple_figure());
+  EXPECT_TRUE(std::filesystem::exists(folder / "new folder's" / "fig 1.svg"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "new folder's" / "fig 1.png"));
+  EXPECT_EQ(TemporaryFolder::count(folder / "new folder's"), 2);
+}
+
+}  // namespace

@@ -1,0 +1,96 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "wavebalance/solvers/structure/condensation.hpp"
+#include "wavebalance/solvers/time/time_pair.hpp"
+
+namespace wavebalance::solvers {
+
+/// The periodic problem of C contact degrees of freedom at one frequency, written for the displacement
+/// samples u (N values a contact at t_l = l/N; contact c has entries [c N, (c + 1) N)):
+///
+///   u = u0 - K f_c(u),
+///
+/// u0 the contact-free response and K (C N x C N, rank C M) the dynamic compliance between force and
+/// displacement samples: DFT, weighting, compliance S Z(k)^-1 S^T, trial functions, inverse DFT. K is never
+/// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
+/// columns onto each other.
+///
+/// Owns plans and buffers: one object a thread.
+class CondensedProblem {
+ public:
+  /// `load_harmonics[n]`: complex amplitude h_n of the load's time function Re sum h_n exp(2 pi i n t), which
+  /// scales structure.load; {0, 1} is the cosine of JL14.
+  /// Throws as Condensation does.
+  CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
+                   CondensationMethod method = CondensationMethod::automatic);
+  CondensedProblem(CondensedProblem&&) noexcept;
+  CondensedProblem& operator=(CondensedProblem&&) noexcept;
+  ~CondensedProblem();
+
+  const TimePair& pair() const { return pair_; }
+  int contacts() const { return condensation_.contacts(); }  ///< C
+  int points() const { return pair_.points(); }              ///< N, samples of each contact
+  int samples() const { return contacts() * points(); }      ///< C N
+  const Condensation& condensation() const { return condensation_; }
+
+  /// Condenses at a frequency (Hz, > 0). Throws std::invalid_argument or SingularSystem. M/2 + 1 points of
+  /// condensation and O(C N log N).
+  void set_frequency(double frequency_hz);
+  double frequency() const { return frequency_; }
+
+  /// u0, m, samples() values, and its derivative by frequency, m/Hz.
+  const Eigen::VectorXd& free_response() const { return free_response_; }
+  const Eigen::VectorXd& free_response_slope();
+
+  /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
+  void apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement);
+  /// (dK / d frequency) f, m/Hz.
+  void apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd& slope);
+  /// K^T v.
+  void apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result);
+
+  /// C x C: the parts exp(2 pi i n t) of the displacements that contact forces exp(2 pi i n t) cause, m/N,
+  /// 0 <= n <= N/2. The diagonal of K over harmonics of the samples, which is all of K for two Fourier bases.
+  Eigen::MatrixXcd harmonic_response(int n) const;
+
+  /// The first p = shift_period() columns of K of each contact, samples() x C p: column d p + m belongs to a
+  /// unit force at point m of contact d. The column of point m + j p is that of m with the samples of every
+  /// contact shifted cyclically by j p. Made on first use after set_frequency. O(C p (C N log N + C M)).
+  const Eigen::MatrixXd& columns();
+  /// columns() of which only those of the contacts in `wanted` need be valid.
+  const Eigen::MatrixXd& columns(std::span<const int> wanted);
+
+  /// Spectra over translates, (M/2 + 1) x C, of the coefficients that belong to force samples (samples()):
+  /// a(k) = contact-free response - compliance * <p, f>. O(C N log N + C^2 M).
+  Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
+
+  /// Spectra over translates of the coefficients of all n degrees of freedom, n x (M/2 + 1), for force
+  /// samples of all contacts (samples()). O(n M), or M/2 + 1 factorisations.
+  Eigen::MatrixXcd full_coefficients(const Eigen::VectorXd& force);
+
+ private:
+  StiffnessFactors factors(int k) const;
+  void apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
+                    const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
+  void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);
+  void project(const Eigen::VectorXd& force);
+
+  TimePair pair_;
+  Condensation condensation_;
+  Eigen::VectorXcd load_;  // projected load, spectrum over translates
+  double frequency_ = 0.0;
+  StiffnessSpectrum factors_, rates_;
+  CondensedSpectrum condensed_;  // load responses times the projected load
+  Eigen::VectorXd free_response_, free_response_slope_;
+  bool slope_is_current_ = false;
+  Eigen::MatrixXd columns_;
+  std::vector<bool> columns_are_current_;  // of each contact
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace wavebalance::solvers

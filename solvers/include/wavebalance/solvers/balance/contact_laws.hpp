@@ -1,0 +1,45 @@
+#pragma once
+#include <Eigen/Core>
+#include <concepts>
+#include <vector>
+
+#include "wavebalance/solvers/balance/contact_law.hpp"
+
+namespace wavebalance::solvers {
+
+/// The laws of all contacts of a structure: one law for all of them, or one each, in the order of
+/// LinearStructure::contact_dofs. Samples are contact-major: contact c has entries [c N, (c + 1) N).
+class ContactLaws {
+ public:
+  /// No contact.
+  ContactLaws() : laws_(1) {}
+
+  /// One law for all contacts: any ContactLaw, or an AnyContactLaw.
+  template <class Law>
+  requires(!std::same_as<Law, ContactLaws> && ContactLaw<Law>) ContactLaws(Law law)
+      : laws_{AnyContactLaw(std::move(law))} {}  // NOLINT: a law is meant to convert
+
+  /// One law each. Throws std::invalid_argument when empty.
+  ContactLaws(std::vector<AnyContactLaw> laws);  // NOLINT
+
+  /// Of contact c >= 0.
+  const AnyContactLaw& operator[](int contact) const {
+    return laws_.size() == 1 ? laws_.front() : laws_[static_cast<std::size_t>(contact)];
+  }
+  /// Throws std::invalid_argument when there are neither one nor `contacts` laws.
+  void require(int contacts) const;
+  /// The gaps of `contacts` contacts, m.
+  Eigen::VectorXd gaps(int contacts) const;
+  /// The largest finite |gap|, m; 0 when none is finite. A length that the motion in contact has.
+  double largest_gap() const;
+
+  /// Force (N) and tangent (N/m) at displacements (m) of `contacts` contacts with equally many samples each;
+  /// the three vectors have one length. O(samples).
+  void evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
+                Eigen::VectorXd& tangent) const;
+
+ private:
+  std::vector<AnyContactLaw> laws_;
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,95 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+
+namespace wavebalance::solvers {
+
+class JacobianSolver;
+
+/// Of each sample, whether it presses.
+using Sides = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// How systems with the Newton matrix J are solved.
+enum class LinearSolver {
+  automatic,  ///< LU for few active samples, GMRES for many
+  dense,      ///< LU of the active samples, O(active^3)
+  krylov  ///< GMRES with FFT products and J on its low harmonics as preconditioner, O(N log N) an iteration
+};
+
+/// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
+/// m, contact-major):
+///   R(u) = u - u0 + K s f_c(u),   J = I + K D,   D = diag(s f_c'(u)),
+/// s a factor on the laws (homotopy in contact stiffness; 1 otherwise). A linear solve with J reduces exactly
+/// to the active samples, those where D is not zero: x = r - K D x, an LU of their number and one product
+/// with K. Many of them are solved for by GMRES, which forms no matrix over them.
+class ContactSystem {
+ public:
+  /// Throws std::invalid_argument when there are neither one law nor one for each contact.
+  ContactSystem(CondensedProblem& problem, ContactLaws laws);
+  ContactSystem(ContactSystem&&) noexcept;
+  ContactSystem& operator=(ContactSystem&&) noexcept;
+  ~ContactSystem();
+
+  CondensedProblem& problem() { return *problem_; }
+  const ContactLaws& laws() const { return laws_; }
+  /// Of the contact that a sample belongs to; its gap in m.
+  const AnyContactLaw& law_at(int sample) const { return laws_[sample / problem_->points()]; }
+  double gap_at(int sample) const { return gaps_[sample / problem_->points()]; }
+  void set_stiffness_factor(double factor) { factor_ = factor; }
+
+  /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
+  double evaluate(const Eigen::VectorXd& displacement);
+  /// The same with every sample kept on one side of its gap, samples() values: one that presses feels its
+  /// law's tangent also below the gap, a free one no force beyond it. Equal to evaluate() where the sides are
+  /// those of `displacement`, and smooth across the gaps.
+  double evaluate(const Eigen::VectorXd& displacement, const Sides& presses);
+
+  const Eigen::VectorXd& force() const { return force_; }        ///< s f_c(u), N
+  const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
+  const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
+  /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
+  double relative_residual() const { return relative_residual_; }
+
+  /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
+  void set_tangent(int sample, double value) { tangent_[sample] = factor_ * value; }
+
+  void set_linear_solver(LinearSolver method);
+
+  /// Factorizes J restricted to the active samples, or its preconditioner. False when singular to working
+  /// precision. O(active^3), or O(N log N) for many.
+  bool factorize();
+  /// x = J^-1 r, with GMRES until the residual is at most `reduction` of r on the active samples. False when
+  /// that was not reached: J is singular or nearly so.
+  bool solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction = 1e-10);
+
+  /// Factorizes the bordered matrix [J b; c^T d], which stays regular where the curve turns. False when
+  /// singular.
+  bool factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d);
+  /// Solves J x + b y = r, c.x + d y = s.
+  bool solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
+                      double reduction = 1e-10);
+  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when GMRES stood in for its LU.
+  int determinant_sign() const;
+
+  /// Condition of what was factorized last, as NewtonResult says; 0 before any.
+  double condition();
+
+  /// Floating-point operations that linear systems have taken so far.
+  double operations() const;
+
+ private:
+  double evaluate_residual(const Eigen::VectorXd& displacement);
+
+  CondensedProblem* problem_;
+  ContactLaws laws_;
+  Eigen::VectorXd gaps_;
+  double factor_ = 1.0;
+  double relative_residual_ = 0.0;
+  Eigen::VectorXd force_, tangent_, residual_, product_;
+  std::unique_ptr<JacobianSolver> jacobian_;
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,151 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "wavebalance/solvers/balance/contact_system.hpp"
+
+namespace wavebalance::solvers {
+
+/// The parameter of a solution curve R(u; p) = 0.
+class CurveParameter {
+ public:
+  virtual ~CurveParameter() = default;
+  /// Whether there is a system of parameter p; a step that leads to another is too long.
+  virtual bool contains(double p) const = 0;
+  /// Makes the system that of parameter p; evaluate() must follow.
+  virtual void set(ContactSystem& system, double p) const = 0;
+  /// dR/dp at the state last evaluated.
+  virtual void slope(ContactSystem& system, Eigen::VectorXd& slope) const = 0;
+};
+
+/// p = frequency in Hz.
+class FrequencyParameter final : public CurveParameter {
+ public:
+  bool contains(double p) const override;
+  void set(ContactSystem& system, double p) const override;
+  void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
+};
+
+/// p = ln of the factor on the contact law: 0 is the law itself.
+class StiffnessParameter final : public CurveParameter {
+ public:
+  bool contains(double p) const override;
+  void set(ContactSystem& system, double p) const override;
+  void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
+};
+
+/// Which corners of the curve are solved for.
+enum class Corners {
+  where_needed,  ///< those over which no step is found
+  at_turns,      ///< also those at which the parameter is seen to turn, and the first and last touch
+  every          ///< no turn can be missed; a few solves a corner
+};
+
+struct ArcLengthOptions {
+  double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
+  double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
+  double initial_step = 0.02;
+  double smallest_step = 1e-3;  ///< of long steps; within a piece of the curve 1e-4 of it
+  double largest_step = 0.25;
+  double largest_angle = 0.35;  ///< rad, between the tangents of successive points
+  int max_corrections = 8;      ///< of a point; half as many after a long step
+  double tolerance = 1e-10;     ///< on the relative residual
+  Corners corners = Corners::at_turns;
+  /// Of the linear systems of all points; the curve ends with no_point where they are used up.
+  double most_operations = std::numeric_limits<double>::infinity();
+};
+
+/// A point of a solution curve with its unit tangent in the scaled inner product
+/// <(u, p), (v, q)> = u.v / (samples() displacement_scale^2) + p q / parameter_scale^2.
+struct CurvePoint {
+  Eigen::VectorXd displacement;  ///< m, samples() values
+  double parameter = 0.0;
+  Eigen::VectorXd displacement_tangent;
+  double parameter_tangent = 0.0;
+  double residual = 0.0;
+  int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
+  bool corner = false;  ///< the contact law's slope jumps here; the tangent is that of the side ahead
+};
+
+/// Pseudo-arc-length continuation of a piecewise smooth solution curve. A smooth fold is passed by the
+/// bordered Newton matrix. Long steps pass corners, where a sample reaches the gap and the law's slope jumps,
+/// unseen. Where they miss the curve, and as far as a long step in which the curve turns, it is followed
+/// piece by piece: with the samples kept on their sides of the gaps it is smooth, the first sample that would
+/// leave its side is held at its gap, and the corner is left on the side ahead, on which that sample goes on
+/// through. The sign of det [R_u R_p; tangent^T] stays over folds and over corners of one sample: a long step
+/// that lands on a part of the curve that faces back is refused. It changes only where curves cross, as those
+/// of a structure with symmetries do where samples reach their gaps together: those samples go on through
+/// together, and the curve is followed piece by piece from there on.
+class ArcLength {
+ public:
+  enum class Status { advanced, no_point };
+
+  ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options);
+
+  /// Starts at a solution `displacement` of parameter p, towards growing (direction = +1) or falling p.
+  Status start(const Eigen::VectorXd& displacement, double p, double direction);
+  /// Goes one step along the curve. O(corrections (active^3 + N log N)).
+  Status advance();
+  /// Between previous() and point(), the point where `value` vanishes, by false position along the last step;
+  /// `value` must change its sign between the two. False when the corrector fails or the sign does not
+  /// change.
+  bool locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point);
+
+  const CurvePoint& point() const { return point_; }
+  const CurvePoint& previous() const { return previous_; }
+
+ private:
+  /// Of points (u, p) with row.u + corner p = offset.
+  struct Plane {
+    Eigen::VectorXd row;
+    double corner = 0.0;
+    double offset = 0.0;
+    double tolerance = 0.0;  // on miss()
+    double miss(const CurvePoint& point) const;
+  };
+
+  double evaluate(const CurvePoint& point, const Sides* sides);
+  bool solve_in(const Plane& plane, const Sides* sides, CurvePoint& point, int& corrections);
+  bool correct(const CurvePoint& from, double step, const Sides* sides, CurvePoint& to, int& corrections);
+  bool tangent_at(CurvePoint& point, const CurvePoint& along);
+  CurvePoint ahead(const CurvePoint& from, double step) const;
+  CurvePoint chord(const CurvePoint& to) const;
+  bool is_ahead(const CurvePoint& candidate) const;
+  bool is_at_gap(const CurvePoint& point, int sample) const;
+  bool turns_unseen(const CurvePoint& candidate) const;
+  void accept(CurvePoint&& candidate, const Sides& sides);
+
+  bool step_far();
+  bool step_in_piece();
+  bool step_smoothly(double step, const Sides& sides, CurvePoint& candidate);
+  bool turn_corner(int sample, double distance, const Sides& sides);
+  int crossing_ahead(double& distance) const;
+  int passed(const CurvePoint& candidate, const Sides& sides, double& fraction) const;
+  Sides sides_of(const CurvePoint& point) const;
+  std::vector<int> samples_at_gap(const CurvePoint& point) const;
+  bool arrives(int sample, const Sides& sides, CurvePoint corner);
+  bool tangent_through(int sample, bool inwards, CurvePoint& corner);
+  bool corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+                      CurvePoint& corner);
+  bool leave_corner(int sample, const Sides& sides, CurvePoint& corner);
+  void normalize(CurvePoint& point) const;
+  double inner(const CurvePoint& a, const CurvePoint& b) const;
+  Eigen::VectorXd scaled(const Eigen::VectorXd& tangent) const;
+
+  ContactSystem& system_;
+  const CurveParameter& parameter_;
+  ArcLengthOptions options_;
+  CurvePoint point_, previous_;
+  double step_ = 0.0;
+  double last_step_ = 0.0;       // from previous_ to point_, along the tangent of previous_
+  Sides last_sides_;             // of the piece that both lie on; empty when it may be several
+  double watched_ = 0.0;         // the length of the long step that saw the last turn
+  double last_operation_ = 0.0;  // of the system, where this curve may not go on
+  double pieces_left_ = 0.0;     // arc length that is to be followed piece by piece
+  bool crossed_ = false;  // whether curves have crossed: the orientation then tells nothing on long steps
+  Eigen::VectorXd slope_, change_;
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,61 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/solvers/balance/contact_law.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/reference/period_samples.hpp"
+
+namespace wavebalance::solvers {
+
+enum class ShootingStatus {
+  converged,      ///< the state returns to itself after one period
+  not_converged,  ///< the iterations ran out, or no step along Newton's direction brings the residual down
+  step_failure    ///< the contact force could not be resolved in time, e.g. a law that jumps
+};
+
+/// "converged", "not_converged" or "step_failure".
+const char* to_string(ShootingStatus status);
+
+struct ShootingOptions {
+  int output_points = 1024;   ///< uniform samples of the period
+  int settling_periods = 10;  ///< periods integrated from the initial state before Newton starts
+  int max_iterations = 30;    ///< of Newton on the period map
+  double tolerance = 1e-11;   ///< on the relative change of the state over one period, in the energy norm
+  /// Bound of a step's error in the contact impulse, relative to the period times the largest force.
+  double step_tolerance = 1e-12;
+  bool full_history = false;             ///< also keep every degree of freedom
+  Eigen::VectorXd initial_displacement;  ///< n, m, at t = 0; empty: that of the response without contact
+  Eigen::VectorXd initial_velocity;      ///< n, m/s, at t = 0; empty: that of the response without contact
+};
+
+struct ShootingResult {
+  ShootingStatus status = ShootingStatus::not_converged;
+  int iterations = 0;                    ///< Newton steps taken
+  double residual = 0.0;                 ///< relative change of the state over one period, energy norm
+  std::vector<double> residual_history;  ///< before each Newton step and at the end
+  long steps = 0;                        ///< time steps in all
+  Eigen::VectorXd displacement;          ///< n, m, at the load's maximum (t = 0)
+  Eigen::VectorXd velocity;              ///< n, m/s, at t = 0
+  Eigen::VectorXcd floquet_multipliers;  ///< 2n, of the last iterate, by falling modulus
+  PeriodSamples samples;  ///< the period that starts from the last iterate; empty on step_failure
+};
+
+/// The periodic response of M u'' + C u' + K u = load cos(2 pi f t) - e f_c(u_c) by Newton on the period map
+/// (u, u')(0) -> (u, u')(T), with its derivative by the variational equations. It shares neither the time
+/// basis of the weighted residual nor the integrator of integrate_to_periodic, and serves to check both.
+///
+/// The deviation from the response without contact is propagated in the modes, exactly for a contact force
+/// that is a polynomial of degree 5 through the Gauss points of a step (exponential collocation), whatever
+/// the damping of the mode. Steps are halved about the instants where the law has its kink. Contacts shorter
+/// than about a thousandth of the period that start and end between two points can be missed.
+///
+/// Cost: O(n^2) a step, O(n^3) an iteration, O(n^2) memory, at least 512 steps a period.
+///
+/// Throws std::invalid_argument when the structure does not fit together, its mass is not positive definite,
+/// its modes do not decouple the damping, an undamped mode is loaded at its own frequency, frequency_hz (Hz)
+/// is not positive and finite, or an option is out of range.
+ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
+                     const ShootingOptions& options = {});
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,67 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/reference/period_samples.hpp"
+
+namespace wavebalance::solvers {
+
+enum class TimeSteppingStatus {
+  converged,      ///< two successive periods agree
+  not_converged,  ///< the periods or the steps ran out first
+  step_failure,   ///< the integrator found no step that meets its tolerance
+  stopped         ///< the observer asked to stop
+};
+
+/// "converged", "not_converged", "step_failure" or "stopped".
+const char* to_string(TimeSteppingStatus status);
+
+struct TimeSteppingOptions {
+  int output_points = 1024;        ///< uniform samples of one period, also those that periods are compared on
+  double period_tolerance = 1e-7;  ///< on the relative rms difference of two periods [JL14, section 4]
+  int max_periods = 2000;          ///< periods integrated at most
+  int max_steps_per_period = 200000;  ///< steps accepted at most, on average over the periods so far
+  double step_tolerance = 1e-10;      ///< local error of a step, relative to the state
+  double step_floor = 1e-2;   ///< states below step_floor * (largest linear response) count as that large
+  bool full_history = false;  ///< also keep every degree of freedom over the last period
+  Eigen::VectorXd initial_displacement;  ///< n, m; empty: zero
+  Eigen::VectorXd initial_velocity;      ///< n, m/s; empty: zero
+  /// Called after each period with its number, from 1, and its relative rms difference to the one before
+  /// (infinity after the first). Return false to stop.
+  std::function<bool(int period, double difference)> observer;
+};
+
+struct TimeSteppingResult {
+  TimeSteppingStatus status = TimeSteppingStatus::not_converged;
+  int periods = 0;        ///< complete periods integrated
+  long steps = 0;         ///< accepted steps
+  long failed_steps = 0;  ///< steps tried and rejected
+  /// Relative rms difference of the contact displacements of periods i+2 and i+1; periods - 1 entries.
+  std::vector<double> period_error;
+  PeriodSamples samples;  ///< the last complete period; empty when there is none
+};
+
+/// Integrates M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c) [JL14, eq. (7)] until two
+/// successive periods of the contact displacements differ by less than period_tolerance in relative rms. The
+/// integrator is the variable-step, variable-order (1..5) backward differentiation of GSL (msbdf) with the
+/// analytic Jacobian; [JL14, section 4] used the closely related NDF. It never steps to an output time:
+/// samples come from the quintic that matches displacement, velocity and acceleration at both ends of a step.
+///
+/// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
+/// Floquet multiplier; the distance left to the periodic motion is about multiplier / (1 - multiplier) times
+/// the last difference, more where complex multipliers let that dip. Two periods never agree better than the
+/// steps do: keep period_tolerance above 100 step_tolerance, or the periods run out. Cost: O(n^2) a step and
+/// O(n^3) every twenty steps or so, O(n^2) memory: for structures of up to a few hundred degrees of freedom.
+///
+/// GSL's error handler (which would end the program) is switched off for the duration of the call and
+/// restored; that handler belongs to the process.
+///
+/// Throws std::invalid_argument when the structure or the laws do not fit together, its mass is not positive
+/// definite, frequency_hz (Hz) is not positive and finite, or an option is out of range.
+TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const ContactLaws& laws,
+                                         double frequency_hz, const TimeSteppingOptions& options = {});
+
+}  // namespace wavebalance::solvers

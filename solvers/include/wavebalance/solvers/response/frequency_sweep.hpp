@@ -1,0 +1,77 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "wavebalance/solvers/continuation/arc_length.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+
+namespace wavebalance::solvers {
+
+enum class SweepStatus {
+  reached_end,  ///< the curve left the frequency interval at its far end
+  returned,     ///< the curve left the interval at the end where it started
+  no_start,     ///< no periodic response was found at the first frequency
+  lost,         ///< no further point was found, neither along the tangent nor round a corner
+  unbounded,    ///< the response grew past all bounds, as it does at a resonance without damping: that of the
+                ///< Nyquist function which an even number of functions keeps
+  point_limit,  ///< max_points used up
+  cancelled     ///< the observer asked to stop
+};
+
+std::string to_string(SweepStatus status);
+
+/// Displacements are each the largest that one of the contacts has.
+struct SweepPoint {
+  double frequency = 0.0;             ///< Hz
+  double max_displacement = 0.0;      ///< m, over output_points of the period
+  double rms_displacement = 0.0;      ///< m
+  double max_abs_displacement = 0.0;  ///< m
+  double residual = 0.0;              ///< relative
+  bool corner = false;                ///< the law's slope jumps here (a sample reaches the gap)
+};
+
+/// Where the curve turns in frequency, at a smooth fold or at a corner. A sampled stop makes a corner of
+/// every sample that touches, and near folds the curve turns at many of them, to and fro.
+struct TurningPoint {
+  double frequency = 0.0;             ///< Hz
+  double max_displacement = 0.0;      ///< m, as in SweepPoint
+  double max_abs_displacement = 0.0;  ///< m
+  bool corner = false;
+};
+
+struct FrequencySweepOptions {
+  double from = 0.0;         ///< Hz
+  double to = 0.0;           ///< Hz, either side of `from`
+  int output_points = 1024;  ///< of the period, for the maximum and the rms
+  int max_points = 20000;
+  /// Hz; turning points between which the frequency goes back by less are left out. 0 stands for a thousandth
+  /// of the interval. Those that long steps pass unseen are small, too; Corners::every in arc_length passes
+  /// none.
+  double smallest_return = 0.0;
+  /// Arc length: displacement_scale 0 stands for the largest gap, or without contact the rms response at
+  /// `from`; parameter_scale 0 stands for a 20th of the interval.
+  ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
+  ForcedResponseOptions start;  ///< the solver of the first point
+  /// Told of each accepted point; returns false to stop. A curve that ends as unbounded is followed again
+  /// from its start with largest steps of other lengths, twice at most, unless every corner is asked for.
+  std::function<bool(const SweepPoint&)> observer;
+};
+
+struct FrequencySweep {
+  SweepStatus status = SweepStatus::no_start;
+  std::vector<SweepPoint> points;
+  std::vector<TurningPoint> turning_points;
+  /// The largest Condensation::condition() of the curve's points and PeriodicResponse::condition of the
+  /// first.
+  double condition = 0.0;
+};
+
+/// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
+/// folds and corners, from `from` until it leaves the interval. Throws std::invalid_argument for frequencies
+/// that are not positive, finite and different, and for laws that are neither one nor one a contact. O(points
+/// (active^3 + N log N)).
+FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options);
+
+}  // namespace wavebalance::solvers

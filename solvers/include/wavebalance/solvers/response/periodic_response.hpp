@@ -1,0 +1,29 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/solvers/balance/newton.hpp"
+
+namespace wavebalance::solvers {
+
+/// A periodic response at one frequency.
+struct PeriodicResponse {
+  SolveStatus status = SolveStatus::iteration_limit;
+  double frequency = 0.0;  ///< Hz
+  double residual = 0.0;   ///< ||R|| / (||u0|| + ||K f||)
+  int iterations = 0;      ///< Newton iterations, steps and corners of the homotopies included
+  bool used_homotopy = false;
+  std::vector<double> residual_history;  ///< of the last Newton run
+  double condition = 0.0;                ///< of its last Newton matrix, see NewtonResult
+  Eigen::VectorXd displacement;          ///< m, samples() values, contact-major
+  Eigen::VectorXd contact_force;         ///< N, samples() values
+  /// Whether contact_force is what makes the motion and not the law's at it: a law so stiff that
+  /// displacements do not resolve its penetration is met in displacement, to 1e-9 of the motion, which
+  /// `residual` then says.
+  bool force_by_balance = false;
+  Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
+
+  bool converged() const { return status == SolveStatus::converged; }
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,94 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+#include <memory>
+#include <stdexcept>
+
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+
+namespace wavebalance::solvers {
+
+/// The dynamic stiffness is singular to working precision: an undamped structure driven at a natural
+/// frequency, or a pair whose symbol vanishes.
+class SingularSystem : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What C contact degrees of freedom see of a structure at one dynamic stiffness Z = s2 M + s1 C + s0 K, with
+/// S their C x n selection.
+struct CondensedPoint {
+  Eigen::MatrixXcd compliance;     ///< S Z^-1 S^T, C x C, m/N
+  Eigen::VectorXcd load_response;  ///< S Z^-1 load, C, m for a load of unit time function
+  /// Derivatives of both along dZ = d2 M + d1 C + d0 K.
+  Eigen::MatrixXcd compliance_slope;
+  Eigen::VectorXcd load_response_slope;
+};
+
+/// The three complex factors of M, C and K.
+using StiffnessFactors = std::array<std::complex<double>, 3>;
+
+/// The same three factors for each k of a spectrum over translates.
+using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
+
+/// CondensedPoint for each of the K values k of a spectrum, one row each: entry (c, d) of the compliance is
+/// in column c + C d, load responses in column c.
+struct CondensedSpectrum {
+  Eigen::MatrixXcd compliance, load_response;              ///< K x C^2, m/N; K x C, m
+  Eigen::MatrixXcd compliance_slope, load_response_slope;  ///< along the rates
+};
+
+/// How dynamic stiffnesses are solved. n degrees of freedom, C contacts.
+enum class CondensationMethod {
+  automatic,    ///< tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU
+  tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) a point, O(n) for one contact
+  modal,        ///< modes computed once, O(n^3), then O(n C^2) a point; C diagonal in the undamped modes
+  dense,        ///< one dense LU a point, O(n^3)
+  sparse        ///< one sparse LU a point
+};
+
+/// Condensation of a structure on its contact degrees of freedom: rule 1 of the solvers, after which no cost
+/// depends on the structure. Immutable after construction except for work space: one object a thread.
+class Condensation {
+ public:
+  /// Throws std::invalid_argument as LinearStructure::validate does, for unsymmetric matrices, and for a
+  /// method that the matrices do not admit: one that is not tridiagonal; modes when neither K nor M is
+  /// positive definite or the damping couples them.
+  explicit Condensation(const LinearStructure& structure,
+                        CondensationMethod method = CondensationMethod::automatic);
+  Condensation(Condensation&&) noexcept;
+  Condensation& operator=(Condensation&&) noexcept;
+  ~Condensation();
+
+  int size() const;
+  int contacts() const;
+  /// The method taken, never automatic.
+  CondensationMethod method() const { return chosen_; }
+
+  /// Factors {s2, s1, s0} of M, C, K, and their rates {d2, d1, d0}. Throws SingularSystem.
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates);
+
+  /// at() for all k at once, with results resized to fit. A bar that is loaded and touches at its last degree
+  /// of freedom alone takes one forward recursion, vectorised over k. K times the cost of a point.
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates, CondensedSpectrum& result);
+
+  /// Condition of the dynamic stiffnesses of the last condense(): the largest over k of (|s2| max|M| + |s1|
+  /// max|C| + |s0| max|K|) ||x|| / ||b|| over the systems Z(k) x = b that were solved, a lower bound up to a
+  /// factor of the row length. SingularSystem is thrown from 4.5e14 on; the vectorised recursion of a bar
+  /// sees the contact's entry of x alone.
+  double condition() const { return condition_; }
+
+  /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b
+  /// (C).
+  Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+                           const Eigen::VectorXcd& contact_forces);
+
+  class Method;  ///< how one dynamic stiffness is solved; see condensation.cpp
+
+ private:
+  CondensationMethod chosen_;
+  double condition_ = 0.0;
+  std::unique_ptr<Method> method_;
+};
+
+}  // namespace wavebalance::solvers

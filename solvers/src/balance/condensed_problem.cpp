@@ -1,0 +1,174 @@
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "linalg/spans.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
+#include "wavebalance/spectral/fft.hpp"
+
+namespace wavebalance::solvers {
+
+struct CondensedProblem::Work {
+  Work(int points, int contacts)
+      : fft(points), spectrum(points / 2 + 1), translates(static_cast<std::size_t>(contacts)) {}
+  spectral::RealFft fft;
+  Eigen::VectorXcd spectrum;
+  std::vector<Eigen::VectorXcd> translates;  // of each contact; empty where nothing acts
+  Eigen::VectorXcd product;
+};
+
+CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structure,
+                                   Eigen::VectorXcd load_harmonics, CondensationMethod method)
+    : pair_(std::move(pair)),
+      condensation_(structure, method),
+      load_(pair_.load(load_harmonics)),
+      columns_are_current_(structure.contact_dofs.size(), false),
+      work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {}
+
+CondensedProblem::CondensedProblem(CondensedProblem&&) noexcept = default;
+CondensedProblem& CondensedProblem::operator=(CondensedProblem&&) noexcept = default;
+CondensedProblem::~CondensedProblem() = default;
+
+StiffnessFactors CondensedProblem::factors(int k) const {
+  return {factors_[0][k], factors_[1][k], factors_[2][k]};
+}
+
+void CondensedProblem::set_frequency(double frequency_hz) {
+  if (!(frequency_hz > 0.0) || !std::isfinite(frequency_hz))
+    throw std::invalid_argument("CondensedProblem: frequency is " + std::to_string(frequency_hz) +
+                                " Hz; it must be positive and finite");
+  frequency_ = frequency_hz;
+  factors_ = {pair_.symbol(2) * (frequency_ * frequency_), pair_.symbol(1) * frequency_, pair_.symbol(0)};
+  rates_ = {pair_.symbol(2) * (2.0 * frequency_), pair_.symbol(1),
+            Eigen::VectorXcd::Zero(pair_.spectrum_size())};
+  condensation_.condense(factors_, rates_, condensed_);
+  condensed_.load_response.array().colwise() *= load_.array();
+  condensed_.load_response_slope.array().colwise() *= load_.array();
+  slope_is_current_ = false;
+  columns_are_current_.assign(columns_are_current_.size(), false);
+  synthesize(condensed_.load_response, free_response_);
+}
+
+// Samples of the motions whose coefficients have the columns of `spectra` over translates.
+void CondensedProblem::synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples) {
+  samples.resize(this->samples());
+  for (int c = 0; c < contacts(); ++c) {
+    pair_.spread(spectra.col(c), work_->spectrum);
+    work_->fft.inverse(span_of(std::as_const(work_->spectrum)), block_of(samples, c, points()));
+  }
+  samples /= points();
+}
+
+const Eigen::VectorXd& CondensedProblem::free_response_slope() {
+  if (slope_is_current_) return free_response_slope_;
+  synthesize(condensed_.load_response_slope, free_response_slope_);
+  slope_is_current_ = true;
+  return free_response_slope_;
+}
+
+void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
+                                    const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis,
+                                    Eigen::VectorXd& out) {
+  const TranslateIndex index{pair_.functions(), points()};
+  const double scale = double(pair_.functions()) / points() / points() / points();
+  for (int d = 0; d < contacts(); ++d) {
+    Eigen::VectorXcd& translates = work_->translates[static_cast<std::size_t>(d)];
+    translates.resize(0);
+    if (contacts() > 1 && in.segment(d * points(), points()).isZero(0.0)) continue;
+    work_->fft.forward(block_of(in, d, points()), span_of(work_->spectrum));
+    index.fold(analysis, work_->spectrum, translates);
+    translates *= scale;
+  }
+  out.resize(samples());
+  for (int c = 0; c < contacts(); ++c) {
+    work_->product.setZero(pair_.spectrum_size());
+    for (int d = 0; d < contacts(); ++d)
+      if (const auto& translates = work_->translates[static_cast<std::size_t>(d)]; translates.size() > 0)
+        work_->product += kernel.col(c + contacts() * d).cwiseProduct(translates);
+    index.replicate(synthesis, work_->product, work_->spectrum);
+    work_->fft.inverse(span_of(std::as_const(work_->spectrum)), block_of(out, c, points()));
+  }
+}
+
+void CondensedProblem::apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement) {
+  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), displacement);
+}
+
+void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd& slope) {
+  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance_slope, pair_.trial_spectrum(), slope);
+}
+
+// The compliance is symmetric: exchanging the two bases transposes K.
+void CondensedProblem::apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result) {
+  apply_kernel(values, pair_.trial_spectrum(), condensed_.compliance.conjugate(), pair_.weight_spectrum(),
+               result);
+}
+
+Eigen::MatrixXcd CondensedProblem::harmonic_response(int n) const {
+  const int k = n % pair_.functions();
+  const bool mirrored = k >= pair_.spectrum_size();
+  const double scale = double(pair_.functions()) / points() / points();
+  const std::complex<double> bases =
+      scale * std::conj(pair_.weight_spectrum()[n]) * pair_.trial_spectrum()[n];
+  Eigen::MatrixXcd compliance =
+      condensed_.compliance.row(mirrored ? pair_.functions() - k : k).reshaped(contacts(), contacts());
+  if (mirrored) compliance = compliance.conjugate().eval();
+  return bases * compliance;
+}
+
+const Eigen::MatrixXd& CondensedProblem::columns() {
+  std::vector<int> all(static_cast<std::size_t>(contacts()));
+  std::iota(all.begin(), all.end(), 0);
+  return columns(all);
+}
+
+const Eigen::MatrixXd& CondensedProblem::columns(std::span<const int> wanted) {
+  const int period = pair_.shift_period();
+  columns_.resize(samples(), contacts() * period);
+  Eigen::VectorXd unit, column;
+  for (const int d : wanted) {
+    if (columns_are_current_[static_cast<std::size_t>(d)]) continue;
+    for (int m = 0; m < period; ++m) {
+      unit.setZero(samples());
+      unit[d * points() + m] = 1.0;
+      apply(unit, column);
+      columns_.col(d * period + m) = column;
+    }
+    columns_are_current_[static_cast<std::size_t>(d)] = true;
+  }
+  return columns_;
+}
+
+// <p, force> of each contact into translates.
+void CondensedProblem::project(const Eigen::VectorXd& force) {
+  for (int c = 0; c < contacts(); ++c) {
+    work_->fft.forward(block_of(force, c, points()), span_of(work_->spectrum));
+    pair_.project(work_->spectrum, work_->translates[static_cast<std::size_t>(c)]);
+  }
+}
+
+Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
+  project(force);
+  Eigen::MatrixXcd spectra = condensed_.load_response;
+  for (int c = 0; c < contacts(); ++c)
+    for (int d = 0; d < contacts(); ++d)
+      spectra.col(c) -= condensed_.compliance.col(c + contacts() * d)
+                            .cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
+  return spectra;
+}
+
+Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& force) {
+  project(force);
+  Eigen::MatrixXcd spectra(condensation_.size(), pair_.spectrum_size());
+  Eigen::VectorXcd forces(contacts());
+  for (int k = 0; k < pair_.spectrum_size(); ++k) {
+    for (int c = 0; c < contacts(); ++c) forces[c] = work_->translates[static_cast<std::size_t>(c)][k];
+    spectra.col(k) = condensation_.recover(factors(k), load_[k], forces);
+  }
+  return spectra;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,43 @@
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::solvers {
+
+ContactLaws::ContactLaws(std::vector<AnyContactLaw> laws) : laws_(std::move(laws)) {
+  if (laws_.empty()) throw std::invalid_argument("ContactLaws: the list of laws is empty; give one or more");
+}
+
+void ContactLaws::require(int contacts) const {
+  if (laws_.size() == 1 || laws_.size() == static_cast<std::size_t>(contacts)) return;
+  throw std::invalid_argument("ContactLaws: there are " + std::to_string(laws_.size()) + " laws for " +
+                              std::to_string(contacts) + " contacts; give one for all or one each");
+}
+
+Eigen::VectorXd ContactLaws::gaps(int contacts) const {
+  Eigen::VectorXd gaps(contacts);
+  for (int c = 0; c < contacts; ++c) gaps[c] = (*this)[c].gap();
+  return gaps;
+}
+
+double ContactLaws::largest_gap() const {
+  double largest = 0.0;
+  for (const AnyContactLaw& law : laws_)
+    if (const double gap = std::abs(law.gap()); std::isfinite(gap)) largest = std::max(largest, gap);
+  return largest;
+}
+
+void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
+                           Eigen::VectorXd& tangent) const {
+  const auto points = static_cast<std::size_t>(displacement.size() / contacts);
+  for (int c = 0; c < contacts; ++c) {
+    const std::size_t first = static_cast<std::size_t>(c) * points;
+    (*this)[c].evaluate({displacement.data() + first, points}, {force.data() + first, points},
+                        {tangent.data() + first, points});
+  }
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,82 @@
+#include "wavebalance/solvers/balance/contact_system.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "balance/jacobian_solver.hpp"
+#include "linalg/safe_norm.hpp"
+
+namespace wavebalance::solvers {
+
+ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
+    : problem_(&problem),
+      laws_(std::move(laws)),
+      force_(problem.samples()),
+      tangent_(problem.samples()),
+      jacobian_(std::make_unique<JacobianSolver>()) {
+  laws_.require(problem.contacts());
+  gaps_ = laws_.gaps(problem.contacts());
+}
+ContactSystem::ContactSystem(ContactSystem&&) noexcept = default;
+ContactSystem& ContactSystem::operator=(ContactSystem&&) noexcept = default;
+ContactSystem::~ContactSystem() = default;
+
+double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
+  laws_.evaluate(problem_->contacts(), displacement, force_, tangent_);
+  if (factor_ != 1.0) {
+    force_ *= factor_;
+    tangent_ *= factor_;
+  }
+  return evaluate_residual(displacement);
+}
+
+double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const Sides& presses) {
+  laws_.evaluate(problem_->contacts(), displacement, force_, tangent_);
+  for (int l = 0; l < displacement.size(); ++l) {
+    const double beyond = displacement[l] - gap_at(l);
+    if (presses[l] == (beyond > 0.0) && beyond != 0.0) continue;
+    tangent_[l] = presses[l] ? law_at(l).tangent(gap_at(l)) : 0.0;
+    force_[l] = tangent_[l] * beyond;
+  }
+  force_ *= factor_;
+  tangent_ *= factor_;
+  return evaluate_residual(displacement);
+}
+
+double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
+  const Eigen::VectorXd& free = problem_->free_response();
+  if (force_.isZero(0.0)) {
+    product_.setZero(displacement.size());
+  } else {
+    problem_->apply(force_, product_);
+  }
+  residual_ = displacement - free + product_;
+  relative_residual_ = relative_to(safe_norm(free) + safe_norm(product_), safe_norm(residual_));
+  if (!std::isfinite(relative_residual_)) relative_residual_ = std::numeric_limits<double>::infinity();
+  return relative_residual_;
+}
+
+void ContactSystem::set_linear_solver(LinearSolver method) { jacobian_->set_method(method); }
+
+bool ContactSystem::factorize() { return jacobian_->factorize(*problem_, tangent_); }
+
+bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
+  return jacobian_->solve(*problem_, r, reduction, x);
+}
+
+double ContactSystem::operations() const { return jacobian_->operations(); }
+
+double ContactSystem::condition() { return jacobian_->condition(*problem_); }
+
+bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
+  return jacobian_->factorize_bordered(*problem_, tangent_, b, c, d);
+}
+
+bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
+                                   double reduction) {
+  return jacobian_->solve_bordered(*problem_, r, s, reduction, x, y);
+}
+
+int ContactSystem::determinant_sign() const { return jacobian_->determinant_sign(); }
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,53 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "balance/active_block.hpp"
+#include "balance/krylov_block.hpp"
+#include "wavebalance/solvers/balance/contact_system.hpp"
+
+namespace wavebalance::solvers {
+
+/// Solves with J = I + K D, plain or bordered, by LU of the active samples or by GMRES, chosen by their
+/// number. Where GMRES gets nowhere and the LU is still affordable, that is taken from then on.
+class JacobianSolver {
+ public:
+  void set_method(LinearSolver method) { method_ = method; }
+
+  /// False when singular to working precision.
+  bool factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent);
+  /// J x = r to `reduction` of r on the active samples (the LU: exactly). False when that was not reached.
+  bool solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction, Eigen::VectorXd& x);
+
+  bool factorize_bordered(CondensedProblem& problem, const Eigen::VectorXd& tangent, const Eigen::VectorXd& b,
+                          const Eigen::VectorXd& c, double d);
+  bool solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, double reduction,
+                      Eigen::VectorXd& x, double& y);
+
+  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
+  int determinant_sign() const { return used_ == Used::dense ? dense_.determinant_sign() : 0; }
+
+  /// Floating-point operations so far: 2/3 active^3 an LU, four transforms an iteration of GMRES.
+  double operations() const { return operations_; }
+
+  /// Condition of what was factorized last: see NewtonResult. 0 before.
+  double condition(CondensedProblem& problem);
+
+ private:
+  enum class Used { none, dense, krylov };
+  void choose(const CondensedProblem& problem, const Eigen::VectorXd& tangent);
+  bool may_fall_back() const;
+  void count_dense();
+  void count_krylov(const CondensedProblem& problem, int iterations);
+
+  LinearSolver method_ = LinearSolver::automatic;
+  Used used_ = Used::none;
+  Eigen::Index active_ = 0;
+  bool krylov_failed_ = false;
+  double operations_ = 0.0;
+  ActiveBlock dense_;
+  KrylovBlock krylov_;
+  Eigen::VectorXd tangent_, border_column_, border_row_;  // of the last factorisation, to fall back on
+  double border_corner_ = 0.0;
+};
+
+}  // namespace wavebalance::solvers

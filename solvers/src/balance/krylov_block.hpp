@@ -1,0 +1,83 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <vector>
+
+#include "linalg/gmres.hpp"
+#include "balance/harmonic_coarse_space.hpp"
+
+namespace wavebalance::solvers {
+
+/// Solves with J = I + K D, D diagonal, plain or bordered [J b; c^T d], without the matrix over the active
+/// samples (those where D is not zero): GMRES with FFT products.
+///
+/// K decays over harmonics, so that J is the identity plus what few harmonics carry. The preconditioner
+///   P = I + W B W^T D   (bordered: with b, c, d as J)
+/// takes K on the harmonics |n| <= h exactly and leaves it out beyond; its inverse costs two FFTs and a
+/// dense solve of size C (2h + 1). J P^-1 = I + (K - W B W^T) D P^-1 is then the identity plus what is small
+/// and compact, and the number of iterations does not grow with the number of samples.
+/// Cost of an iteration: two products with K. Of factorize: O(C N log N + (C (2h + 1))^3).
+class KrylovBlock {
+ public:
+  /// Of the last solve: how far it got.
+  struct Outcome {
+    bool solved = false;
+    int iterations = 0;      ///< of GMRES
+    double reduction = 0.0;  ///< ||r - J x|| over ||r|| on the active samples
+  };
+
+  /// Makes the preconditioner for the diagonal `tangent` of D. False when it is singular to working precision
+  /// or D is not finite.
+  bool factorize(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent);
+  /// x = J^-1 r until the residual on the active samples is at most `reduction` of r; it vanishes on the
+  /// others.
+  Outcome solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
+                Eigen::VectorXd& x);
+
+  bool factorize_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent,
+                          const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d);
+  /// J x + b y = r, c.x + d y = s to `reduction` of r - b y on the active samples; the last
+  /// equation holds for x = r - K D x - b y to rounding.
+  Outcome solve_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s,
+                         double reduction, Eigen::VectorXd& x, double& y);
+
+  /// Harmonics in the preconditioner.
+  int harmonics() const { return coarse_.harmonics(); }
+  /// Lower bound of the condition number, in the 2-norm, of J on the active samples: the largest over the
+  /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation and of a few of iterations
+  /// with J and P^-1. Three products more.
+  double condition(const ComplianceOperator& compliance);
+
+ private:
+  /// Active values z and, when bordered, y.
+  struct Unknown {
+    Eigen::VectorXd z;
+    double y = 0.0;
+  };
+
+  bool prepare(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent);
+  bool factorize_coarse();
+  void precondition(const Eigen::VectorXd& v, double s, Unknown& unknown);
+  void multiply(const ComplianceOperator& compliance, const Unknown& unknown, Eigen::VectorXd& product);
+  Outcome solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s,
+                       double reduction, Unknown& unknown);
+  void complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
+                const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome);
+  Eigen::VectorXd gather(const Eigen::VectorXd& samples) const;
+  void scatter_weighted(const Eigen::VectorXd& active);
+
+  std::vector<int> active_;
+  Eigen::VectorXd stiffness_;  // D at the active samples
+  HarmonicCoarseSpace coarse_;
+  Eigen::MatrixXd matrix_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::VectorXd weighted_, samples_, coefficients_, responses_;  // work
+  double largest_gain_ = 0.0, smallest_gain_ = 0.0;                // of ||J z|| / ||z||
+  bool bordered_ = false;
+  Eigen::VectorXd column_, row_;   // b and c over all samples
+  Eigen::VectorXd active_column_;  // b at the active samples
+  Eigen::VectorXd active_row_;     // c^T (x - r) of the active values: -D K^T c
+  double corner_ = 0.0;            // d - c.b
+};
+
+}  // namespace wavebalance::solvers

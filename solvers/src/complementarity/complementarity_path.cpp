@@ -1,0 +1,211 @@
+#include "complementarity/complementarity_path.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "balance/active_block.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// An update of the inverse loses digits: it is made anew after this many, more where that is dear.
+Eigen::Index most_updates(Eigen::Index size) { return std::max<Eigen::Index>(50, 2 * size); }
+
+// Corners from one correction of force and slope by the whole inverse to the next.
+constexpr int corners_a_correction = 8;
+
+}  // namespace
+
+ComplementarityPath::ComplementarityPath(CondensedProblem& problem)
+    : problem_(problem), inverse_(problem.samples()), corners_a_leg_(10 * problem.samples()) {}
+
+// The column of a point is that of the point modulo the shift period, shifted by the rest.
+double ComplementarityPath::entry(int row, int column) const {
+  const int points = problem_.points(), period = problem_.pair().shift_period();
+  const int remainder = column % points % period;
+  int point = row % points - (column % points - remainder);
+  if (point < 0) point += points;
+  const double k = problem_.columns()(row - row % points + point, column / points * period + remainder);
+  return row == column ? k + state_.obstacles.flexibility[row] : k;
+}
+
+Eigen::MatrixXd ComplementarityPath::block(const std::vector<int>& samples) const {
+  const auto n = static_cast<Eigen::Index>(samples.size());
+  Eigen::MatrixXd result(n, n);
+  fill_active_compliance(problem_, samples, result);
+  result.diagonal() += state_.obstacles.flexibility(samples);
+  return result;
+}
+
+void ComplementarityPath::invert(const std::vector<int>& samples) {
+  inverse_.assign(samples, block(samples).partialPivLu().inverse());
+  const auto n = static_cast<double>(samples.size());
+  operations_ -= 2.0 * n * n * n;
+}
+
+double ComplementarityPath::condition() {
+  if (inverse_.size() == 0) return 1.0;
+  const auto norm = [](const auto& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); };
+  const double inverse = norm(inverse_.matrix());
+  return norm(block(inverse_.ascending())) * inverse;
+}
+
+void ComplementarityPath::turn(int sample) {
+  inverse_.tidy();
+  const auto n = static_cast<double>(inverse_.size());
+  if (inverse_.contains(sample)) {
+    operations_ -= 2.0 * n * n;
+    leave(sample);
+  } else {
+    operations_ -= 6.0 * n * n;
+    enter(sample);
+  }
+}
+
+void ComplementarityPath::enter(int sample) {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(inverse_.size()), row = column;
+  for (Eigen::Index i = 0; i < inverse_.size(); ++i) {
+    const int member = inverse_.members()[static_cast<std::size_t>(i)];
+    if (member < 0) continue;
+    column[i] = entry(member, sample);
+    row[i] = entry(sample, member);
+  }
+  const Eigen::VectorXd right = inverse_.times(column), left = inverse_.transposed_times(row);
+  const double pivot = entry(sample, sample) - row.dot(right);
+  const double slope = (cover_[sample] - row.dot(inverse_.gather(slope_))) / pivot;
+  subtract(slope * right, slope_);
+  slope_[sample] = slope;
+  inverse_.enter(sample, right, left, pivot);
+}
+
+void ComplementarityPath::leave(int sample) {
+  const Eigen::VectorXd column = inverse_.leave(sample);
+  subtract(slope_[sample] * column, slope_);
+  slope_[sample] = state_.force[sample] = distance_[sample] = 0.0;
+}
+
+// Takes `values`, which are in the slots of the inverse, from those of all samples.
+void ComplementarityPath::subtract(const Eigen::VectorXd& values, Eigen::VectorXd& all) const {
+  for (Eigen::Index slot = 0; slot < inverse_.size(); ++slot)
+    if (const int member = inverse_.members()[static_cast<std::size_t>(slot)]; member >= 0)
+      all[member] -= values[slot];
+}
+
+void ComplementarityPath::measure() {
+  const Obstacles& obstacles = state_.obstacles;
+  problem_.apply(state_.force, product_);
+  distance_ = obstacles.opening + z_ * cover_ + obstacles.flexibility.cwiseProduct(state_.force) + product_;
+}
+
+// Takes from the force what it leaves of a distance in contact, and rounding from its slope.
+void ComplementarityPath::correct() {
+  if (inverse_.updates() > most_updates(inverse_.size())) invert(inverse_.ascending());
+  measure();
+  Eigen::MatrixXd right(inverse_.size(), 2);
+  right.col(0) = inverse_.gather(distance_);
+  right.col(1) = inverse_.gather(cover_);
+  const Eigen::MatrixXd found = inverse_.times(right);
+  operations_ -= 4.0 * double(inverse_.size()) * double(inverse_.size());
+  subtract(found.col(0), state_.force);
+  slope_.setZero(cover_.size());
+  subtract(-found.col(1), slope_);
+  keep_in_contact(distance_);
+}
+
+// Zero at the samples that press.
+void ComplementarityPath::keep_in_contact(Eigen::VectorXd& distance) const {
+  for (const int member : inverse_.members())
+    if (member >= 0) distance[member] = 0.0;
+}
+
+// At the end of a leg: the solution, if it holds to rounding of the terms that make a distance.
+ComplementarityPath::End ComplementarityPath::arrive() {
+  constexpr double rounding = 1e-10;
+  correct();
+  state_.active = inverse_.ascending();
+  state_.force = state_.force.cwiseMax(0.0);
+  measure();
+  double size = product_.cwiseAbs().maxCoeff(), worst = 0.0;
+  for (Eigen::Index l = 0; l < distance_.size(); ++l) {
+    const double opening = std::abs(state_.obstacles.opening[l]);
+    if (std::isfinite(opening)) size = std::max(size, opening);
+    worst = std::max(worst, state_.force[l] > 0.0 ? std::abs(distance_[l]) : -distance_[l]);
+  }
+  return std::isfinite(size) && worst <= rounding * size ? End::reached : End::lost;
+}
+
+// By z, in the direction in which the sample that has just turned goes away from its bound.
+void ComplementarityPath::set_rates(int turned) {
+  force_rate_ = -slope_;
+  problem_.apply(force_rate_, product_);
+  distance_rate_ = cover_ + state_.obstacles.flexibility.cwiseProduct(force_rate_) + product_;
+  keep_in_contact(distance_rate_);
+  if (turned >= 0) {
+    const bool presses = inverse_.contains(turned);
+    direction_ = (presses ? force_rate_[turned] : distance_rate_[turned]) > 0.0 ? 1.0 : -1.0;
+  }
+  force_rate_ *= direction_;
+  distance_rate_ *= direction_;
+}
+
+// The sample that reaches its bound first and the length up to there; -1 when z = 0 comes before, or nothing.
+int ComplementarityPath::next_corner(double& length) const {
+  int sample = -1;
+  length = direction_ < 0.0 ? z_ : std::numeric_limits<double>::infinity();
+  for (int l = 0; l < state_.force.size(); ++l) {
+    const bool presses = inverse_.contains(l);
+    const double rate = presses ? force_rate_[l] : distance_rate_[l];
+    if (!(rate < 0.0)) continue;
+    const double ahead = std::max(0.0, presses ? state_.force[l] : distance_[l]) / -rate;
+    if (ahead >= length) continue;
+    length = ahead;
+    sample = l;
+  }
+  return sample;
+}
+
+ComplementarityPath::End ComplementarityPath::run(int sample) {
+  for (int corner = 0; corner < corners_a_leg_ && operations_ > 0.0; ++corner, ++corners_) {
+    if (sample >= 0) turn(sample);
+    if (corner % corners_a_correction == 0) correct();
+    set_rates(sample);
+    double length = 0.0;
+    sample = next_corner(length);
+    operations_ -= 300.0 * double(state_.force.size());  // transforms, at a fraction of the rate of products
+    if (!std::isfinite(length) || !state_.force.allFinite()) return End::ray;
+    state_.force += length * force_rate_;
+    distance_ += length * distance_rate_;
+    z_ = sample < 0 ? 0.0 : z_ + length * direction_;
+    if (sample < 0) return arrive();
+    if (observer_ && !observer_(z_ / first_z_)) return End::stopped;
+  }
+  return End::limit;
+}
+
+ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen::VectorXd& cover) {
+  state_ = {std::move(goal), {}, Eigen::VectorXd::Zero(cover.size())};
+  cover_ = cover;
+  inverse_.assign({}, Eigen::MatrixXd());
+  slope_.setZero(cover.size());
+  distance_.setZero(cover.size());
+  direction_ = -1.0;
+  int sample = 0;
+  z_ = first_z_ = (-state_.obstacles.opening.cwiseQuotient(cover_)).maxCoeff(&sample);
+  return z_ > 0.0 ? run(sample) : End::reached;
+}
+
+ComplementarityPath::End ComplementarityPath::follow(Obstacles goal) {
+  cover_ = (state_.obstacles.flexibility - goal.flexibility).cwiseProduct(state_.force);
+  for (Eigen::Index l = 0; l < cover_.size(); ++l)  // where there is no obstacle both are infinite
+    if (std::isfinite(goal.opening[l])) cover_[l] += state_.obstacles.opening[l] - goal.opening[l];
+  state_.obstacles = std::move(goal);
+  z_ = first_z_ = 1.0;
+  direction_ = -1.0;
+  invert(state_.active);
+  return run(-1);
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,166 @@
+// The curve piece by piece: from corner to corner.
+#include <algorithm>
+#include <cmath>
+
+#include "wavebalance/solvers/continuation/arc_length.hpp"
+
+namespace wavebalance::solvers {
+
+// The sample that the tangent takes through the gap first; -1 when none within `distance`.
+int ArcLength::crossing_ahead(double& distance) const {
+  int sample = -1;
+  for (int l = 0; l < point_.displacement.size(); ++l) {
+    if (is_at_gap(point_, l)) continue;
+    const double ahead = (system_.gap_at(l) - point_.displacement[l]) / point_.displacement_tangent[l];
+    if (!(ahead > 0.0) || ahead >= distance) continue;
+    distance = ahead;
+    sample = l;
+  }
+  return sample;
+}
+
+// The sample that leaves its side first on the way to the candidate; -1 when none does.
+int ArcLength::passed(const CurvePoint& candidate, const Sides& sides, double& fraction) const {
+  int first = -1;
+  fraction = 1.0;
+  for (int l = 0; l < sides.size(); ++l) {
+    const double to = candidate.displacement[l] - system_.gap_at(l);
+    if (sides[l] == (to > 0.0) || is_at_gap(candidate, l)) continue;
+    const double from = is_at_gap(point_, l) ? 0.0 : point_.displacement[l] - system_.gap_at(l);
+    if (first >= 0 && from / (from - to) >= fraction) continue;
+    fraction = from / (from - to);
+    first = l;
+  }
+  return first;
+}
+
+// Goes on within the piece of the curve that point_ lies on, to its end or by a step that ends within.
+bool ArcLength::step_in_piece() {
+  constexpr double shortest = 1e-4;  // of the smallest step
+  const Sides sides = sides_of(point_);
+  CurvePoint candidate;
+  for (double length = step_; length >= shortest * options_.smallest_step;) {
+    double distance = length, fraction = 1.0;
+    int sample = crossing_ahead(distance);
+    if (sample < 0) {
+      if (step_smoothly(length, sides, candidate)) {
+        sample = passed(candidate, sides, fraction);
+        distance *= fraction;
+        if (sample < 0) {
+          accept(std::move(candidate), sides);
+          step_ = std::clamp(1.6 * length, options_.smallest_step, options_.largest_step);
+          return true;
+        }
+      }
+    }
+    if (sample >= 0 && distance > 0.0 && turn_corner(sample, distance, sides)) return true;
+    length = 0.5 * (distance > 0.0 ? distance : length);
+  }
+  return false;
+}
+
+// Where another curve crosses this one within the piece the orientation changes; but then a short step will
+// do.
+bool ArcLength::step_smoothly(double step, const Sides& sides, CurvePoint& candidate) {
+  int corrections = 0;
+  if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate)) return false;
+  return candidate.orientation * point_.orientation >= 0 || step < 2.0 * options_.smallest_step;
+}
+
+// Ends the piece where a sample reaches its gap. False when the corner is not found or cannot be left.
+bool ArcLength::turn_corner(int sample, double distance, const Sides& sides) {
+  constexpr int attempts = 10;
+  Plane plane{Eigen::VectorXd::Zero(sides.size()), 0.0, 0.0, 1e-9 * options_.displacement_scale};
+  int corrections = 0;
+  for (int attempt = 0; sample >= 0 && attempt < attempts; ++attempt) {
+    plane.row[sample] = 1.0;
+    plane.offset = system_.gap_at(sample);
+    CurvePoint corner = ahead(point_, distance);
+    corner.corner = true;
+    if (!solve_in(plane, &sides, corner, corrections)) return false;
+    double fraction = 1.0;
+    const int earlier = passed(corner, sides, fraction);
+    if (earlier < 0) {
+      if (!arrives(sample, sides, corner) || !leave_corner(sample, sides, corner)) return false;
+      accept(std::move(corner), sides);
+      step_ = std::clamp(1.6 * step_, options_.smallest_step, options_.largest_step);
+      return true;
+    }
+    if (fraction <= 0.0) return false;
+    plane.row[sample] = 0.0;
+    sample = earlier;
+    distance *= fraction;
+  }
+  return false;
+}
+
+// Whether the piece leads from point_ to the corner without turning far.
+bool ArcLength::arrives(int sample, const Sides& sides, CurvePoint corner) {
+  return tangent_through(sample, !sides[sample], corner) && is_ahead(corner);
+}
+
+std::vector<int> ArcLength::samples_at_gap(const CurvePoint& point) const {
+  std::vector<int> samples;
+  for (int l = 0; l < point.displacement.size(); ++l)
+    if (is_at_gap(point, l)) samples.push_back(l);
+  return samples;
+}
+
+// The tangent of the system as it is, along which the sample moves into contact or out of it.
+bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& corner) {
+  parameter_.slope(system_, slope_);
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());
+  row[sample] = 1.0;
+  if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
+  const int sign = system_.determinant_sign() * (inwards ? 1 : -1);
+  row.setZero();
+  if (!system_.solve_bordered(row, inwards ? 1.0 : -1.0, corner.displacement_tangent,
+                              corner.parameter_tangent))
+    return false;
+  if (!corner.displacement_tangent.allFinite() || !std::isfinite(corner.parameter_tangent)) return false;
+  corner.orientation = sign == 0 ? point_.orientation : sign;
+  normalize(corner);
+  return true;
+}
+
+// The tangent with `together`, the samples at their gaps, as stiff as `presses` says, along which each moves
+// to the side whose stiffness it has. False when there is none.
+bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+                               CurvePoint& corner) {
+  bool onwards = true;
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    const double stiffness = system_.law_at(together[i]).tangent(system_.gap_at(together[i]));
+    system_.set_tangent(together[i], presses[i] ? stiffness : 0.0);
+    if (together[i] == sample) onwards = presses[i];
+  }
+  if (!tangent_through(sample, onwards, corner)) return false;
+  for (std::size_t i = 0; i < together.size(); ++i)
+    if (presses[i] != (corner.displacement_tangent[together[i]] > 0.0)) return false;
+  return true;
+}
+
+// All samples at their gaps go on through together where they can, as one always does and those of symmetric
+// contacts do. Otherwise some of them turn back: of such ways the first that keeps the orientation.
+bool ArcLength::leave_corner(int sample, const Sides& sides, CurvePoint& corner) {
+  constexpr std::size_t most = 8;
+  const std::vector<int> together = samples_at_gap(corner);
+  for (const int l : together)
+    crossed_ = crossed_ || l / system_.problem().points() != sample / system_.problem().points();
+  std::vector<bool> through;
+  for (const int l : together) through.push_back(is_at_gap(point_, l) ? sides[l] : !sides[l]);
+  if (corner_tangent(sample, together, through, corner))
+    return together.size() > 1 || corner.orientation * point_.orientation >= 0;
+  if (together.size() > most) return false;
+  const unsigned all = 1u << together.size();
+  for (const bool oriented : {true, false})
+    for (unsigned back = 1; back + 1 < all; ++back) {
+      std::vector<bool> presses = through;
+      for (std::size_t i = 0; i < together.size(); ++i)
+        if (back >> i & 1u) presses[i] = !presses[i];
+      if (!corner_tangent(sample, together, presses, corner)) continue;
+      if (!oriented || corner.orientation == point_.orientation) return true;
+    }
+  return false;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,226 @@
+#include "wavebalance/solvers/continuation/arc_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace wavebalance::solvers {
+
+bool FrequencyParameter::contains(double p) const { return std::isfinite(p) && p > 0.0; }
+
+void FrequencyParameter::set(ContactSystem& system, double p) const { system.problem().set_frequency(p); }
+
+void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
+  system.problem().apply_slope(system.force(), slope);
+  slope -= system.problem().free_response_slope();
+}
+
+bool StiffnessParameter::contains(double p) const { return std::isfinite(std::exp(p)); }
+
+void StiffnessParameter::set(ContactSystem& system, double p) const {
+  system.set_stiffness_factor(std::exp(p));
+}
+
+void StiffnessParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
+  system.problem().apply(system.force(), slope);
+}
+
+ArcLength::ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options)
+    : system_(system), parameter_(parameter), options_(options), step_(options.initial_step) {}
+
+Eigen::VectorXd ArcLength::scaled(const Eigen::VectorXd& tangent) const {
+  return tangent / (double(tangent.size()) * options_.displacement_scale * options_.displacement_scale);
+}
+
+double ArcLength::inner(const CurvePoint& a, const CurvePoint& b) const {
+  return scaled(a.displacement_tangent).dot(b.displacement_tangent) +
+         a.parameter_tangent * b.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+}
+
+void ArcLength::normalize(CurvePoint& point) const {
+  const double length = std::sqrt(inner(point, point));
+  point.displacement_tangent /= length;
+  point.parameter_tangent /= length;
+}
+
+// The tangent at an evaluated point, oriented along that of `along`.
+bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
+  parameter_.slope(system_, slope_);
+  const double corner = along.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+  if (!system_.factorize_bordered(slope_, scaled(along.displacement_tangent), corner)) return false;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slope_.size());
+  if (!system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent)) return false;
+  if (!point.displacement_tangent.allFinite() || !std::isfinite(point.parameter_tangent)) return false;
+  const int sign = system_.determinant_sign();
+  point.orientation = sign == 0 ? along.orientation : sign;
+  normalize(point);
+  return true;
+}
+
+ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p, double direction) {
+  point_ = {};
+  point_.displacement = displacement;
+  point_.parameter = p;
+  parameter_.set(system_, p);
+  point_.residual = system_.evaluate(displacement);
+  CurvePoint along;
+  along.displacement_tangent = Eigen::VectorXd::Zero(displacement.size());
+  along.parameter_tangent = direction * options_.parameter_scale;
+  previous_ = point_;
+  last_step_ = 0.0;
+  crossed_ = false;
+  pieces_left_ = watched_ = 0.0;
+  last_operation_ = system_.operations() + options_.most_operations;
+  return tangent_at(point_, along) ? Status::advanced : Status::no_point;
+}
+
+double ArcLength::Plane::miss(const CurvePoint& point) const {
+  return row.dot(point.displacement) + corner * point.parameter - offset;
+}
+
+double ArcLength::evaluate(const CurvePoint& point, const Sides* sides) {
+  parameter_.set(system_, point.parameter);
+  return sides ? system_.evaluate(point.displacement, *sides) : system_.evaluate(point.displacement);
+}
+
+// Newton on R = 0 in the plane, on the smooth continuation of one piece when its sides are given.
+bool ArcLength::solve_in(const Plane& plane, const Sides* sides, CurvePoint& point, int& corrections) {
+  double parameter_change = 0.0;
+  const int most = sides ? options_.max_corrections : (options_.max_corrections + 1) / 2;
+  for (corrections = 0; corrections <= most; ++corrections) {
+    if (!parameter_.contains(point.parameter) || system_.operations() > last_operation_) return false;
+    point.residual = evaluate(point, sides);
+    if (!std::isfinite(point.residual)) return false;
+    const double miss = plane.miss(point);
+    if (point.residual <= options_.tolerance && std::abs(miss) <= plane.tolerance) return true;
+    parameter_.slope(system_, slope_);
+    if (!system_.factorize_bordered(slope_, plane.row, plane.corner)) return false;
+    if (!system_.solve_bordered(system_.residual(), miss, change_, parameter_change)) return false;
+    point.displacement -= change_;
+    point.parameter -= parameter_change;
+  }
+  return false;
+}
+
+CurvePoint ArcLength::ahead(const CurvePoint& from, double step) const {
+  CurvePoint point;
+  point.displacement = from.displacement + step * from.displacement_tangent;
+  point.parameter = from.parameter + step * from.parameter_tangent;
+  return point;
+}
+
+// The point in the plane at distance `step` along the tangent of `from`, with its tangent.
+bool ArcLength::correct(const CurvePoint& from, double step, const Sides* sides, CurvePoint& to,
+                        int& corrections) {
+  to = ahead(from, step);
+  Plane plane{scaled(from.displacement_tangent),
+              from.parameter_tangent / (options_.parameter_scale * options_.parameter_scale), 0.0, 1e-9};
+  plane.offset = plane.miss(to);
+  return solve_in(plane, sides, to, corrections) && tangent_at(to, from);
+}
+
+bool ArcLength::is_at_gap(const CurvePoint& point, int sample) const {
+  return std::abs(point.displacement[sample] - system_.gap_at(sample)) <= 1e-8 * options_.displacement_scale;
+}
+
+// On which side of the gap the curve goes on: a sample at its gap has been turned there.
+Sides ArcLength::sides_of(const CurvePoint& point) const {
+  Sides sides(point.displacement.size());
+  for (int l = 0; l < sides.size(); ++l)
+    sides[l] =
+        is_at_gap(point, l) ? point.displacement_tangent[l] > 0.0 : point.displacement[l] > system_.gap_at(l);
+  return sides;
+}
+
+// The straight line from point_ to a point, as a tangent that is not normalized.
+CurvePoint ArcLength::chord(const CurvePoint& to) const {
+  CurvePoint chord;
+  chord.displacement_tangent = to.displacement - point_.displacement;
+  chord.parameter_tangent = to.parameter - point_.parameter;
+  return chord;
+}
+
+// Whether the straight way to the candidate and the curve there point about as the curve does here.
+bool ArcLength::is_ahead(const CurvePoint& candidate) const {
+  const double least = std::cos(options_.largest_angle);
+  const CurvePoint way = chord(candidate);
+  return inner(point_, candidate) >= least && inner(point_, way) >= least * std::sqrt(inner(way, way));
+}
+
+void ArcLength::accept(CurvePoint&& candidate, const Sides& sides) {
+  last_step_ = inner(point_, chord(candidate));
+  last_sides_ = sides;
+  crossed_ = crossed_ || candidate.orientation * point_.orientation < 0;
+  previous_ = std::move(point_);
+  point_ = std::move(candidate);
+}
+
+ArcLength::Status ArcLength::advance() {
+  const bool far = !crossed_ && pieces_left_ <= 0.0 && options_.corners != Corners::every;
+  if (far && step_far()) return Status::advanced;
+  if (!step_in_piece()) return Status::no_point;
+  const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
+  pieces_left_ = turned ? watched_ : pieces_left_ - last_step_;
+  return Status::advanced;
+}
+
+// A turn over corners, or the first or last touch, is followed piece by piece: there the curve turns at a
+// corner.
+bool ArcLength::turns_unseen(const CurvePoint& candidate) const {
+  const Sides here = sides_of(point_), there = sides_of(candidate);
+  if ((here == there).all()) return false;
+  return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || here.any() != there.any();
+}
+
+// A step of the whole system, shorter until it keeps to the curve or few corners are left on its way.
+bool ArcLength::step_far() {
+  constexpr int comfortable_corrections = 3;
+  constexpr double few = 4.0;
+  CurvePoint candidate;
+  int corrections = 0;
+  double nearest = options_.largest_step;
+  crossing_ahead(nearest);
+  for (; step_ >= options_.smallest_step; step_ *= 0.5) {
+    const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
+    if (found && candidate.orientation * point_.orientation >= 0) {
+      if (options_.corners != Corners::where_needed && turns_unseen(candidate)) {
+        const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
+        if (turns && sides_of(point_).any()) pieces_left_ = watched_ = step_;
+        return false;
+      }
+      accept(std::move(candidate), Sides());
+      const double growth = corrections < comfortable_corrections    ? 1.6
+                            : corrections == comfortable_corrections ? 1.1
+                                                                     : 0.6;
+      step_ = std::clamp(step_ * growth, options_.smallest_step, options_.largest_step);
+      return true;
+    }
+    if (step_ < few * nearest) break;
+  }
+  step_ = std::max(step_, options_.smallest_step);
+  return false;
+}
+
+bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
+  double low = 0.0, high = 1.0;
+  double low_value = value(previous_), high_value = value(point_);
+  if (low_value * high_value > 0.0 || last_step_ == 0.0) return false;
+  constexpr int limit = 60;
+  constexpr double width = 1e-10;
+  int corrections = 0;
+  const Sides* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
+  for (int i = 0; i < limit && high - low > width; ++i) {
+    // Every third cut halves, so that a kink cannot hold false position on one side.
+    const double regula = low + (high - low) * low_value / (low_value - high_value);
+    const double fraction = i % 3 == 2 ? 0.5 * (low + high) : std::clamp(regula, low, high);
+    if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return false;
+    const double middle = value(point);
+    if (middle == 0.0) return true;
+    (low_value * middle > 0.0 ? low : high) = fraction;
+    (low_value * middle > 0.0 ? low_value : high_value) = middle;
+  }
+  return true;
+}
+
+}  // namespace wavebalance::solvers

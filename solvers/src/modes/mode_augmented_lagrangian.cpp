@@ -1,0 +1,355 @@
+#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "linalg/option_checks.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::span<const double> view(const Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+ModalModel checked(ModalModel model, int mode) {
+  model.validate();
+  if (mode < 1 || mode > model.modes())
+    detail::reject("LagrangianMode", "mode", mode, ("in 1.." + std::to_string(model.modes())).c_str());
+  if (model.contact_shapes.col(mode - 1).isZero(0.0))
+    throw std::invalid_argument("LagrangianMode: mode " + std::to_string(mode) +
+                                " does not move any contact point");
+  return model;
+}
+
+// The contact that the growing mode reaches first.
+Eigen::Index first_contact(const ModalModel& model, int mode) {
+  Eigen::Index contact = 0;
+  model.contact_shapes.col(mode - 1).cwiseQuotient(model.gaps).cwiseAbs().maxCoeff(&contact);
+  return contact;
+}
+
+double first_gap(const ModalModel& model, int mode) { return model.gaps[first_contact(model, mode)]; }
+
+double grazing_amplitude(const ModalModel& model, int mode) {
+  const Eigen::Index contact = first_contact(model, mode);
+  return model.gaps[contact] / std::abs(model.contact_shapes(contact, mode - 1));
+}
+
+ModalModel scaled(const ModalModel& model, int mode) {
+  const double gap = first_gap(model, mode), amplitude = grazing_amplitude(model, mode);
+  return {model.omega_squared / model.omega_squared[mode - 1], model.contact_shapes * (amplitude / gap),
+          model.gaps / gap};
+}
+
+// A step of Newton; where the matrix is singular (a motion without contact may be shifted in time) the
+// shortest one.
+bool newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {
+  constexpr double tiny = 1e-14;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(hessian);
+  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
+  if (pivots.minCoeff() > tiny * pivots.maxCoeff())
+    step = -lu.solve(gradient);
+  else
+    step = -hessian.completeOrthogonalDecomposition().solve(gradient);
+  return step.allFinite();
+}
+
+}  // namespace
+
+std::string to_string(LagrangianStatus status) {
+  switch (status) {
+    case LagrangianStatus::converged:
+      return "converged";
+    case LagrangianStatus::linear:
+      return "linear";
+    case LagrangianStatus::inner_stalled:
+      return "inner_stalled";
+    case LagrangianStatus::inner_limit:
+      return "inner_limit";
+    case LagrangianStatus::singular:
+      return "singular";
+    case LagrangianStatus::outer_stalled:
+      return "outer_stalled";
+    case LagrangianStatus::outer_limit:
+      return "outer_limit";
+    case LagrangianStatus::tongue:
+      return "tongue";
+    case LagrangianStatus::left_mode:
+      return "left_mode";
+  }
+  return "unknown";
+}
+
+int LagrangianPoint::newton_iterations() const {
+  int total = 0;
+  for (const OuterIteration& iteration : history) total += iteration.newton_iterations;
+  return total;
+}
+
+LagrangianMode::LagrangianMode(ModalModel model, LagrangianModeOptions options)
+    : model_(checked(std::move(model), options.mode)),
+      options_(options),
+      amplitude_(grazing_amplitude(model_, options.mode)),
+      gap_(first_gap(model_, options.mode)),
+      functional_(scaled(model_, options.mode), {options.harmonics, options.cosine_only}, options.samples,
+                  options.formulation) {
+  detail::require_positive("LagrangianMode", "inner_tolerance", options_.inner_tolerance);
+  detail::require_at_least("LagrangianMode", "inner_iterations", options_.inner_iterations, 1);
+  detail::require_at_least("LagrangianMode", "outer_iterations", options_.outer_iterations, 1);
+  detail::require_at_least("LagrangianMode", "step_halvings", options_.step_halvings, 0);
+}
+
+double LagrangianMode::linear_omega() const { return std::sqrt(model_.omega_squared[options_.mode - 1]); }
+
+LagrangianStart LagrangianMode::linear_start(double energy_ratio) const {
+  if (!(energy_ratio >= 0.0 && std::isfinite(energy_ratio)))
+    detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "zero or positive, and finite");
+  const Eigen::Index contact = first_contact(model_, options_.mode);
+  const double sign = model_.contact_shapes(contact, options_.mode - 1) > 0.0 ? 1.0 : -1.0;
+  LagrangianStart start{Eigen::MatrixXcd::Zero(model_.modes(), options_.harmonics + 1), {}};
+  start.amplitudes(options_.mode - 1, 1) = 0.5 * sign * amplitude_ * std::sqrt(energy_ratio);
+  return start;
+}
+
+Eigen::VectorXd LagrangianMode::to_unknowns(const Eigen::MatrixXcd& amplitudes) const {
+  const FourierLayout& layout = functional_.layout();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(functional_.unknowns());
+  for (int block = 0; block < layout.blocks(); ++block) {
+    const int n = layout.harmonic(block);
+    if (n >= amplitudes.cols()) break;
+    auto part = x.segment(Eigen::Index(block) * model_.modes(), model_.modes());
+    const double both = n == 0 ? 1.0 : 2.0;
+    if (layout.is_sine(block))
+      part = -both / amplitude_ * amplitudes.col(n).imag();
+    else
+      part = both / amplitude_ * amplitudes.col(n).real();
+  }
+  return x;
+}
+
+Eigen::MatrixXcd LagrangianMode::to_amplitudes(const Eigen::VectorXd& x) const {
+  const FourierLayout& layout = functional_.layout();
+  Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(model_.modes(), options_.harmonics + 1);
+  for (int block = 0; block < layout.blocks(); ++block) {
+    const auto part = x.segment(Eigen::Index(block) * model_.modes(), model_.modes());
+    const std::complex<double> unit = layout.is_sine(block) ? std::complex<double>(0.0, -0.5)
+                                      : block == 0          ? std::complex<double>(1.0)
+                                                            : std::complex<double>(0.5);
+    amplitudes.col(layout.harmonic(block)) += amplitude_ * unit * part;
+  }
+  return amplitudes;
+}
+
+void LagrangianMode::require_fit(const Multipliers& multipliers, const LagrangianStart& start) const {
+  if (multipliers.inequalities() != constraints() || multipliers.equalities() != 1)
+    throw std::invalid_argument(
+        "LagrangianMode: the strategy has " + std::to_string(multipliers.inequalities()) +
+        " inequality and " + std::to_string(multipliers.equalities()) +
+        " equality constraints; it must have " + std::to_string(constraints()) + " and 1");
+  if (start.amplitudes.rows() != model_.modes() || start.amplitudes.cols() > options_.harmonics + 1)
+    throw std::invalid_argument(
+        "LagrangianMode: start.amplitudes is " + std::to_string(start.amplitudes.rows()) + " x " +
+        std::to_string(start.amplitudes.cols()) + "; it must be " + std::to_string(model_.modes()) + " x " +
+        std::to_string(options_.harmonics + 1) + " or have fewer columns");
+  const bool fits = start.force.rows() == model_.contacts() && start.force.cols() == options_.samples;
+  if (start.force.size() != 0 && !fits)
+    throw std::invalid_argument("LagrangianMode: start.force is " + std::to_string(start.force.rows()) +
+                                " x " + std::to_string(start.force.cols()) + "; it must be empty or " +
+                                std::to_string(model_.contacts()) + " x " + std::to_string(options_.samples));
+}
+
+// lambda = 2 force / m in scaled units, and mu from x . (stationarity) = 0, where x . grad r = 0:
+// x . (2/m)(A - rho D) x + <lambda, u> + 2 mu (h + gamma) = 0.
+void LagrangianMode::start_multipliers(Multipliers& multipliers, const Eigen::VectorXd& x,
+                                       const Eigen::MatrixXd& force, std::optional<double> frozen) const {
+  const RayleighQuotient& quotient = functional_.quotient();
+  const double m = quotient.mass().value(x);
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(constraints());
+  if (force.size() != 0) {
+    const double unit = model_.omega_squared[options_.mode - 1] * amplitude_ * amplitude_ / gap_;
+    Eigen::Map<RowMajor>(lambda.data(), force.rows(), force.cols()) =
+        (2.0 / (m * unit) * force).cwiseMax(0.0);
+  }
+  double virial = x.dot(functional_.generalised_force(lambda));
+  if (frozen) virial += 2.0 * (quotient.value(x) - *frozen);
+  multipliers.restart(view(lambda), -virial / (2.0 * functional_.normalisation(x)));
+}
+
+LagrangianMode::Newton LagrangianMode::critical_point(Eigen::VectorXd& x, double gamma,
+                                                      const Multipliers& multipliers,
+                                                      std::optional<double> frozen) const {
+  constexpr int halvings = 30;
+  constexpr double slack = 1e-4;
+  Eigen::VectorXd gradient = functional_.gradient(x, gamma, multipliers, frozen), step;
+  Newton result{LagrangianStatus::converged, 0, gradient.cwiseAbs().maxCoeff()};
+  for (; result.gradient > options_.inner_tolerance; ++result.iterations) {
+    result.status = LagrangianStatus::inner_limit;
+    if (result.iterations == options_.inner_iterations) return result;
+    result.status = LagrangianStatus::singular;
+    if (!newton_step(functional_.hessian(x, gamma, multipliers, frozen), gradient, step)) return result;
+    result.status = LagrangianStatus::inner_stalled;
+    double length = 1.0;
+    Eigen::VectorXd next;
+    int tried = 0;
+    for (; tried < halvings; ++tried, length *= 0.5) {
+      next = functional_.gradient(x + length * step, gamma, multipliers, frozen);
+      if (next.norm() <= (1.0 - slack * length) * gradient.norm()) break;
+    }
+    if (tried == halvings) return result;
+    x += length * step;
+    gradient = next;
+    result.gradient = gradient.cwiseAbs().maxCoeff();
+  }
+  result.status = LagrangianStatus::converged;
+  return result;
+}
+
+LagrangianPoint LagrangianMode::solve_with(double energy_ratio, Multipliers& multipliers,
+                                           const LagrangianStart& given,
+                                           std::optional<double> predicted_rayleigh) const {
+  if (!(energy_ratio > 0.0)) detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "positive");
+  const bool contact = energy_ratio > 1.0;
+  const LagrangianStart& start = contact ? given : linear_start(energy_ratio);
+  require_fit(multipliers, start);
+  Eigen::VectorXd x = to_unknowns(start.amplitudes);
+  std::optional<double> frozen;
+  if (options_.eigenvalue == EigenvalueUpdate::sequential)
+    frozen = contact && predicted_rayleigh ? *predicted_rayleigh / model_.omega_squared[options_.mode - 1]
+                                           : functional_.quotient().value(x);
+  start_multipliers(multipliers, x, start.force, frozen);
+  LagrangianPoint point;
+  point.prescribed_ratio = energy_ratio;
+  for (int outer = 0; outer < options_.outer_iterations; ++outer)
+    if (const auto status = outer_iteration(point, x, multipliers, frozen)) {
+      point.status = *status;
+      break;
+    }
+  return point;
+}
+
+// The status when the iteration ends.
+std::optional<LagrangianStatus> LagrangianMode::outer_iteration(LagrangianPoint& point, Eigen::VectorXd& x,
+                                                                Multipliers& multipliers,
+                                                                std::optional<double> frozen) const {
+  const double gamma = 0.25 * point.prescribed_ratio;
+  const Newton inner = critical_point(x, gamma, multipliers, frozen);
+  const Eigen::VectorXd g = functional_.gap_function(x);
+  const double h = functional_.normalisation(x) - gamma;
+  Eigen::VectorXd multiplier(g.size()), tangent(g.size());
+  const auto count = static_cast<std::size_t>(g.size());
+  multipliers.inequality_force(view(g), {multiplier.data(), count}, {tangent.data(), count});
+  measure(point, x, multiplier, multipliers.equality_force(h), frozen);
+  point.history.push_back({inner.iterations, inner.gradient, missing, missing});
+  if (inner.status != LagrangianStatus::converged) return inner.status;
+  const MultiplierReport report = multipliers.update(view(g), h);
+  point.history.back().inequality_measure = report.inequality_measure;
+  point.history.back().equality_measure = report.equality_measure;
+  if (report.converged) return judge(point);
+  if (report.stalled) return LagrangianStatus::outer_stalled;
+  return {};
+}
+
+void LagrangianMode::measure(LagrangianPoint& point, const Eigen::VectorXd& x,
+                             const Eigen::VectorXd& multiplier, double pull,
+                             std::optional<double> frozen) const {
+  const RayleighQuotient& quotient = functional_.quotient();
+  const Eigen::VectorXd elastic = quotient.stiffness().apply(x), inertia = quotient.mass().apply(x);
+  const double unit = model_.omega_squared[options_.mode - 1];
+  const double m = x.dot(inertia), r = x.dot(elastic) / m;
+  double squared = r;  // omega^2 over that of the linear mode
+  const Eigen::MatrixXd gaps = (model_.gaps / gap_).replicate(1, options_.samples);
+  const Eigen::Map<const RowMajor> lambda(multiplier.data(), model_.contacts(), options_.samples);
+  if (options_.formulation == ModeFormulation::consistent)
+    squared += 0.5 * lambda.cwiseProduct(gaps).sum() / options_.samples;
+  // Blocks carry the weights w_b throughout.
+  const Eigen::VectorXd residual =
+      elastic - squared * inertia + 0.5 * m * functional_.generalised_force(multiplier);
+  const double balance = frozen.value_or(r) - 0.5 * m * pull;
+  point.energy_ratio = 2.0 * m;
+  point.rayleigh = unit * r;
+  point.omega = std::sqrt(unit * squared);
+  point.amplitudes = to_amplitudes(x);
+  point.force = (0.5 * m * unit * amplitude_ * amplitude_ / gap_) * lambda;
+  point.equation_residual = residual.norm() / elastic.norm();
+  point.identity_defect = std::abs(squared - balance) / squared;
+  const Eigen::VectorXd g = functional_.gap_function(x);
+  point.max_penetration =
+      Eigen::Map<const RowMajor>(g.data(), gaps.rows(), gaps.cols()).cwiseQuotient(gaps).maxCoeff();
+  point.min_force = point.force.minCoeff();
+  measure_shares(point);
+}
+
+void LagrangianMode::measure_shares(LagrangianPoint& point) const {
+  const Eigen::Index harmonics = point.amplitudes.cols() - 1;
+  const Eigen::RowVectorXd n = Eigen::RowVectorXd::LinSpaced(harmonics, 1.0, double(harmonics));
+  Eigen::MatrixXd shares =
+      point.amplitudes.rightCols(harmonics).cwiseAbs2() * n.cwiseAbs2().asDiagonal();  // r x N, from n = 1
+  shares /= shares.sum();
+  point.fundamental_share = shares.col(0).sum();
+  point.tongue = {};
+  for (Eigen::Index column = 1; column < harmonics; ++column) {
+    Eigen::Index mode = 0;
+    const double share = shares.col(column).maxCoeff(&mode);
+    if (share > point.tongue.share)
+      point.tongue = {static_cast<int>(column + 1), static_cast<int>(mode + 1), share};
+  }
+}
+
+LagrangianStatus LagrangianMode::judge(const LagrangianPoint& point) const {
+  if (point.fundamental_share < options_.least_share) return LagrangianStatus::left_mode;
+  if (point.force.isZero(0.0)) return LagrangianStatus::linear;
+  if (point.tongue.share < options_.tongue_share) return LagrangianStatus::converged;
+  const double resonance = std::sqrt(model_.omega_squared[point.tongue.mode - 1]);
+  const double detuning = std::abs(point.tongue.harmonic * point.omega - resonance) / resonance;
+  return detuning <= options_.tongue_detuning ? LagrangianStatus::tongue : LagrangianStatus::converged;
+}
+
+std::vector<LagrangianPoint> LagrangianMode::follow(
+    std::span<const double> energy_ratios, const LagrangianStart& start,
+    const std::function<LagrangianPoint(double, const Prediction&)>& solve_from) const {
+  std::vector<LagrangianPoint> points, path;  // path: also those between
+  for (const double target : energy_ratios) {
+    double ratio = target;
+    for (int halvings = 0;;) {
+      const LagrangianPoint point = solve_from(ratio, predict(path, ratio, start));
+      if (point.accepted()) path.push_back(point);
+      const bool given_up = !point.accepted() && (path.empty() || halvings == options_.step_halvings);
+      if (given_up || (point.accepted() && ratio == target)) points.push_back(point);
+      if (given_up) return points;
+      if (point.accepted() && ratio == target) break;
+      halvings += point.accepted() ? 0 : 1;
+      ratio = point.accepted() ? target : 0.5 * (ratio + path.back().prescribed_ratio);
+    }
+  }
+  return points;
+}
+
+LagrangianMode::Prediction LagrangianMode::predict(const std::vector<LagrangianPoint>& points,
+                                                   double energy_ratio, const LagrangianStart& start) const {
+  if (points.empty()) return {start, {}};
+  const LagrangianPoint& last = points.back();
+  if (last.status == LagrangianStatus::linear) return {start, {}};
+  Prediction result{{last.amplitudes, last.force}, last.rayleigh};
+  if (points.size() < 2) return result;
+  const LagrangianPoint& before = points[points.size() - 2];
+  const double width = last.prescribed_ratio - before.prescribed_ratio;
+  // Across grazing the secant has no meaning: the branch has a corner there.
+  if (before.status == LagrangianStatus::linear || width == 0.0) return result;
+  const double t = (energy_ratio - last.prescribed_ratio) / width;
+  result.start.amplitudes += t * (last.amplitudes - before.amplitudes);
+  result.start.force = (last.force + t * (last.force - before.force)).cwiseMax(0.0);
+  result.rayleigh = last.rayleigh + t * (last.rayleigh - before.rayleigh);
+  return result;
+}
+
+}  // namespace wavebalance::solvers

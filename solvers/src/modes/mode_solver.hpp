@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/LU>
+#include <set>
+
+#include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+
+namespace wavebalance::solvers {
+
+/// The complementarity problem of a nonlinear mode at one omega.
+class ModeSolver {
+ public:
+  ModeSolver(const NonlinearMode& mode, double omega);
+
+  /// Active-set iteration with `harmonics` <= N harmonics. Starts by exchanging every sample that violates
+  /// its condition; once an active set comes back, only the worst one, and when that comes back too, gives
+  /// up.
+  ModePoint solve(int harmonics, const std::vector<int>& active);
+
+ private:
+  // Samples that must carry the same force: one, or with cosine_only also its mirror in time.
+  std::vector<int> orbit(int index) const;
+  void assemble_lags(int harmonics);
+  double compliance(int a, int b) const;  // between samples a and b (contact * m + time)
+  bool solve_forces(const std::vector<int>& active, Eigen::VectorXd& force);
+  double violation(int index, const Eigen::VectorXd& force, const std::vector<int>& active) const;
+  std::vector<int> exchanges(const std::vector<int>& active, const Eigen::VectorXd& force,
+                             bool worst_only) const;
+  void finish(ModePoint& point, int harmonics, const Eigen::VectorXd& force) const;
+  void measure_energy(ModePoint& point) const;
+  void measure_complementarity(ModePoint& point) const;
+  void judge_tongue(ModePoint& point) const;
+
+  const NonlinearMode& mode_;
+  double omega_;
+  int samples_;
+  int unknowns_;                       // contacts * samples
+  std::vector<Eigen::MatrixXd> lags_;  // c x c, for each lag 0..m-1
+};
+
+}  // namespace wavebalance::solvers

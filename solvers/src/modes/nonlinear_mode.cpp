@@ -1,0 +1,178 @@
+#include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "modes/mode_solver.hpp"
+
+namespace wavebalance::solvers {
+
+std::string to_string(ModeStatus status) {
+  switch (status) {
+    case ModeStatus::converged:
+      return "converged";
+    case ModeStatus::linear:
+      return "linear";
+    case ModeStatus::no_contact:
+      return "no_contact";
+    case ModeStatus::cycling:
+      return "cycling";
+    case ModeStatus::singular:
+      return "singular";
+    case ModeStatus::tongue:
+      return "tongue";
+  }
+  return "unknown";
+}
+
+void ModalModel::validate() const {
+  const auto fail = [](const std::string& text) { throw std::invalid_argument("ModalModel: " + text); };
+  if (modes() < 1 || contacts() < 1) fail("at least one mode and one contact degree of freedom are needed");
+  if (contact_shapes.rows() != contacts() || contact_shapes.cols() != modes())
+    fail("contact_shapes is " + std::to_string(contact_shapes.rows()) + " x " +
+         std::to_string(contact_shapes.cols()) + "; " + std::to_string(contacts()) + " gaps and " +
+         std::to_string(modes()) + " modes need it to be of that size");
+  if (!(omega_squared.minCoeff() > 0.0)) fail("omega_squared must be positive; rigid-body modes have none");
+  if (!(gaps.minCoeff() > 0.0))
+    fail("gaps must be positive; the smallest is " + std::to_string(gaps.minCoeff()));
+}
+
+NonlinearMode::NonlinearMode(ModalModel model, NonlinearModeOptions options)
+    : model_(std::move(model)), options_(options) {
+  model_.validate();
+  const auto fail = [](const std::string& text) { throw std::invalid_argument("NonlinearMode: " + text); };
+  if (options_.mode < 1 || options_.mode > model_.modes())
+    fail("mode is " + std::to_string(options_.mode) + "; it must be in 1.." + std::to_string(model_.modes()));
+  if (options_.harmonics < 1)
+    fail("harmonics is " + std::to_string(options_.harmonics) + "; at least 1 is needed");
+  if (options_.samples < 2 * options_.harmonics)
+    fail("samples is " + std::to_string(options_.samples) + "; at least twice the " +
+         std::to_string(options_.harmonics) + " harmonics are needed");
+  if (model_.contact_shapes.col(options_.mode - 1).isZero(0.0))
+    fail("the mode does not move any contact point");
+}
+
+double NonlinearMode::linear_omega() const { return std::sqrt(model_.omega_squared[options_.mode - 1]); }
+
+double NonlinearMode::grazing_energy() const {
+  // Amplitude a of a mass-normalised shape in cos(omega t): m = 2 (a/2)^2, gamma = m/2. Both signs of the
+  // shape are reached within a period.
+  const Eigen::VectorXd shape = model_.contact_shapes.col(options_.mode - 1);
+  const double amplitude = 1.0 / shape.cwiseAbs().cwiseQuotient(model_.gaps).maxCoeff();
+  return 0.25 * amplitude * amplitude;
+}
+
+// The contact sample that the growing linear mode reaches first: t = 0, where the shape is largest over the
+// gap.
+std::vector<int> NonlinearMode::grazing_samples() const {
+  const Eigen::VectorXd reach = model_.contact_shapes.col(options_.mode - 1).cwiseQuotient(model_.gaps);
+  Eigen::Index contact = 0;
+  reach.cwiseAbs().maxCoeff(&contact);
+  return {static_cast<int>(contact) * options_.samples};
+}
+
+ModePoint NonlinearMode::at_frequency(double omega, const std::vector<int>& active) const {
+  ModeSolver solver(*this, omega);
+  return solver.solve(options_.harmonics, active.empty() ? grazing_samples() : active);
+}
+
+ModePoint NonlinearMode::at_frequency_lifted(double omega) const {
+  ModeSolver solver(*this, omega);
+  std::vector<int> active = grazing_samples();
+  int iterations = 0;
+  for (int harmonics = std::min(2, options_.harmonics); harmonics < options_.harmonics; ++harmonics) {
+    const ModePoint level = solver.solve(harmonics, active);
+    iterations += level.iterations;
+    active = level.active.empty() || level.status == ModeStatus::cycling ? grazing_samples() : level.active;
+  }
+  ModePoint point = solver.solve(options_.harmonics, active);
+  point.iterations += iterations;
+  return point;
+}
+
+ModePoint NonlinearMode::linear_mode(double energy_ratio) const {
+  if (!(energy_ratio >= 0.0 && energy_ratio <= 1.0))
+    throw std::invalid_argument("NonlinearMode: energy_ratio of a linear mode is " +
+                                std::to_string(energy_ratio) + "; it must be in 0..1");
+  ModePoint point;
+  point.status = ModeStatus::linear;
+  point.omega = linear_omega();
+  point.force = Eigen::MatrixXd::Zero(model_.contacts(), options_.samples);
+  point.amplitudes = Eigen::MatrixXcd::Zero(model_.modes(), options_.harmonics + 1);
+  const Eigen::VectorXd shape = model_.contact_shapes.col(options_.mode - 1);
+  Eigen::Index largest = 0;
+  shape.cwiseQuotient(model_.gaps).cwiseAbs().maxCoeff(&largest);
+  const double sign = shape[largest] > 0.0 ? 1.0 : -1.0;
+  point.amplitudes(options_.mode - 1, 1) = sign * std::sqrt(energy_ratio * grazing_energy());
+  point.energy_ratio = energy_ratio;
+  point.max_penetration = std::sqrt(energy_ratio) - 1.0;
+  point.rayleigh = point.omega * point.omega;
+  return point;
+}
+
+std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options) {
+  if (options.points < 2 || !(options.first_ratio > 1.0 && options.last_ratio > options.first_ratio))
+    throw std::invalid_argument("backbone: first_ratio " + std::to_string(options.first_ratio) +
+                                ", last_ratio " + std::to_string(options.last_ratio) + ", points " +
+                                std::to_string(options.points) +
+                                "; 1 < first < last and at least 2 points are needed");
+  std::vector<ModePoint> points;
+  std::vector<int> active;
+  double last_energy = 0.0;  // of the last accepted point
+  const double width = (options.last_ratio - options.first_ratio) / (options.points - 1);
+  const auto close = [&](const ModePoint& point) {
+    return last_energy == 0.0 || std::abs(std::log(point.energy_ratio / last_energy)) <= options.largest_jump;
+  };
+  for (int i = 0; i < options.points; ++i) {
+    const double omega = mode.linear_omega() * (options.first_ratio + i * width);
+    ModePoint point = active.empty() ? mode.at_frequency_lifted(omega) : mode.at_frequency(omega, active);
+    if (!active.empty() && (point.status != ModeStatus::converged || !close(point))) {
+      const int spent = point.iterations;
+      point = mode.at_frequency_lifted(omega);
+      point.iterations += spent;
+    }
+    if (point.status == ModeStatus::converged && !close(point)) point.status = ModeStatus::tongue;
+    if (point.status == ModeStatus::converged) {
+      active = point.active;
+      last_energy = point.energy_ratio;
+    }
+    points.push_back(std::move(point));
+    if (points.back().accepted() && points.back().energy_ratio > options.largest_energy) break;
+  }
+  return points;
+}
+
+ModePoint at_energy(const NonlinearMode& mode, const std::vector<ModePoint>& points, double energy_ratio,
+                    double tolerance) {
+  if (energy_ratio <= 1.0) return mode.linear_mode(energy_ratio);
+  const ModePoint* before = nullptr;
+  const ModePoint* low = nullptr;
+  const ModePoint* high = nullptr;
+  for (const ModePoint& point : points) {
+    if (!point.accepted()) continue;
+    if (before && (before->energy_ratio - energy_ratio) * (point.energy_ratio - energy_ratio) <= 0.0) {
+      low = before;
+      high = &point;
+      break;
+    }
+    before = &point;
+  }
+  if (!low) return {};
+  double a = low->omega, b = high->omega;
+  double value_a = low->energy_ratio - energy_ratio, value_b = high->energy_ratio - energy_ratio;
+  ModePoint point = *high;
+  constexpr int limit = 200;
+  for (int i = 0; i < limit && std::abs(point.energy_ratio / energy_ratio - 1.0) > tolerance; ++i) {
+    const double omega = i % 3 == 2 ? 0.5 * (a + b) : a - value_a * (b - a) / (value_b - value_a);
+    point = mode.at_frequency(omega, point.active);
+    if (point.status != ModeStatus::converged) return point;
+    const double value = point.energy_ratio - energy_ratio;
+    (value * value_a > 0.0 ? a : b) = omega;
+    (value * value_a > 0.0 ? value_a : value_b) = value;
+  }
+  if (std::abs(point.energy_ratio / energy_ratio - 1.0) > tolerance) point.status = ModeStatus::tongue;
+  return point;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,89 @@
+#include "wavebalance/solvers/reference/first_order_system.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "linalg/option_checks.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+Eigen::LLT<Eigen::MatrixXd> factor_mass(const LinearStructure& structure) {
+  Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(structure.mass)};
+  if (factor.info() != Eigen::Success)
+    throw std::invalid_argument(
+        "FirstOrderSystem: mass (" + std::to_string(structure.size()) + " x " +
+        std::to_string(structure.size()) +
+        ") is not positive definite; time integration needs a mass on every degree of freedom");
+  return factor;
+}
+
+}  // namespace
+
+FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws laws, double frequency_hz)
+    : laws_(std::move(laws)),
+      contact_dofs_(structure.contact_dofs),
+      angular_frequency_(two_pi * frequency_hz) {
+  structure.validate();
+  laws_.require(structure.contacts());
+  detail::require_positive("FirstOrderSystem", "frequency_hz", frequency_hz);
+  const double period = 1.0 / frequency_hz;
+  const int n = structure.size();
+  const Eigen::LLT<Eigen::MatrixXd> mass = factor_mass(structure);
+  load_ = period * mass.solve(structure.load);
+  Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(n, structure.contacts());
+  for (int c = 0; c < structure.contacts(); ++c)
+    contacts(contact_dofs_[static_cast<std::size_t>(c)], c) = 1.0;
+  contact_inertia_ = period * mass.solve(contacts);
+  linear_ = RowMajorMatrix::Zero(2 * n, 2 * n);
+  linear_.topRightCorner(n, n).diagonal().setConstant(two_pi);
+  linear_.bottomLeftCorner(n, n) =
+      -period / angular_frequency_ * mass.solve(Eigen::MatrixXd(structure.stiffness));
+  linear_.bottomRightCorner(n, n) = -period * mass.solve(Eigen::MatrixXd(structure.damping));
+}
+
+void FirstOrderSystem::derivative(double periods, std::span<const double> state,
+                                  std::span<double> derivative) const {
+  const int n = dofs();
+  const Eigen::Map<const Eigen::VectorXd> y(state.data(), 2 * n);
+  Eigen::Map<Eigen::VectorXd> rate(derivative.data(), 2 * n);
+  rate.head(n) = two_pi * y.tail(n);
+  rate.tail(n).noalias() = linear_.bottomRows(n) * y;
+  rate.tail(n) += std::cos(two_pi * periods) * load_;
+  for (std::size_t c = 0; c < contact_dofs_.size(); ++c) {
+    const auto contact = static_cast<int>(c);
+    rate.tail(n) -=
+        laws_[contact].force(y[contact_dofs_[c]] / angular_frequency_) * contact_inertia_.col(contact);
+  }
+}
+
+void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
+                                std::span<double> state_derivative, std::span<double> time_derivative) const {
+  const int n = dofs();
+  Eigen::Map<RowMajorMatrix> by_state(state_derivative.data(), 2 * n, 2 * n);
+  Eigen::Map<Eigen::VectorXd> by_time(time_derivative.data(), 2 * n);
+  by_state = linear_;
+  for (std::size_t c = 0; c < contact_dofs_.size(); ++c) {
+    const auto contact = static_cast<int>(c);
+    const double u = state[static_cast<std::size_t>(contact_dofs_[c])] / angular_frequency_;
+    by_state.col(contact_dofs_[c]).tail(n) -=
+        laws_[contact].tangent(u) / angular_frequency_ * contact_inertia_.col(contact);
+  }
+  by_time.head(n).setZero();
+  by_time.tail(n) = -two_pi * std::sin(two_pi * periods) * load_;
+}
+
+Eigen::VectorXd FirstOrderSystem::state(const Eigen::VectorXd& displacement,
+                                        const Eigen::VectorXd& velocity) const {
+  Eigen::VectorXd result(states());
+  result << angular_frequency_ * displacement, velocity;
+  return result;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,199 @@
+#include "wavebalance/solvers/reference/shooting.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "linalg/option_checks.hpp"
+#include "reference/shooting_propagator.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr int fewest_steps = 512;  // a period
+
+void validate(const ShootingOptions& options, int dofs) {
+  constexpr const char* who = "ShootingOptions";
+  detail::require_at_least(who, "output_points", options.output_points, 2);
+  detail::require_at_least(who, "settling_periods", options.settling_periods, 0);
+  detail::require_at_least(who, "max_iterations", options.max_iterations, 1);
+  detail::require_positive(who, "tolerance", options.tolerance);
+  detail::require_positive(who, "step_tolerance", options.step_tolerance);
+  detail::require_dofs(who, "initial_displacement", options.initial_displacement, dofs);
+  detail::require_dofs(who, "initial_velocity", options.initial_velocity, dofs);
+}
+
+/// Steps of the period such that every output time is the end of one: base 2^level = points repeat.
+struct OutputGrid {
+  explicit OutputGrid(int points) : base(points) {
+    while (base % 2 == 0 && base / 2 >= fewest_steps) {
+      base /= 2;
+      ++level;
+    }
+    repeat = (fewest_steps + base - 1) / base;
+    base *= repeat;
+  }
+  int base;        // steps of the coarsest level in the Newton iteration
+  int level = 0;   // coarsest level when samples are taken
+  int repeat = 1;  // steps of that level an output point
+};
+
+class Shooting {
+ public:
+  Shooting(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
+           const ShootingOptions& options)
+      : options_(options),
+        law_(law),
+        grid_(options.output_points),
+        propagator_(detail::ModalStructure(structure, frequency_hz), law,
+                    structure.load.cwiseAbs().maxCoeff(), grid_.base, options.step_tolerance) {}
+
+  ShootingResult run() {
+    ShootingResult result;
+    Eigen::VectorXd state = initial_deviation();
+    result.status = settle(state) ? iterate(state, result) : ShootingStatus::step_failure;
+    if (result.status != ShootingStatus::step_failure) record(state, result);
+    result.steps = propagator_.steps();
+    return result;
+  }
+
+ private:
+  const detail::ModalStructure& modes() const { return propagator_.modes(); }
+
+  Eigen::VectorXd initial_deviation() const {
+    const int n = modes().size();
+    const Eigen::VectorXd linear = total(Eigen::VectorXd::Zero(2 * n), 0.0);
+    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(2 * n);
+    if (options_.initial_displacement.size() > 0)
+      deviation.head(n) = modes().projection * options_.initial_displacement - linear.head(n);
+    if (options_.initial_velocity.size() > 0)
+      deviation.tail(n) = modes().projection * options_.initial_velocity - linear.tail(n);
+    return deviation;
+  }
+
+  bool settle(Eigen::VectorXd& state) {
+    for (int period = 0; period < options_.settling_periods; ++period)
+      if (!propagator_.propagate_period(state, nullptr)) return false;
+    return true;
+  }
+
+  /// The modal state (q, q') at the time t = periods T from its deviation.
+  Eigen::VectorXd total(const Eigen::VectorXd& deviation, double periods) const {
+    const int n = modes().size();
+    const Eigen::VectorXcd linear =
+        std::polar(1.0, 2.0 * std::numbers::pi * periods) * modes().linear_response;
+    Eigen::VectorXd result = deviation;
+    result.head(n) += linear.real();
+    result.tail(n) -= modes().angular_frequency * linear.imag();
+    return result;
+  }
+
+  double energy_norm(const Eigen::VectorXd& state) const {
+    const int n = modes().size();
+    const auto weight =
+        modes().stiffness.array().abs().max(modes().angular_frequency * modes().angular_frequency);
+    return std::sqrt((weight * state.head(n).array().square()).sum() + state.tail(n).squaredNorm());
+  }
+
+  /// How much a period changes the state; infinity when it cannot be integrated.
+  double residual(const Eigen::VectorXd& state, Eigen::VectorXd& change, Eigen::MatrixXd* sensitivity) {
+    change = state;
+    if (sensitivity != nullptr) sensitivity->setIdentity(state.size(), state.size());
+    if (!propagator_.propagate_period(change, sensitivity)) return std::numeric_limits<double>::infinity();
+    change -= state;
+    const double size = energy_norm(total(state, 0.0));
+    return size > 0.0 ? energy_norm(change) / size : energy_norm(change);
+  }
+
+  ShootingStatus iterate(Eigen::VectorXd& state, ShootingResult& result) {
+    Eigen::VectorXd change;
+    Eigen::MatrixXd sensitivity;
+    while (true) {
+      result.residual = residual(state, change, &sensitivity);
+      if (!std::isfinite(result.residual)) return ShootingStatus::step_failure;
+      result.residual_history.push_back(result.residual);
+      store_multipliers(sensitivity, result);
+      if (result.residual <= options_.tolerance) return ShootingStatus::converged;
+      if (result.iterations == options_.max_iterations) return ShootingStatus::not_converged;
+      sensitivity.diagonal().array() -= 1.0;
+      if (!search(state, -sensitivity.partialPivLu().solve(change), result.residual))
+        return ShootingStatus::not_converged;
+      ++result.iterations;
+    }
+  }
+
+  /// Halves the Newton step until the residual falls; false when it does not.
+  bool search(Eigen::VectorXd& state, const Eigen::VectorXd& direction, double current) {
+    Eigen::VectorXd change;
+    for (double length = 1.0; length > 1e-4; length *= 0.5) {
+      const Eigen::VectorXd trial = state + length * direction;
+      if (!(residual(trial, change, nullptr) < current)) continue;
+      state = trial;
+      return true;
+    }
+    return false;
+  }
+
+  static void store_multipliers(const Eigen::MatrixXd& sensitivity, ShootingResult& result) {
+    result.floquet_multipliers = Eigen::EigenSolver<Eigen::MatrixXd>(sensitivity, false).eigenvalues();
+    std::stable_sort(result.floquet_multipliers.begin(), result.floquet_multipliers.end(),
+                     [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  }
+
+  void record(const Eigen::VectorXd& start, ShootingResult& result) {
+    const int n = modes().size(), points = options_.output_points;
+    Eigen::MatrixXd q(n, points), v(n, points);
+    Eigen::VectorXd state = start;
+    propagator_.propagate_period(
+        state, nullptr, grid_.level, [&](int step, const Eigen::VectorXd& deviation) {
+          if (step % grid_.repeat != 0) return;
+          const int point = step / grid_.repeat;
+          const Eigen::VectorXd at = total(deviation, static_cast<double>(point) / points);
+          q.col(point) = at.head(n);
+          v.col(point) = at.tail(n);
+        });
+    result.displacement = modes().shapes * q.col(0);
+    result.velocity = modes().shapes * v.col(0);
+    result.samples.displacement = q.transpose() * modes().contact;
+    result.samples.velocity = v.transpose() * modes().contact;
+    result.samples.contact_force =
+        result.samples.displacement.unaryExpr([&](double u) { return law_.force(u); });
+    if (!options_.full_history) return;
+    result.samples.displacements = modes().shapes * q;
+    result.samples.velocities = modes().shapes * v;
+  }
+
+  const ShootingOptions& options_;
+  const AnyContactLaw& law_;
+  OutputGrid grid_;
+  detail::ContactPropagator propagator_;
+};
+
+}  // namespace
+
+const char* to_string(ShootingStatus status) {
+  switch (status) {
+    case ShootingStatus::converged:
+      return "converged";
+    case ShootingStatus::not_converged:
+      return "not_converged";
+    case ShootingStatus::step_failure:
+      return "step_failure";
+  }
+  return "unknown";
+}
+
+ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
+                     const ShootingOptions& options) {
+  detail::require_positive("shoot", "frequency_hz", frequency_hz);
+  structure.validate();
+  structure.single_contact("shoot");
+  validate(options, structure.size());
+  return Shooting(structure, law, frequency_hz, options).run();
+}
+
+}  // namespace wavebalance::solvers

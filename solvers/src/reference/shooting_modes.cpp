@@ -1,0 +1,58 @@
+#include "reference/shooting_modes.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <complex>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+void require_modal_damping(const Eigen::MatrixXd& modal) {
+  const double largest = modal.diagonal().cwiseAbs().maxCoeff();
+  Eigen::MatrixXd coupling = modal;
+  coupling.diagonal().setZero();
+  const double worst = coupling.cwiseAbs().maxCoeff();
+  if (worst <= 1e-9 * largest) return;
+  throw std::invalid_argument(
+      "shoot: damping couples the undamped modes (largest coupling " + std::to_string(worst) +
+      " 1/s, largest modal damping " + std::to_string(largest) +
+      " 1/s); it must be proportional or modal. integrate_to_periodic takes any damping");
+}
+
+}  // namespace
+
+ModalStructure::ModalStructure(const LinearStructure& structure, double frequency_hz)
+    : angular_frequency(2.0 * std::numbers::pi * frequency_hz) {
+  // The eigen solver does not look at its own factorisation of the mass.
+  if (Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(structure.mass)).info() != Eigen::Success)
+    throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
+                                std::to_string(structure.size()) +
+                                ") is not positive definite; every degree of freedom needs a mass");
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(structure.stiffness),
+                                                                         Eigen::MatrixXd(structure.mass)};
+  if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite())
+    throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
+  stiffness = solver.eigenvalues();
+  shapes = solver.eigenvectors();
+  const Eigen::MatrixXd modal_damping = shapes.transpose() * (structure.damping * shapes);
+  require_modal_damping(modal_damping);
+  damping = modal_damping.diagonal();
+  projection = shapes.transpose() * structure.mass;
+  contact = shapes.row(structure.single_contact("shoot")).transpose();
+  const Eigen::VectorXd load = shapes.transpose() * structure.load;
+  linear_response.resize(load.size());
+  for (Eigen::Index k = 0; k < load.size(); ++k) {
+    const std::complex<double> impedance(stiffness[k] - angular_frequency * angular_frequency,
+                                         angular_frequency * damping[k]);
+    linear_response[k] = load[k] == 0.0 ? 0.0 : load[k] / impedance;
+  }
+  if (!linear_response.allFinite())
+    throw std::invalid_argument("shoot: an undamped mode is loaded at its own frequency, " +
+                                std::to_string(frequency_hz) +
+                                " Hz; the response without contact is unbounded");
+}
+
+}  // namespace wavebalance::solvers::detail

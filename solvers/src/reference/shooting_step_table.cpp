@@ -1,0 +1,135 @@
+#include "reference/shooting_step_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+constexpr int nodes = StepTable::nodes;
+using NodeVector = StepTable::NodeVector;
+using NodeMatrix = StepTable::NodeMatrix;
+
+/// Polynomials of degree nodes - 1 on [0, 1] by their values at the Gauss points.
+struct GaussPolynomials {
+  GaussPolynomials();
+  NodeVector values_at(double x) const;  // of the Lagrange polynomials
+
+  NodeVector points;
+  NodeMatrix differentiation;
+  NodeVector at_begin, at_end;
+};
+
+GaussPolynomials::GaussPolynomials() {
+  // Newton on the Legendre polynomial of degree `nodes` from the usual guesses [Abramowitz &
+  // Stegun, 22.16.6].
+  for (int i = 0; i < nodes; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (nodes + 0.5));
+    for (int step = 0; step < 6; ++step) {
+      const double p = std::legendre(nodes, x);
+      x -= p * (x * x - 1.0) / (nodes * (x * p - std::legendre(nodes - 1, x)));
+    }
+    points[i] = 0.5 * (1.0 + x);
+  }
+  NodeVector weights;  // barycentric
+  for (int i = 0; i < nodes; ++i) {
+    weights[i] = 1.0;
+    for (int j = 0; j < nodes; ++j)
+      if (j != i) weights[i] /= points[i] - points[j];
+  }
+  differentiation.setZero();
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j) {
+      if (j == i) continue;
+      differentiation(i, j) = weights[j] / weights[i] / (points[i] - points[j]);
+      differentiation(i, i) -= differentiation(i, j);
+    }
+  at_begin = values_at(0.0);
+  at_end = values_at(1.0);
+}
+
+NodeVector GaussPolynomials::values_at(double x) const {
+  NodeVector values = NodeVector::Ones();
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j)
+      if (j != i) values[i] *= (x - points[j]) / (points[i] - points[j]);
+  return values;
+}
+
+const GaussPolynomials& polynomials() {
+  static const GaussPolynomials instance;
+  return instance;
+}
+
+/// One mode q'' + damping q' + stiffness q = p(t / h), p a polynomial by its values at the Gauss points.
+class ModeResponse {
+ public:
+  /// (q, q') from (q, q') at the start: 2 x 2; and from the values of p: 2 x nodes.
+  struct Blocks {
+    Eigen::Matrix2d state;
+    Eigen::Matrix<double, 2, nodes> force;
+  };
+
+  ModeResponse(double stiffness, double damping, double step) {
+    // The values of a polynomial at the shifted points x + c_i obey d/dx = differentiation, so the mode and
+    // its force form one linear autonomous system. q is scaled to keep the matrix balanced when the mode is
+    // fast.
+    const double balance = std::max(1.0, std::sqrt(std::abs(stiffness)) * step);
+    scale_ = {1.0 / balance, 1.0 / step};
+    force_scale_ = step * step;
+    system_.setZero();
+    system_(0, 1) = balance;
+    system_(1, 0) = -stiffness * step * step / balance;
+    system_(1, 1) = -damping * step;
+    system_.block<1, nodes>(1, 2) = polynomials().at_begin.transpose();
+    system_.block<nodes, nodes>(2, 2) = polynomials().differentiation;
+  }
+
+  Blocks at(double fraction) const {
+    const Matrix propagated = (fraction * system_).exp();
+    const Eigen::DiagonalMatrix<double, 2> out(scale_);
+    return {out * propagated.topLeftCorner<2, 2>() * out.inverse(),
+            force_scale_ * (out * propagated.topRightCorner<2, nodes>())};
+  }
+
+ private:
+  using Matrix = Eigen::Matrix<double, nodes + 2, nodes + 2>;
+  Matrix system_;
+  Eigen::Vector2d scale_;
+  double force_scale_;
+};
+
+}  // namespace
+
+const StepTable::NodeVector& StepTable::points() { return polynomials().points; }
+const StepTable::NodeVector& StepTable::at_begin() { return polynomials().at_begin; }
+const StepTable::NodeVector& StepTable::at_end() { return polynomials().at_end; }
+
+StepTable::StepTable(const ModalStructure& modes, double step_seconds) {
+  const int n = modes.size();
+  for (Eigen::VectorXd* block : {&from_q_to_q, &from_v_to_q, &from_q_to_v, &from_v_to_v}) block->resize(n);
+  node_state.resize(nodes, 2 * n);
+  node_force.setZero();
+  end_force.resize(2 * n, nodes);
+  for (int k = 0; k < n; ++k) {
+    const ModeResponse mode(modes.stiffness[k], modes.damping[k], step_seconds);
+    const double c = modes.contact[k];
+    for (int i = 0; i < nodes; ++i) {
+      const ModeResponse::Blocks node = mode.at(polynomials().points[i]);
+      node_state(i, k) = c * node.state(0, 0);
+      node_state(i, n + k) = c * node.state(0, 1);
+      node_force.row(i) -= c * c * node.force.row(0);
+    }
+    const ModeResponse::Blocks end = mode.at(1.0);
+    from_q_to_q[k] = end.state(0, 0);
+    from_v_to_q[k] = end.state(0, 1);
+    from_q_to_v[k] = end.state(1, 0);
+    from_v_to_v[k] = end.state(1, 1);
+    end_force.row(k) = -c * end.force.row(0);
+    end_force.row(n + k) = -c * end.force.row(1);
+  }
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,292 @@
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <memory>
+#include <new>
+#include <numbers>
+#include <span>
+
+#include "linalg/option_checks.hpp"
+#include "wavebalance/solvers/reference/first_order_system.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr double first_step = 1e-6;  // periods
+
+void validate(const TimeSteppingOptions& options, int dofs) {
+  constexpr const char* who = "TimeSteppingOptions";
+  detail::require_at_least(who, "output_points", options.output_points, 2);
+  detail::require_positive(who, "period_tolerance", options.period_tolerance);
+  detail::require_at_least(who, "max_periods", options.max_periods, 1);
+  detail::require_at_least(who, "max_steps_per_period", options.max_steps_per_period, 1);
+  detail::require_positive(who, "step_tolerance", options.step_tolerance);
+  detail::require_positive(who, "step_floor", options.step_floor);
+  detail::require_dofs(who, "initial_displacement", options.initial_displacement, dofs);
+  detail::require_dofs(who, "initial_velocity", options.initial_velocity, dofs);
+}
+
+Eigen::VectorXd initial_state(const FirstOrderSystem& system, const TimeSteppingOptions& options) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.dofs());
+  const auto or_zero = [&](const Eigen::VectorXd& values) -> const Eigen::VectorXd& {
+    return values.size() == 0 ? zero : values;
+  };
+  return system.state(or_zero(options.initial_displacement), or_zero(options.initial_velocity));
+}
+
+/// The size of the state, m/s, that the tolerances are relative to: the amplitude of the response without
+/// contact, or the initial state when that is larger; 1 when both vanish.
+double state_scale(const LinearStructure& structure, double angular_frequency,
+                   const Eigen::VectorXd& initial) {
+  using Complex = std::complex<double>;
+  const Eigen::MatrixXcd impedance =
+      Eigen::MatrixXcd(structure.stiffness.cast<Complex>() -
+                       Complex(angular_frequency * angular_frequency) * structure.mass.cast<Complex>() +
+                       Complex(0.0, angular_frequency) * structure.damping.cast<Complex>());
+  const Eigen::VectorXcd response = impedance.partialPivLu().solve(structure.load.cast<Complex>());
+  const double linear = angular_frequency * response.cwiseAbs().maxCoeff();
+  const double scale = std::max(std::isfinite(linear) ? linear : 0.0, initial.cwiseAbs().maxCoeff());
+  return scale > 0.0 ? scale : 1.0;
+}
+
+class SilencedGslErrors {
+ public:
+  SilencedGslErrors() : previous_(gsl_set_error_handler_off()) {}
+  ~SilencedGslErrors() { gsl_set_error_handler(previous_); }
+  SilencedGslErrors(const SilencedGslErrors&) = delete;
+  SilencedGslErrors& operator=(const SilencedGslErrors&) = delete;
+
+ private:
+  gsl_error_handler_t* previous_;
+};
+
+std::span<const double> view(const double* values, int size) {
+  return {values, static_cast<std::size_t>(size)};
+}
+std::span<double> view(double* values, int size) { return {values, static_cast<std::size_t>(size)}; }
+
+int derivative_callback(double periods, const double* state, double* rate, void* parameters) {
+  const auto& system = *static_cast<const FirstOrderSystem*>(parameters);
+  const int size = system.states();
+  system.derivative(periods, view(state, size), view(rate, size));
+  // A step too long can leave the range of an exponential law; any failure makes the integrator halve the
+  // step.
+  return Eigen::Map<const Eigen::VectorXd>(rate, size).allFinite() ? GSL_SUCCESS : GSL_ERANGE;
+}
+
+int jacobian_callback(double periods, const double* state, double* by_state, double* by_time,
+                      void* parameters) {
+  const auto& system = *static_cast<const FirstOrderSystem*>(parameters);
+  const int size = system.states();
+  system.jacobian(periods, view(state, size), view(by_state, size * size), view(by_time, size));
+  return Eigen::Map<const Eigen::VectorXd>(by_state, size * size).allFinite() ? GSL_SUCCESS : GSL_ERANGE;
+}
+
+/// One end of a step.
+struct Instant {
+  double time = 0.0;      // periods
+  Eigen::VectorXd state;  // 2n, m/s
+  Eigen::VectorXd rate;   // 2n, m/s a period
+};
+
+/// GSL's evolution objects, with the two ends of the last step.
+class Integrator {
+ public:
+  Integrator(FirstOrderSystem& system, const Eigen::VectorXd& initial, const TimeSteppingOptions& options,
+             double scale)
+      : system_{derivative_callback, jacobian_callback, static_cast<std::size_t>(system.states()), &system},
+        driver_(gsl_odeiv2_driver_alloc_y_new(&system_, gsl_odeiv2_step_msbdf, first_step,
+                                              options.step_tolerance * options.step_floor * scale,
+                                              options.step_tolerance),
+                &gsl_odeiv2_driver_free),
+        end_{0.0, initial, Eigen::VectorXd(initial.size())} {
+    if (!driver_) throw std::bad_alloc();
+    derivative_callback(0.0, end_.state.data(), end_.rate.data(), &system);
+  }
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// One accepted step, which does not pass `limit` (periods); false when none was found.
+  bool advance(double limit) {
+    begin_ = end_;
+    ++steps_;
+    return gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &system_, &end_.time, limit, &step_,
+                                   end_.state.data()) == GSL_SUCCESS &&
+           derivative_callback(end_.time, end_.state.data(), end_.rate.data(), system_.params) == GSL_SUCCESS;
+  }
+
+  const Instant& begin() const { return begin_; }
+  const Instant& end() const { return end_; }
+  long steps() const { return steps_; }
+  long failed_steps() const { return static_cast<long>(driver_->e->failed_steps); }
+
+ private:
+  gsl_odeiv2_system system_;
+  std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver_;
+  double step_ = first_step;
+  long steps_ = 0;
+  Instant begin_, end_;
+};
+
+/// The quintic on [0, 1] with given value, slope and curvature at both ends: the factors of these six, [0]
+/// for the start and [1] for the end, in its value (first row) and its slope (second row) at s.
+struct QuinticWeights {
+  explicit QuinticWeights(double s) {
+    const double r = 1.0 - s;
+    fill(0, r, s, 1.0);
+    fill(1, s, r, -1.0);
+  }
+  double value[2], slope[2], curvature[2];
+  double value_rate[2], slope_rate[2], curvature_rate[2];
+
+ private:
+  /// near is 1 at the end that is filled, far is 1 - near; direction is +1 where far grows with s.
+  void fill(int end, double near, double far, double direction) {
+    const double near2 = near * near;
+    value[end] = near2 * near * (1.0 + 3.0 * far + 6.0 * far * far);
+    slope[end] = direction * near2 * near * far * (1.0 + 3.0 * far);
+    curvature[end] = 0.5 * near2 * near * far * far;
+    value_rate[end] = -direction * 30.0 * near2 * far * far;
+    slope_rate[end] = near2 * (1.0 - 3.0 * far) * (1.0 + 5.0 * far);
+    curvature_rate[end] = direction * 0.5 * near2 * far * (2.0 - 5.0 * far);
+  }
+};
+
+/// Fills the samples of the period under way from the steps that pass over their times.
+class PeriodRecorder {
+ public:
+  PeriodRecorder(const FirstOrderSystem& system, int points)
+      : system_(system), states_(system.states(), points) {}
+
+  /// Records up to the end of the step or of the period; true when the period is complete.
+  bool record(const Integrator& step) {
+    while (next_ < states_.cols() && time_of(next_) <= step.end().time) interpolate(step, next_++);
+    return next_ == states_.cols();
+  }
+
+  /// Opens the next period; returns the relative rms difference of this one's contact displacement to the
+  /// last one's.
+  double close_period() {
+    const Eigen::VectorXd contact = contact_rows(0);
+    const double difference = period_ == 0 ? contact.norm() : (contact - contact_).norm();
+    const double size = contact.norm();
+    const double relative = difference == 0.0 ? 0.0 : difference / size;
+    contact_ = contact;
+    next_ = 0;
+    ++period_;
+    return period_ == 1 ? std::numeric_limits<double>::infinity() : relative;
+  }
+
+  PeriodSamples samples(bool full_history) const {
+    const int n = system_.dofs();
+    PeriodSamples result;
+    result.contacts = static_cast<int>(system_.contact_dofs().size());
+    result.displacement = contact_rows(0) / system_.angular_frequency();
+    result.velocity = contact_rows(n);
+    result.contact_force.resize(result.displacement.size());
+    for (Eigen::Index l = 0; l < result.displacement.size(); ++l)
+      result.contact_force[l] =
+          system_.laws()[static_cast<int>(l / states_.cols())].force(result.displacement[l]);
+    if (!full_history) return result;
+    result.displacements = states_.topRows(n) / system_.angular_frequency();
+    result.velocities = states_.bottomRows(n);
+    return result;
+  }
+
+ private:
+  // The rows of all contacts, those of the states from `first` on, one after the other.
+  Eigen::VectorXd contact_rows(int first) const {
+    Eigen::VectorXd rows(static_cast<Eigen::Index>(system_.contact_dofs().size()) * states_.cols());
+    for (std::size_t c = 0; c < system_.contact_dofs().size(); ++c)
+      rows.segment(Eigen::Index(c) * states_.cols(), states_.cols()) =
+          states_.row(first + system_.contact_dofs()[c]).transpose();
+    return rows;
+  }
+
+  double time_of(Eigen::Index sample) const {
+    return period_ + static_cast<double>(sample) / static_cast<double>(states_.cols());
+  }
+
+  /// The quintic through y, y' and y'' of the displacement half of the state, where y' = 2 pi u'.
+  void interpolate(const Integrator& step, Eigen::Index sample) {
+    const int n = system_.dofs();
+    const Instant &a = step.begin(), &b = step.end();
+    const double h = b.time - a.time;
+    const QuinticWeights w((time_of(sample) - a.time) / h);
+    const double slope = two_pi * h, curvature = two_pi * h * h;
+    states_.col(sample).head(n) =
+        w.value[0] * a.state.head(n) + w.value[1] * b.state.head(n) +
+        slope * (w.slope[0] * a.state.tail(n) + w.slope[1] * b.state.tail(n)) +
+        curvature * (w.curvature[0] * a.rate.tail(n) + w.curvature[1] * b.rate.tail(n));
+    states_.col(sample).tail(n) =
+        w.value_rate[1] / slope * (b.state.head(n) - a.state.head(n)) + w.slope_rate[0] * a.state.tail(n) +
+        w.slope_rate[1] * b.state.tail(n) +
+        h * (w.curvature_rate[0] * a.rate.tail(n) + w.curvature_rate[1] * b.rate.tail(n));
+  }
+
+  const FirstOrderSystem& system_;
+  Eigen::MatrixXd states_;  // 2n x points
+  Eigen::VectorXd contact_;
+  Eigen::Index next_ = 0;
+  int period_ = 0;
+};
+
+}  // namespace
+
+const char* to_string(TimeSteppingStatus status) {
+  switch (status) {
+    case TimeSteppingStatus::converged:
+      return "converged";
+    case TimeSteppingStatus::not_converged:
+      return "not_converged";
+    case TimeSteppingStatus::step_failure:
+      return "step_failure";
+    case TimeSteppingStatus::stopped:
+      return "stopped";
+  }
+  return "unknown";
+}
+
+TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const ContactLaws& laws,
+                                         double frequency_hz, const TimeSteppingOptions& options) {
+  detail::require_positive("integrate_to_periodic", "frequency_hz", frequency_hz);
+  structure.validate();
+  validate(options, structure.size());
+  FirstOrderSystem system(structure, laws, frequency_hz);
+  const Eigen::VectorXd initial = initial_state(system, options);
+  const SilencedGslErrors silence;
+  Integrator integrator(system, initial, options,
+                        state_scale(structure, system.angular_frequency(), initial));
+  PeriodRecorder recorder(system, options.output_points);
+  TimeSteppingResult result;
+  const auto run = [&] {
+    while (result.periods < options.max_periods) {
+      if (integrator.steps() >= long{options.max_steps_per_period} * (result.periods + 1))
+        return TimeSteppingStatus::not_converged;
+      if (!integrator.advance(options.max_periods)) return TimeSteppingStatus::step_failure;
+      while (recorder.record(integrator)) {
+        const double difference = recorder.close_period();
+        result.samples = recorder.samples(options.full_history);
+        if (++result.periods > 1) result.period_error.push_back(difference);
+        const bool stop = options.observer && !options.observer(result.periods, difference);
+        if (difference < options.period_tolerance) return TimeSteppingStatus::converged;
+        if (stop) return TimeSteppingStatus::stopped;
+      }
+    }
+    return TimeSteppingStatus::not_converged;
+  };
+  result.status = run();
+  result.steps = integrator.steps();
+  result.failed_steps = integrator.failed_steps();
+  return result;
+}
+
+}  // namespace wavebalance::solvers

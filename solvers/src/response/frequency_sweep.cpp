@@ -1,0 +1,183 @@
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
+
+namespace wavebalance::solvers {
+
+std::string to_string(SweepStatus status) {
+  switch (status) {
+    case SweepStatus::reached_end:
+      return "reached_end";
+    case SweepStatus::returned:
+      return "returned";
+    case SweepStatus::no_start:
+      return "no_start";
+    case SweepStatus::lost:
+      return "lost";
+    case SweepStatus::unbounded:
+      return "unbounded";
+    case SweepStatus::point_limit:
+      return "point_limit";
+    case SweepStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A response with contact larger than this many gaps, and than this many times that without contact.
+constexpr double bound = 100.0;
+
+// Leaves out neighbours that are less than `least` apart in frequency, the nearest first: what remains are
+// the turns of the curve on that scale.
+void leave_out_small_returns(std::vector<TurningPoint>& turns, double least) {
+  const auto apart = [&](std::size_t i) { return std::abs(turns[i + 1].frequency - turns[i].frequency); };
+  while (turns.size() > 1) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i + 1 < turns.size(); ++i)
+      if (apart(i) < apart(nearest)) nearest = i;
+    if (apart(nearest) >= least) return;
+    const auto first = turns.begin() + static_cast<std::ptrdiff_t>(nearest);
+    turns.erase(first, first + 2);
+  }
+}
+
+class Sweep {
+ public:
+  Sweep(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweepOptions& options)
+      : problem_(problem),
+        system_(problem, laws),
+        options_(options),
+        evaluator_(problem.pair().trial(), options.output_points, 0) {}
+
+  FrequencySweep run() {
+    // Long steps pass a narrow resonance without damping, or do not, by where they land.
+    for (const double share : {1.0, 0.7, 1.4}) {
+      step_share_ = share;
+      largest_free_ = 0.0;
+      result_ = {};
+      trace();
+      const bool again =
+          result_.status == SweepStatus::unbounded && options_.arc_length.corners != Corners::every;
+      if (!again) break;
+    }
+    const double interval = std::abs(options_.to - options_.from);
+    leave_out_small_returns(result_.turning_points,
+                            options_.smallest_return > 0.0 ? options_.smallest_return : 1e-3 * interval);
+    return std::move(result_);
+  }
+
+ private:
+  void trace() {
+    problem_.set_frequency(options_.from);
+    const PeriodicResponse first = forced_response(problem_, system_.laws(), options_.start);
+    result_.condition = std::max(problem_.condensation().condition(), first.condition);
+    if (!first.converged()) return;
+    const FrequencyParameter parameter;
+    ArcLength curve(system_, parameter, scaled_options(first));
+    const double direction = options_.to > options_.from ? 1.0 : -1.0;
+    if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced) return;
+    result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
+  }
+
+  ArcLengthOptions scaled_options(const PeriodicResponse& first) const {
+    ArcLengthOptions arc = options_.arc_length;
+    const double gap = system_.laws().largest_gap();
+    const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
+    if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : rms;
+    if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
+    arc.largest_step *= step_share_;
+    return arc;
+  }
+
+  SweepStatus follow(ArcLength& curve, double direction) {
+    while (static_cast<int>(result_.points.size()) < options_.max_points) {
+      if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
+      note_turning_point(curve);
+      const double ahead = direction * (curve.point().parameter - options_.to);
+      const double behind = direction * (options_.from - curve.point().parameter);
+      if (ahead >= 0.0 || behind > 0.0) {
+        const double end = ahead >= 0.0 ? options_.to : options_.from;
+        CurvePoint last;
+        if (curve.locate([end](const CurvePoint& p) { return p.parameter - end; }, last)) record(last);
+        return ahead >= 0.0 ? SweepStatus::reached_end : SweepStatus::returned;
+      }
+      if (!record(curve.point())) return SweepStatus::cancelled;
+      if (has_grown_past_bounds()) return SweepStatus::unbounded;
+    }
+    return SweepStatus::point_limit;
+  }
+
+  // With the contact-free response of the frequency last measured.
+  bool has_grown_past_bounds() {
+    largest_free_ = std::max(largest_free_, problem_.free_response().cwiseAbs().maxCoeff());
+    const double gap = system_.laws().largest_gap();
+    return gap > 0.0 && result_.points.back().max_abs_displacement > bound * std::max(gap, largest_free_);
+  }
+
+  void note_turning_point(ArcLength& curve) {
+    if (curve.previous().parameter_tangent * curve.point().parameter_tangent >= 0.0) return;
+    // At a corner the sign changes across the point itself: the tangent stored is that of the side ahead.
+    CurvePoint turning = curve.point();
+    if (!turning.corner) {
+      const auto rate = [](const CurvePoint& p) { return p.parameter_tangent; };
+      if (!curve.locate(rate, turning)) turning = curve.point();
+    }
+    const SweepPoint measured = measure(turning);
+    result_.turning_points.push_back(
+        {measured.frequency, measured.max_displacement, measured.max_abs_displacement, turning.corner});
+  }
+
+  SweepPoint measure(const CurvePoint& point) {
+    problem_.set_frequency(point.parameter);
+    result_.condition = std::max(result_.condition, problem_.condensation().condition());
+    system_.evaluate(point.displacement);
+    const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
+    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.corner};
+    for (int c = 0; c < problem_.contacts(); ++c) {
+      const Eigen::VectorXd u = evaluator_(coefficients.col(c));
+      measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
+      measured.rms_displacement = std::max(measured.rms_displacement, u.norm() / std::sqrt(double(u.size())));
+      measured.max_abs_displacement = std::max(measured.max_abs_displacement, u.cwiseAbs().maxCoeff());
+    }
+    return measured;
+  }
+
+  bool record(const CurvePoint& point) {
+    result_.points.push_back(measure(point));
+    return !options_.observer || options_.observer(result_.points.back());
+  }
+
+  CondensedProblem& problem_;
+  ContactSystem system_;
+  const FrequencySweepOptions& options_;
+  TrialEvaluator evaluator_;
+  FrequencySweep result_;
+  double largest_free_ = 0.0;
+  double step_share_ = 1.0;  // of the largest step asked for
+};
+
+}  // namespace
+
+FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options) {
+  const bool valid = std::isfinite(options.from) && std::isfinite(options.to) && options.from > 0.0 &&
+                     options.to > 0.0 && options.from != options.to;
+  if (!valid)
+    throw std::invalid_argument("frequency_sweep: from " + std::to_string(options.from) + " Hz to " +
+                                std::to_string(options.to) +
+                                " Hz; both must be positive, finite and different");
+  if (!(options.smallest_return >= 0.0))
+    throw std::invalid_argument("frequency_sweep: smallest_return is " +
+                                std::to_string(options.smallest_return) + " Hz; it must not be negative");
+  return Sweep(problem, laws, options).run();
+}
+
+}  // namespace wavebalance::solvers

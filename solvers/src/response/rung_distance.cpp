@@ -1,0 +1,123 @@
+#include "response/rung_distance.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+double relative(double value, double scale) { return value == 0.0 ? 0.0 : value / scale; }
+
+/// Below M/2 a harmonic's amplitude is its coefficient over M: those of the cardinal functions are samples.
+RungDistance harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_functions,
+                               const Eigen::MatrixXcd& fine, int fine_functions) {
+  double within = 0.0, beyond = 0.0, scale = 0.0;
+  for (Eigen::Index n = 0; n < fine.rows(); ++n) {
+    const double weight = n == 0 ? 0.5 : 1.0;
+    const Eigen::RowVectorXcd value = fine.row(n) / double(fine_functions);
+    scale += weight * value.squaredNorm();
+    if (n < coarse.rows())
+      within += weight * (value - coarse.row(n) / double(coarse_functions)).squaredNorm();
+    else
+      beyond += weight * value.squaredNorm();
+  }
+  return {relative(std::sqrt(within), std::sqrt(scale)), relative(std::sqrt(beyond), std::sqrt(scale))};
+}
+
+}  // namespace
+
+RungDistance rung_distance(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
+                           const CondensedProblem& fine, const PeriodicResponse& fine_response) {
+  const TimePair& pair = fine.pair();
+  const bool odd = pair.functions() % 2 == 1 && coarse.pair().functions() % 2 == 1;
+  if (odd && pair.trial().band_limited() && pair.weight().band_limited())
+    return harmonic_distance(coarse_response.coefficients, coarse.pair().functions(),
+                             fine_response.coefficients, pair.functions());
+  // Contact-major samples: every (N'/N)-th of the finer ones, as N divides N'.
+  const Eigen::VectorXd at_points =
+      fine_response.displacement(Eigen::seqN(0, coarse.samples(), fine.points() / coarse.points()));
+  return {0.0, relative((at_points - coarse_response.displacement).norm(), at_points.norm())};
+}
+
+double halved_quadrature(CondensedProblem& problem, const PeriodicResponse& response) {
+  Eigen::VectorXd alternating = response.contact_force, motion;
+  const int points = problem.points();
+  for (Eigen::Index l = 0; l < alternating.size(); ++l)
+    if (l % points % 2 == 1) alternating[l] = -alternating[l];
+  problem.apply(alternating, motion);
+  return relative(motion.norm(), response.displacement.norm());
+}
+
+bool has_brief_contact(const PeriodicResponse& response, int points) {
+  constexpr int fewest = 3;
+  const Eigen::VectorXd& force = response.contact_force;
+  for (Eigen::Index first = 0; first < force.size(); first += points) {
+    const auto touches = [&](Eigen::Index l) { return force[first + (l + points) % points] != 0.0; };
+    for (Eigen::Index l = 0; l < points; ++l) {
+      if (!touches(l) || touches(l - 1)) continue;
+      for (int later = 1; later < fewest; ++later)
+        if (!touches(l + later)) return true;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+bool touches_often(const Eigen::VectorXd& u, Eigen::Index l, double gap) {
+  const auto beyond = [&](Eigen::Index m) { return u[(m + u.size()) % u.size()] > gap; };
+  return u[l] > gap &&
+         ((beyond(l - 1) && (beyond(l - 2) || beyond(l + 1))) || (beyond(l + 1) && beyond(l + 2)));
+}
+
+/// Sum of what the forces, N, at the maxima beyond the gap that parabolas through the samples of one contact
+/// reach exceed those at the samples, with twice what a parabola misses of a smooth maximum half-way, 3/128
+/// of the fourth difference. A force yields to itself by `compliance`, m/N, of a point. Maxima in contacts of
+/// more than two points are left to the order of the sums.
+double missed_force(const Eigen::VectorXd& u, const AnyContactLaw& law, double compliance) {
+  const Eigen::Index points = u.size();
+  const auto at = [&](Eigen::Index l) { return u[(l + points) % points]; };
+  double force = 0.0;
+  for (Eigen::Index l = 0; l < points; ++l) {
+    const double before = at(l - 1), after = at(l + 1);
+    if (u[l] < before || u[l] < after || touches_often(u, l, law.gap())) continue;
+    const double bend = before - 2.0 * u[l] + after, rise = after - before;
+    if (!(bend < 0.0)) continue;
+    const double fourth = at(l - 2) + at(l + 2) - 4.0 * (before + after) + 6.0 * u[l];
+    const double more = -rise * rise / (8.0 * bend) + 3.0 / 64.0 * std::abs(fourth);
+    const double missed = law.force(u[l] + more) - law.force(u[l]);
+    if (missed > 0.0) force += missed / (1.0 + compliance * missed / more);
+  }
+  return force;
+}
+
+/// Displacement of a point under a unit force there, m/N; 0 where inertia prevails.
+double point_compliance(CondensedProblem& problem, int contact) {
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(problem.samples()), motion;
+  unit[contact * problem.points()] = 1.0;
+  problem.apply(unit, motion);
+  return std::max(motion[contact * problem.points()], 0.0);
+}
+
+}  // namespace
+
+double missed_contacts(CondensedProblem& problem, const PeriodicResponse& response, const ContactLaws& laws) {
+  const int points = problem.points();
+  Eigen::VectorXd pulses = Eigen::VectorXd::Zero(problem.samples()), motion;
+  for (int contact = 0; contact < problem.contacts(); ++contact) {
+    const Eigen::VectorXd u = response.displacement.segment(contact * points, points);
+    if (missed_force(u, laws[contact], 0.0) > 0.0)
+      pulses[contact * points] = missed_force(u, laws[contact], point_compliance(problem, contact));
+  }
+  if (pulses.isZero(0.0)) return 0.0;
+  problem.apply(pulses, motion);
+  return relative(motion.norm(), response.displacement.norm());
+}
+
+double decay_order(const PeriodicResponse& response, int functions) {
+  const int top = (functions - 1) / 2, middle = top / 2, low = top / 4;
+  const auto& spectrum = response.coefficients;
+  if (low < 1) return 0.0;
+  const double upper = spectrum.middleRows(middle + 1, top - middle).norm();
+  const double lower = spectrum.middleRows(low + 1, middle - low).norm();
+  return std::log2(lower / upper);
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,164 @@
+#include "wavebalance/solvers/structure/condensation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "structure/condensation_method.hpp"
+#include "linalg/safe_norm.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+bool is_tridiagonal(const Eigen::SparseMatrix<double>& matrix) {
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
+      if (std::abs(entry.row() - entry.col()) > 1 && entry.value() != 0.0) return false;
+  return true;
+}
+
+double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
+  double largest = 0.0;
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
+      largest = std::max(largest, std::abs(entry.value()));
+  return largest;
+}
+
+void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name) {
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  const double asymmetry = largest_entry(matrix - transposed), size = largest_entry(matrix);
+  constexpr double tolerance = 1e-12;
+  if (asymmetry <= tolerance * size) return;
+  throw std::invalid_argument("Condensation: " + std::string(name) +
+                              " is not symmetric (relative asymmetry " + std::to_string(asymmetry / size) +
+                              ")");
+}
+
+bool is_tridiagonal(const LinearStructure& structure) {
+  return is_tridiagonal(structure.mass) && is_tridiagonal(structure.damping) &&
+         is_tridiagonal(structure.stiffness);
+}
+
+// A dense elimination beats a sparse one until few entries are left to it.
+bool is_dense(const LinearStructure& structure) {
+  const double entries = double(structure.stiffness.nonZeros() + structure.mass.nonZeros());
+  const double size = structure.size();
+  return size <= 2000.0 && entries > 0.1 * size * size;
+}
+
+using MethodPointer = std::unique_ptr<Condensation::Method>;
+
+// `chosen` becomes the method taken.
+MethodPointer choose_method(const LinearStructure& structure, CondensationMethod& chosen) {
+  constexpr int modal_limit = 1000;  // where the modes begin to cost more than a sweep by elimination
+  if (is_tridiagonal(structure)) {
+    chosen = CondensationMethod::tridiagonal;
+    return make_tridiagonal_method(structure);
+  }
+  chosen = CondensationMethod::modal;
+  if (structure.size() <= modal_limit)
+    if (MethodPointer method = make_modal_method(structure)) return method;
+  chosen = is_dense(structure) ? CondensationMethod::dense : CondensationMethod::sparse;
+  return chosen == CondensationMethod::dense ? make_dense_method(structure) : make_sparse_method(structure);
+}
+
+MethodPointer make_unscaled_method(const LinearStructure& structure, CondensationMethod& method) {
+  switch (method) {
+    case CondensationMethod::automatic:
+      return choose_method(structure, method);
+    case CondensationMethod::tridiagonal:
+      if (is_tridiagonal(structure)) return make_tridiagonal_method(structure);
+      throw std::invalid_argument("Condensation: the matrices are not tridiagonal");
+    case CondensationMethod::modal:
+      if (MethodPointer modal = make_modal_method(structure)) return modal;
+      throw std::invalid_argument(
+          "Condensation: the modal method needs a positive definite stiffness or mass and a damping that is "
+          "diagonal in the undamped modes");
+    case CondensationMethod::dense:
+      return make_dense_method(structure);
+    case CondensationMethod::sparse:
+      return make_sparse_method(structure);
+  }
+  throw std::invalid_argument("Condensation: unknown method");
+}
+
+// `method` becomes the one taken.
+MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method) {
+  structure.validate();
+  require_symmetric(structure.mass, "mass");
+  require_symmetric(structure.damping, "damping");
+  require_symmetric(structure.stiffness, "stiffness");
+  return make_scaled_method(
+      structure, [&method](const LinearStructure& scaled) { return make_unscaled_method(scaled, method); });
+}
+
+}  // namespace
+
+StiffnessScale::StiffnessScale(const LinearStructure& structure)
+    : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
+               largest_entry(structure.stiffness)} {}
+
+double StiffnessScale::size(const StiffnessFactors& factors) const {
+  return std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
+         std::abs(factors[2]) * largest_[2];
+}
+
+double StiffnessScale::condition(const StiffnessFactors& factors, double solution_norm,
+                                 double right_norm) const {
+  return right_norm > 0.0 ? size(factors) * (solution_norm / right_norm) : 0.0;
+}
+
+double StiffnessScale::require_regular(const StiffnessFactors& factors,
+                                       const Eigen::Ref<const Eigen::VectorXcd>& solution,
+                                       double right_norm) const {
+  const double found = condition(factors, safe_norm(solution), right_norm);
+  constexpr double largest_condition = 0.1 / std::numeric_limits<double>::epsilon();
+  if (found <= largest_condition) return found;
+  throw SingularSystem(
+      "the dynamic stiffness is singular to working precision: no damping at a natural frequency, or a pair "
+      "whose symbol vanishes");
+}
+
+Condensation::Condensation(const LinearStructure& structure, CondensationMethod method)
+    : chosen_(method), method_(make_method(structure, chosen_)) {}
+Condensation::Condensation(Condensation&&) noexcept = default;
+Condensation& Condensation::operator=(Condensation&&) noexcept = default;
+Condensation::~Condensation() = default;
+
+int Condensation::size() const { return method_->size(); }
+int Condensation::contacts() const { return method_->contacts(); }
+
+CondensedPoint Condensation::at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+  return method_->at(factors, rates);
+}
+
+void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                            CondensedSpectrum& result) {
+  const Eigen::Index size = factors[0].size(), count = contacts();
+  for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
+  for (auto* matrix : {&result.load_response, &result.load_response_slope}) matrix->resize(size, count);
+  method_->forget_condition();
+  method_->condense(factors, rates, result);
+  condition_ = method_->condition();
+}
+
+void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                                    CondensedSpectrum& result) {
+  for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
+    const CondensedPoint point =
+        at({factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
+    result.compliance.row(k) = point.compliance.reshaped().transpose();
+    result.load_response.row(k) = point.load_response.transpose();
+    result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
+    result.load_response_slope.row(k) = point.load_response_slope.transpose();
+  }
+}
+
+Eigen::VectorXcd Condensation::recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+                                       const Eigen::VectorXcd& contact_forces) {
+  return method_->recover(factors, load_amplitude, contact_forces);
+}
+
+}  // namespace wavebalance::solvers

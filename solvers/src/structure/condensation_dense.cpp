@@ -1,0 +1,27 @@
+#include <Eigen/LU>
+
+#include "structure/condensation_direct.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+class DenseMethod final : public DirectMethod {
+ public:
+  using DirectMethod::DirectMethod;
+
+ private:
+  void factorize(const StiffnessFactors& factors) override {
+    solver_.compute(Eigen::MatrixXcd(combine(factors)));
+  }
+  Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const override { return solver_.solve(right); }
+
+  Eigen::PartialPivLU<Eigen::MatrixXcd> solver_;
+};
+
+}  // namespace
+
+std::unique_ptr<Condensation::Method> make_dense_method(const LinearStructure& structure) {
+  return std::make_unique<DenseMethod>(structure);
+}
+
+}  // namespace wavebalance::solvers

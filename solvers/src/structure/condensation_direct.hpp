@@ -1,0 +1,33 @@
+#pragma once
+#include <Eigen/SparseCore>
+
+#include "structure/condensation_method.hpp"
+
+namespace wavebalance::solvers {
+
+/// Condensation by a factorisation of each dynamic stiffness; which one is the derived class's.
+class DirectMethod : public Condensation::Method {
+ public:
+  using SparseComplex = Eigen::SparseMatrix<std::complex<double>>;
+
+  explicit DirectMethod(const LinearStructure& structure) : structure_(structure), scale_(structure) {}
+
+  int size() const override { return structure_.size(); }
+  int contacts() const override { return structure_.contacts(); }
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override;
+  Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+                           const Eigen::VectorXcd& contact_forces) override;
+
+ protected:
+  /// s2 M + s1 C + s0 K.
+  SparseComplex combine(const StiffnessFactors& s) const;
+
+ private:
+  virtual void factorize(const StiffnessFactors& factors) = 0;
+  virtual Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const = 0;
+
+  LinearStructure structure_;
+  StiffnessScale scale_;
+};
+
+}  // namespace wavebalance::solvers

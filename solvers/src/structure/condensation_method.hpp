@@ -1,0 +1,71 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "wavebalance/solvers/structure/condensation.hpp"
+
+namespace wavebalance::solvers {
+
+/// Solves with one dynamic stiffness after the other.
+class Condensation::Method {
+ public:
+  virtual ~Method() = default;
+  virtual int size() const = 0;
+  virtual int contacts() const = 0;
+  virtual CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) = 0;
+  /// Point by point unless a method knows better; the results have their size.
+  virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                        CondensedSpectrum& result);
+  virtual Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+                                   const Eigen::VectorXcd& contact_forces) = 0;
+
+  /// The largest lower bound of a condition number met since it was forgotten.
+  double condition() const { return condition_; }
+  void forget_condition() { condition_ = 0.0; }
+
+ protected:
+  void record(double condition) { condition_ = std::max(condition_, condition); }
+
+ private:
+  double condition_ = 0.0;
+};
+
+/// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure
+/// they cancel in Z itself.
+class StiffnessScale {
+ public:
+  explicit StiffnessScale(const LinearStructure& structure);
+  /// Largest entries of M, C and K.
+  const std::array<double, 3>& largest() const { return largest_; }
+  /// |s2| max|M| + |s1| max|C| + |s0| max|K|.
+  double size(const StiffnessFactors& factors) const;
+  /// scale ||x|| / ||b|| for Z x = b: what the size of x says of the condition number of Z.
+  double condition(const StiffnessFactors& factors, double solution_norm, double right_norm) const;
+  /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
+  /// working precision makes it, or not finite. Returns condition(). O(n).
+  double require_regular(const StiffnessFactors& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
+                         double right_norm) const;
+
+ private:
+  std::array<double, 3> largest_;
+};
+
+using MethodMaker = std::function<std::unique_ptr<Condensation::Method>(const LinearStructure&)>;
+/// Another method in units in which matrices and dynamic stiffnesses beyond 1e100 or below 1e-100 have
+/// entries near 1, so that no square of a pivot overflows; it sees ordinary ones as they are. `make` is
+/// called once.
+std::unique_ptr<Condensation::Method> make_scaled_method(const LinearStructure& structure,
+                                                         const MethodMaker& make);
+/// For symmetric tridiagonal M, C, K.
+std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStructure& structure);
+/// For symmetric M, C, K whose undamped modes decouple them, K or M positive definite; null for any other.
+/// O(n^3).
+std::unique_ptr<Condensation::Method> make_modal_method(const LinearStructure& structure);
+/// For any symmetric M, C, K, by dense LU.
+std::unique_ptr<Condensation::Method> make_dense_method(const LinearStructure& structure);
+/// For any symmetric M, C, K, by sparse LU.
+std::unique_ptr<Condensation::Method> make_sparse_method(const LinearStructure& structure);
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,137 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "structure/condensation_method.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Columns of `shapes` with shapes^T (M, C, K) shapes = diag(mass), diag(damping), diag(stiffness).
+struct Modes {
+  Eigen::MatrixXd shapes;  // n x n
+  Eigen::VectorXd mass, damping, stiffness;
+};
+
+// L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its own entry.
+std::optional<Eigen::LLT<Eigen::MatrixXd>> definite_factor(const Eigen::MatrixXd& matrix) {
+  Eigen::LLT<Eigen::MatrixXd> factor(matrix);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const double rounding = 100.0 * double(matrix.rows()) * std::numeric_limits<double>::epsilon();
+  const Eigen::ArrayXd pivots = factor.matrixLLT().diagonal().array().square();
+  if (!(pivots > rounding * matrix.diagonal().array()).all()) return std::nullopt;
+  return factor;
+}
+
+// Modes of numerator x = ratio denominator x, normalised by the denominator.
+bool solve_modes(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denominator,
+                 Eigen::MatrixXd& shapes, Eigen::VectorXd& ratios) {
+  const auto factor = definite_factor(denominator);
+  if (!factor) return false;
+  Eigen::MatrixXd scaled = factor->matrixL().solve(numerator);
+  scaled = factor->matrixL().solve(scaled.transpose()).eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  if (solver.info() != Eigen::Success) return false;
+  shapes = factor->matrixU().solve(solver.eigenvectors());
+  ratios = solver.eigenvalues();
+  return true;
+}
+
+// The ratios M/K rather than K/M where K allows it: the lowest modes are then the accurate ones, and a
+// contact without mass is a mode like any other.
+std::optional<Modes> decouple(const LinearStructure& structure) {
+  const Eigen::MatrixXd mass(structure.mass), stiffness(structure.stiffness);
+  Modes modes;
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(structure.size());
+  if (solve_modes(mass, stiffness, modes.shapes, modes.mass)) {
+    modes.stiffness = ones;
+  } else if (solve_modes(stiffness, mass, modes.shapes, modes.stiffness)) {
+    modes.mass = ones;
+  } else {
+    return std::nullopt;
+  }
+  const Eigen::MatrixXd damping = modes.shapes.transpose() * (structure.damping * modes.shapes);
+  modes.damping = damping.diagonal();
+  Eigen::MatrixXd coupling = damping;
+  coupling.diagonal().setZero();
+  // A modal damping matrix is made of modes that are known to eps times the spread of their eigenvalues.
+  constexpr double tolerance = 1e-8;
+  if (coupling.cwiseAbs().maxCoeff() > tolerance * modes.damping.cwiseAbs().maxCoeff()) return std::nullopt;
+  return modes;
+}
+
+class ModalMethod final : public Condensation::Method {
+ public:
+  ModalMethod(const LinearStructure& structure, Modes modes)
+      : modes_(std::move(modes)),
+        contacts_(modes_.shapes(structure.contact_dofs, Eigen::all)),
+        load_(modes_.shapes.transpose() * structure.load),
+        sizes_(modes_.shapes.colwise().squaredNorm().transpose()),
+        scale_(structure) {}
+
+  int size() const override { return static_cast<int>(load_.size()); }
+  int contacts() const override { return static_cast<int>(contacts_.rows()); }
+
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
+    const Eigen::ArrayXcd compliance = invert(factors);
+    const Eigen::ArrayXcd slope = -compliance.square() * combine(rates);
+    const Eigen::Index count = contacts_.rows();
+    // Real and imaginary parts of both in one real product.
+    Eigen::MatrixXd weighted(4 * count, contacts_.cols());
+    weighted << contacts_ * compliance.real().matrix().asDiagonal(),
+        contacts_ * compliance.imag().matrix().asDiagonal(), contacts_ * slope.real().matrix().asDiagonal(),
+        contacts_ * slope.imag().matrix().asDiagonal();
+    const Eigen::MatrixXd parts = weighted * contacts_.transpose();
+    const Eigen::VectorXd loaded = weighted * load_;
+    CondensedPoint point;
+    point.compliance = joined(parts.topRows(2 * count));
+    point.load_response = joined(loaded.head(2 * count));
+    point.compliance_slope = joined(parts.bottomRows(2 * count));
+    point.load_response_slope = joined(loaded.tail(2 * count));
+    return point;
+  }
+
+  Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
+                           const Eigen::VectorXcd& contact_forces) override {
+    const Eigen::VectorXcd force = load_ * load_amplitude - contacts_.transpose() * contact_forces;
+    return modes_.shapes * (invert(factors) * force.array()).matrix();
+  }
+
+ private:
+  static Eigen::MatrixXcd joined(const Eigen::MatrixXd& parts) {
+    const Eigen::Index count = parts.rows() / 2;
+    return parts.topRows(count) + Complex(0.0, 1.0) * parts.bottomRows(count);
+  }
+
+  Eigen::ArrayXcd combine(const StiffnessFactors& s) const {
+    return (s[0] * modes_.mass + s[1] * modes_.damping + s[2] * modes_.stiffness).array();
+  }
+
+  // 1 / (s2 m_j + s1 c_j + s0 k_j). A mode is as singular as its share |x|^2 / d of Z^-1 is large: natural
+  // frequencies are known no better than the entries of the matrices.
+  Eigen::ArrayXcd invert(const StiffnessFactors& factors) {
+    const Eigen::ArrayXcd inverse = combine(factors).inverse();
+    record(scale_.require_regular(factors, inverse * sizes_, 1.0));
+    return inverse;
+  }
+
+  Modes modes_;
+  Eigen::MatrixXd contacts_;  // contacts x n, modes at the contacts
+  Eigen::VectorXd load_;      // n, modal load
+  Eigen::ArrayXd sizes_;      // n, squared norms of the modes
+  StiffnessScale scale_;
+};
+
+}  // namespace
+
+std::unique_ptr<Condensation::Method> make_modal_method(const LinearStructure& structure) {
+  std::optional<Modes> modes = decouple(structure);
+  if (!modes) return nullptr;
+  return std::make_unique<ModalMethod>(structure, *std::move(modes));
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,193 @@
+#include <cmath>
+#include <vector>
+
+#include "structure/condensation_method.hpp"
+#include "structure/pivot_recursion.hpp"
+#include "linalg/safe_norm.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// std::complex division guards against overflow at a cost that dominates the elimination; pivots are far from
+// it.
+Complex reciprocal(Complex z) {
+  const double scale = 1.0 / (z.real() * z.real() + z.imag() * z.imag());
+  return {z.real() * scale, -z.imag() * scale};
+}
+Complex multiply(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+struct Bands {
+  Eigen::VectorXd diagonal;  // n
+  Eigen::VectorXd off;       // n - 1
+
+  explicit Bands(const Eigen::SparseMatrix<double>& matrix)
+      : diagonal(matrix.diagonal()), off(matrix.rows() - 1) {
+    for (Eigen::Index i = 0; i + 1 < matrix.rows(); ++i) off[i] = matrix.coeff(i + 1, i);
+  }
+};
+
+class TridiagonalMethod final : public Condensation::Method {
+ public:
+  explicit TridiagonalMethod(const LinearStructure& structure)
+      : structure_(structure),
+        scale_(structure),
+        mass_(structure.mass),
+        damping_(structure.damping),
+        stiffness_(structure.stiffness),
+        load_(structure.load),
+        contacts_(structure.contact_dofs),
+        single_(contacts_.size() == 1 ? contacts_.front() : -1),
+        load_at_contact_(single_ >= 0 && load_.cwiseAbs().sum() == std::abs(load_[single_])),
+        diagonal_(load_.size()),
+        off_(load_.size()),
+        inverse_pivot_(load_.size()),
+        units_(contacts_.size(), Eigen::VectorXcd(load_.size())),
+        loaded_(load_.size()) {}
+
+  int size() const override { return static_cast<int>(load_.size()); }
+  int contacts() const override { return static_cast<int>(contacts_.size()); }
+
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
+    if (!factorize(factors)) {
+      const CondensedPoint point = pivoting().at(factors, rates);
+      record(pivoting().condition());
+      return point;
+    }
+    CondensedPoint point;
+    set_compliance(factors, rates, point);
+    if (load_at_contact_) {
+      point.load_response = load_[single_] * point.compliance;
+      point.load_response_slope = load_[single_] * point.compliance_slope;
+      return point;
+    }
+    loaded_ = load_.cast<Complex>();
+    solve(loaded_);
+    point.load_response = loaded_(contacts_);
+    point.load_response_slope.resize(contacts());
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      point.load_response_slope[Eigen::Index(c)] = -product(units_[c], rates, loaded_);
+    return point;
+  }
+
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                CondensedSpectrum& result) override {
+    if (single_ != size() - 1 || !load_at_contact_) return Method::condense(factors, rates, result);
+    PivotRecursion recursion(factors, rates);
+    for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
+    if (recursion.weak()) return Method::condense(factors, rates, result);
+    recursion.last(result.compliance.col(0), result.compliance_slope.col(0));
+    result.load_response = load_[single_] * result.compliance;
+    result.load_response_slope = load_[single_] * result.compliance_slope;
+    for (Eigen::Index k = 0; k < factors[0].size(); ++k)
+      record(scale_.condition({factors[0][k], factors[1][k], factors[2][k]},
+                              std::abs(result.compliance(k, 0)), 1.0));
+  }
+
+  Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
+                           const Eigen::VectorXcd& contact_forces) override {
+    if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_forces);
+    Eigen::VectorXcd response = load_ * load_amplitude;
+    response(contacts_) -= contact_forces;
+    const double force = safe_norm(response);
+    solve(response);
+    scale_.require_regular(factors, response, force);
+    return response;
+  }
+
+ private:
+  PivotRecursion::Row row(int i) const {
+    const bool first = i == 0;
+    return {{mass_.diagonal[i], damping_.diagonal[i], stiffness_.diagonal[i]},
+            {first ? 0.0 : mass_.off[i - 1], first ? 0.0 : damping_.off[i - 1],
+             first ? 0.0 : stiffness_.off[i - 1]}};
+  }
+
+  // L D L^T without pivoting, as for a definite matrix. False when a pivot nearly vanishes: the matrix is
+  // singular, or the part of the structure before that row is at a natural frequency of its own.
+  bool factorize(const StiffnessFactors& s) {
+    const int n = size();
+    for (int i = 0; i < n; ++i)
+      diagonal_[i] = s[0] * mass_.diagonal[i] + s[1] * damping_.diagonal[i] + s[2] * stiffness_.diagonal[i];
+    for (int i = 0; i + 1 < n; ++i)
+      off_[i] = s[0] * mass_.off[i] + s[1] * damping_.off[i] + s[2] * stiffness_.off[i];
+    for (int i = 0; i < n; ++i) {
+      Complex pivot = diagonal_[i];
+      if (i > 0) pivot -= multiply(multiply(off_[i - 1], off_[i - 1]), inverse_pivot_[i - 1]);
+      const double scale = std::abs(s[0] * mass_.diagonal[i]) + std::abs(s[1] * damping_.diagonal[i]) +
+                           std::abs(s[2] * stiffness_.diagonal[i]);
+      if (!(std::norm(pivot) > weak_pivot * weak_pivot * scale * scale)) return false;
+      inverse_pivot_[i] = reciprocal(pivot);
+    }
+    return true;
+  }
+
+  // By columns of Z^-1 at the contacts, left in units_.
+  void set_compliance(const StiffnessFactors& factors, const StiffnessFactors& rates, CondensedPoint& point) {
+    point.compliance.resize(contacts(), contacts());
+    point.compliance_slope.resize(contacts(), contacts());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      units_[c].setZero();
+      units_[c][contacts_[c]] = 1.0;
+      solve(units_[c]);
+      record(scale_.require_regular(factors, units_[c], 1.0));
+      const auto column = Eigen::Index(c);
+      for (std::size_t d = 0; d <= c; ++d) {
+        const auto row = Eigen::Index(d);
+        point.compliance(row, column) = point.compliance(column, row) = units_[c][contacts_[d]];
+        point.compliance_slope(row, column) = point.compliance_slope(column, row) =
+            -product(units_[d], rates, units_[c]);
+      }
+    }
+  }
+
+  // Elimination with row exchanges, made when it is first needed.
+  Condensation::Method& pivoting() {
+    if (!pivoting_) pivoting_ = make_sparse_method(structure_);
+    return *pivoting_;
+  }
+
+  void solve(Eigen::VectorXcd& x) const {
+    const int n = size();
+    for (int i = 1; i < n; ++i) x[i] -= multiply(multiply(off_[i - 1], inverse_pivot_[i - 1]), x[i - 1]);
+    x[n - 1] = multiply(x[n - 1], inverse_pivot_[n - 1]);
+    for (int i = n - 2; i >= 0; --i) x[i] = multiply(x[i] - multiply(off_[i], x[i + 1]), inverse_pivot_[i]);
+  }
+
+  // x^T (d2 M + d1 C + d0 K) y, no conjugation.
+  Complex product(const Eigen::VectorXcd& x, const StiffnessFactors& d, const Eigen::VectorXcd& y) const {
+    Complex sum = 0.0;
+    for (int i = 0; i < size(); ++i) {
+      const Complex entry =
+          d[0] * mass_.diagonal[i] + d[1] * damping_.diagonal[i] + d[2] * stiffness_.diagonal[i];
+      sum += multiply(entry, multiply(x[i], y[i]));
+      if (i + 1 == size()) break;
+      const Complex off = d[0] * mass_.off[i] + d[1] * damping_.off[i] + d[2] * stiffness_.off[i];
+      sum += multiply(off, multiply(x[i], y[i + 1]) + multiply(x[i + 1], y[i]));
+    }
+    return sum;
+  }
+
+  LinearStructure structure_;
+  StiffnessScale scale_;
+  std::unique_ptr<Condensation::Method> pivoting_;
+  Bands mass_, damping_, stiffness_;
+  Eigen::VectorXd load_;
+  std::vector<int> contacts_;
+  int single_;  // the contact when there is one, or else -1
+  bool load_at_contact_;
+  Eigen::VectorXcd diagonal_, off_, inverse_pivot_;
+  std::vector<Eigen::VectorXcd> units_;  // one a contact
+  Eigen::VectorXcd loaded_;
+};
+
+}  // namespace
+
+std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStructure& structure) {
+  return std::make_unique<TridiagonalMethod>(structure);
+}
+
+}  // namespace wavebalance::solvers

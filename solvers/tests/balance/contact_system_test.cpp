@@ -1,0 +1,192 @@
+#include "wavebalance/solvers/balance/contact_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <limits>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/continuation/arc_length.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Dual = Eigen::AutoDiffScalar<Eigen::VectorXd>;
+
+// f_c = a_c (exp(alpha (u - g0)) - 1) in contact, for any scalar, so that its derivative is not typed in.
+template <class Scalar>
+Scalar law_force(const testing::ExponentialLaw& law, const Scalar& u) {
+  using std::exp;
+  if (!(u > Scalar(law.start))) return Scalar(0.0 * u);
+  return Scalar(law.constant * (exp(law.exponent * (u - law.start)) - 1.0));
+}
+
+// dR/du of R = u - u0 + s K f(u), row by row.
+Eigen::MatrixXd differentiated(const Eigen::MatrixXd& compliance, const testing::ExponentialLaw& law,
+                               double factor, const Eigen::VectorXd& u) {
+  const Eigen::Index points = u.size();
+  std::vector<Dual> variables, forces;
+  for (Eigen::Index l = 0; l < points; ++l) variables.emplace_back(u[l], points, l);
+  for (const Dual& variable : variables) forces.push_back(law_force(law, variable));
+  Eigen::MatrixXd jacobian(points, points);
+  for (Eigen::Index l = 0; l < points; ++l) {
+    Dual residual = variables[static_cast<std::size_t>(l)];
+    for (Eigen::Index m = 0; m < points; ++m)
+      residual += factor * compliance(l, m) * forces[static_cast<std::size_t>(m)];
+    jacobian.row(l) = residual.derivatives();
+  }
+  return jacobian;
+}
+
+class ContactSystemTest : public ::testing::TestWithParam<int> {
+ protected:
+  ContactSystemTest()
+      : generator_(static_cast<unsigned>(GetParam())),
+        problem_(testing::pair_kinds()[static_cast<std::size_t>(GetParam())],
+                 testing::random_chain(5, generator_), testing::cosine_load()),
+        system_(problem_, law_) {
+    problem_.set_frequency(0.23);
+    compliance_ = testing::compliance_matrix(problem_);
+  }
+
+  // Samples on both sides of the gap; every sample, or none, in contact for a large shift either way.
+  Eigen::VectorXd state(double shift) {
+    return (testing::random_vector(problem_.points(), generator_).array() + law_.start + shift).matrix();
+  }
+
+  std::mt19937 generator_;
+  testing::ExponentialLaw law_{1.3, 0.8, 0.4};
+  CondensedProblem problem_;
+  ContactSystem system_;
+  Eigen::MatrixXd compliance_;
+};
+
+TEST_P(ContactSystemTest, SolveInvertsTheDifferentiatedJacobian) {
+  for (const double factor : {1.0, 0.03})
+    for (const double shift : {-9.0, -0.5, 0.0, 0.5, 9.0}) {
+      system_.set_stiffness_factor(factor);
+      const Eigen::VectorXd u = state(shift);
+      system_.evaluate(u);
+      const Eigen::MatrixXd jacobian = differentiated(compliance_, law_, factor, u);
+      const Eigen::VectorXd r = testing::random_vector(u.size(), generator_);
+      ASSERT_TRUE(system_.factorize());
+      Eigen::VectorXd x;
+      system_.solve(r, x);
+      const double scale = jacobian.norm() * x.norm() + r.norm();
+      EXPECT_LE((jacobian * x - r).norm(), 1e-12 * scale) << "factor " << factor << " shift " << shift;
+    }
+}
+
+TEST_P(ContactSystemTest, BorderedSolveEqualsTheBorderedDenseMatrix) {
+  for (const double shift : {-9.0, 0.0, 1.0}) {
+    const Eigen::VectorXd u = state(shift);
+    const Eigen::Index points = u.size();
+    system_.evaluate(u);
+    const Eigen::VectorXd b = testing::random_vector(points, generator_);
+    const Eigen::VectorXd c = testing::random_vector(points, generator_);
+    const Eigen::VectorXd r = testing::random_vector(points, generator_);
+    Eigen::MatrixXd matrix(points + 1, points + 1);
+    matrix << differentiated(compliance_, law_, 1.0, u), b, c.transpose(), 0.7;
+    Eigen::VectorXd right(points + 1);
+    right << r, -0.4;
+    const Eigen::VectorXd expected = matrix.partialPivLu().solve(right);
+    ASSERT_TRUE(system_.factorize_bordered(b, c, 0.7));
+    Eigen::VectorXd x;
+    double y = 0.0;
+    system_.solve_bordered(r, -0.4, x, y);
+    EXPECT_LE((x - expected.head(points)).norm() + std::abs(y - expected[points]), 1e-10 * expected.norm());
+  }
+}
+
+TEST_P(ContactSystemTest, KeptOnTheirSidesSamplesPassTheGapSmoothly) {
+  const Eigen::VectorXd u = state(0.0);
+  system_.set_stiffness_factor(0.5);
+  const Sides sides = u.array() > law_.start;
+  ASSERT_TRUE(sides.any() && !sides.all());
+  system_.evaluate(u);
+  const Eigen::VectorXd residual = system_.residual(), tangent = system_.tangent();
+  system_.evaluate(u, sides);
+  EXPECT_EQ(system_.residual(), residual);
+  EXPECT_EQ(system_.tangent(), tangent);
+  // Beyond their gaps: those that pressed keep the law's slope there, the others stay free.
+  const Eigen::VectorXd across = (2.0 * law_.start - u.array()).matrix();
+  system_.evaluate(across, sides);
+  const double slope = 0.5 * law_.tangent(law_.start);
+  for (Eigen::Index l = 0; l < u.size(); ++l) {
+    EXPECT_EQ(system_.tangent()[l], sides[l] ? slope : 0.0);
+    EXPECT_NEAR(system_.force()[l], sides[l] ? slope * (across[l] - law_.start) : 0.0,
+                1e-15 * slope * std::abs(across[l]));
+  }
+}
+
+TEST_P(ContactSystemTest, ResidualIsThatOfTheExplicitCompliance) {
+  const Eigen::VectorXd u = state(0.0);
+  system_.set_stiffness_factor(0.5);
+  const double relative = system_.evaluate(u);
+  Eigen::VectorXd force(u.size());
+  for (Eigen::Index l = 0; l < u.size(); ++l) force[l] = 0.5 * law_.force(u[l]);
+  const Eigen::VectorXd product = compliance_ * force;
+  const Eigen::VectorXd residual = u - problem_.free_response() + product;
+  EXPECT_LE((system_.residual() - residual).norm(), 1e-13 * (u.norm() + product.norm()));
+  EXPECT_NEAR(relative, residual.norm() / (problem_.free_response().norm() + product.norm()),
+              1e-12 * relative);
+}
+
+TEST_P(ContactSystemTest, ColumnsRepeatWithTheShiftPeriod) {
+  const Eigen::MatrixXd& columns = problem_.columns();
+  const int points = problem_.points(), period = problem_.pair().shift_period();
+  ASSERT_EQ(columns.cols(), period);
+  for (int m = 0; m < points; ++m)
+    for (int l = 0; l < points; ++l)
+      EXPECT_NEAR(compliance_(l, m), columns((l - m + m % period + points) % points, m % period),
+                  1e-14 * compliance_.cwiseAbs().maxCoeff());
+}
+
+TEST_P(ContactSystemTest, ParameterSlopesAreDerivativesOfTheResidual) {
+  const Eigen::VectorXd u = state(0.0);
+  const FrequencyParameter frequency;
+  const StiffnessParameter stiffness;
+  struct Case {
+    const CurveParameter& parameter;
+    double at;
+  };
+  for (const auto& [parameter, at] : {Case{frequency, 0.23}, Case{stiffness, -1.2}}) {
+    const auto residual = [&, &p = parameter](double value) {
+      p.set(system_, value);
+      system_.evaluate(u);
+      return system_.residual();
+    };
+    const double h = 1e-5;  // error h^2 R''' / 6 + eps |R| / h
+    const Eigen::VectorXd difference = (residual(at + h) - residual(at - h)) / (2 * h);
+    residual(at);
+    Eigen::VectorXd slope;
+    parameter.slope(system_, slope);
+    EXPECT_LE((slope - difference).norm(), 1e-5 * slope.norm());
+    frequency.set(system_, 0.23);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PairKinds, ContactSystemTest, ::testing::Range(0, testing::pair_kind_count));
+
+TEST(ContactSystem, TangentOnTheKinkIsTheRightHandSlopeUntilToldOtherwise) {
+  CondensedProblem problem(testing::fourier_pair(3, 6), testing::jl14_bar(1, 1e-4), testing::cosine_load());
+  problem.set_frequency(150.0);
+  const testing::ExponentialLaw law;
+  ContactSystem system(problem, law);
+  system.evaluate(Eigen::VectorXd::Constant(6, law.start));
+  EXPECT_DOUBLE_EQ(system.tangent()[2], law.constant * law.exponent);
+  system.set_tangent(2, 0.0);
+  EXPECT_EQ(system.tangent()[2], 0.0);
+  EXPECT_DOUBLE_EQ(system.tangent()[3], law.constant * law.exponent);
+}
+
+TEST(ContactSystem, OverflowingForceMakesAnInfiniteResidual) {
+  CondensedProblem problem(testing::fourier_pair(3, 6), testing::jl14_bar(1, 1e-4), testing::cosine_load());
+  problem.set_frequency(150.0);
+  ContactSystem system(problem, testing::ExponentialLaw{});
+  EXPECT_EQ(system.evaluate(Eigen::VectorXd::Constant(6, 1e3)), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

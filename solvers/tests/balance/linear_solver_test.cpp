@@ -1,0 +1,307 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "linalg/gmres.hpp"
+#include "balance/harmonic_coarse_space.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/continuation/arc_length.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+LinearMap product_with(const Eigen::MatrixXd& matrix) {
+  return [&matrix](const Eigen::VectorXd& v, Eigen::VectorXd& product) { product = matrix * v; };
+}
+
+Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt19937& generator) {
+  return testing::random_vector(rows * columns, generator).reshaped(rows, columns);
+}
+
+TEST(Gmres, ReachesTheTargetThatItReports) {
+  std::mt19937 generator(1);
+  const Eigen::Index size = 40;
+  const Eigen::MatrixXd matrix =
+      random_matrix(size, size, generator);  // no structure: needs all of the space
+  const Eigen::VectorXd right = testing::random_vector(size, generator);
+  Eigen::VectorXd x;
+  for (const double target : {1e-1, 1e-5, 1e-9}) {
+    const GmresResult result = gmres(product_with(matrix), right, target, 60, x);
+    EXPECT_TRUE(result.solved) << target;
+    EXPECT_LE(result.iterations, size);
+    const double rounding = 100.0 * eps * matrix.norm() * x.norm();
+    EXPECT_LE((right - matrix * x).norm(), target + rounding);
+    EXPECT_NEAR((right - matrix * x).norm(), result.residual, rounding);
+  }
+}
+
+TEST(Gmres, IdentityPlusRankThreeTakesFourIterations) {
+  std::mt19937 generator(2);
+  const Eigen::Index size = 50;
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size) +
+                                 random_matrix(size, 3, generator) * random_matrix(3, size, generator);
+  Eigen::VectorXd x;
+  const Eigen::VectorXd right = testing::random_vector(size, generator);
+  const GmresResult result = gmres(product_with(matrix), right, 1e-9 * right.norm(), 60, x);
+  EXPECT_TRUE(result.solved);
+  EXPECT_LE(result.iterations, 4);
+}
+
+TEST(Gmres, StopsUnsolvedWhereTheRightSideIsOutOfReach) {
+  Eigen::MatrixXd matrix = Eigen::VectorXd::LinSpaced(8, 0.0, 7.0).asDiagonal();  // its first row is zero
+  const Eigen::VectorXd right = Eigen::VectorXd::Ones(8);
+  Eigen::VectorXd x;
+  GmresResult result = gmres(product_with(matrix), right, 1e-10, 100, x);
+  EXPECT_FALSE(result.solved);
+  EXPECT_LE(result.iterations, 8);
+  EXPECT_GE(result.residual, 1.0 - 1e-10);
+  EXPECT_TRUE(x.allFinite());
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(8, 8);
+  result = gmres(product_with(zero), right, 1e-10, 100, x);
+  EXPECT_FALSE(result.solved);
+  matrix(3, 3) = std::nan("");
+  result = gmres(product_with(matrix), right, 1e-10, 100, x);
+  EXPECT_FALSE(result.solved);
+  EXPECT_TRUE(x.allFinite());
+}
+
+TEST(Gmres, KeepsToTheLimitOfIterations) {
+  std::mt19937 generator(3);
+  const Eigen::MatrixXd matrix = random_matrix(30, 30, generator);
+  Eigen::VectorXd x;
+  const GmresResult result = gmres(product_with(matrix), testing::random_vector(30, generator), 1e-12, 5, x);
+  EXPECT_FALSE(result.solved);
+  EXPECT_EQ(result.iterations, 5);
+}
+
+// Two contacts at the ends of a chain, functions enough that the coarse harmonics are a part of them.
+class CoarseSpaceTest : public ::testing::Test {
+ protected:
+  CoarseSpaceTest() : problem_(testing::fourier_pair(31, points), structure(), testing::cosine_load()) {
+    problem_.set_frequency(0.23);
+    space_.set({problem_.contacts(), points, {}, {}, [this](int n) { return problem_.harmonic_response(n); }},
+               harmonics);
+  }
+  LinearStructure structure() {
+    LinearStructure chain = testing::random_chain(5, generator_);
+    chain.contact_dofs = {0, 4};
+    return chain;
+  }
+  Eigen::MatrixXd synthesis() {
+    Eigen::MatrixXd matrix(problem_.samples(), space_.size());
+    Eigen::VectorXd column;
+    for (Eigen::Index j = 0; j < space_.size(); ++j) {
+      space_.synthesise(Eigen::VectorXd::Unit(space_.size(), j), column);
+      matrix.col(j) = column;
+    }
+    return matrix;
+  }
+
+  static constexpr int points = 64, harmonics = 6;
+  std::mt19937 generator_{4};
+  CondensedProblem problem_;
+  HarmonicCoarseSpace space_;
+};
+
+TEST_F(CoarseSpaceTest, SynthesisIsOrthonormalAndAnalysisItsTranspose) {
+  const Eigen::MatrixXd w = synthesis();
+  EXPECT_LE((w.transpose() * w - Eigen::MatrixXd::Identity(space_.size(), space_.size())).norm(),
+            100.0 * eps);
+  const Eigen::VectorXd u = testing::random_vector(problem_.samples(), generator_);
+  Eigen::VectorXd coefficients;
+  space_.analyse(u, coefficients);
+  EXPECT_LE((w.transpose() * u - coefficients).norm(), 100.0 * eps * u.norm());
+}
+
+TEST_F(CoarseSpaceTest, ResponseIsTheComplianceOfItsHarmonics) {
+  const Eigen::MatrixXd w = synthesis();
+  const Eigen::MatrixXd expected = w.transpose() * testing::compliance_matrix(problem_) * w;
+  const Eigen::VectorXd g = testing::random_vector(space_.size(), generator_);
+  Eigen::VectorXd result;
+  space_.respond(g, result);
+  EXPECT_LE((expected * g - result).norm(), 1e3 * eps * expected.norm() * g.norm());
+  space_.respond_transposed(g, result);
+  EXPECT_LE((expected.transpose() * g - result).norm(), 1e3 * eps * expected.norm() * g.norm());
+}
+
+TEST_F(CoarseSpaceTest, MatrixIsThatOfTheExplicitProducts) {
+  const Eigen::MatrixXd w = synthesis();
+  const Eigen::VectorXd tangent = testing::random_vector(problem_.samples(), generator_).cwiseAbs();
+  const Eigen::MatrixXd expected =
+      Eigen::MatrixXd::Identity(space_.size(), space_.size()) +
+      w.transpose() * tangent.asDiagonal() * w * w.transpose() * testing::compliance_matrix(problem_) * w;
+  Eigen::MatrixXd matrix(space_.size() + 1, space_.size() + 1);
+  space_.fill(tangent, matrix);
+  EXPECT_LE((matrix.topLeftCorner(space_.size(), space_.size()) - expected).norm(),
+            1e3 * eps * expected.norm());
+}
+
+// The same state of each kind of pair, solved by LU and by GMRES.
+class LinearSolverTest : public ::testing::TestWithParam<int> {
+ protected:
+  LinearSolverTest()
+      : problem_(testing::pair_kinds(64, 256)[static_cast<std::size_t>(GetParam())],
+                 testing::random_chain(5, generator_), testing::cosine_load()),
+        system_(problem_, law_) {
+    problem_.set_frequency(0.05);
+    // In contact for two stretches of the period.
+    u_ = Eigen::VectorXd::NullaryExpr(problem_.points(), [&](Eigen::Index l) {
+      const double t = 2.0 * std::numbers::pi * double(l) / problem_.points();
+      return law_.start + std::cos(t) + 0.5 * std::cos(3.0 * t);
+    });
+    system_.evaluate(u_);
+  }
+
+  std::mt19937 generator_{static_cast<unsigned>(GetParam())};
+  testing::ExponentialLaw law_{1.3, 0.8, 0.4};
+  CondensedProblem problem_;
+  ContactSystem system_;
+  Eigen::VectorXd u_;
+};
+
+TEST_P(LinearSolverTest, GmresLeavesTheResidualThatWasAskedFor) {
+  system_.set_linear_solver(LinearSolver::krylov);
+  const Eigen::VectorXd r = testing::random_vector(problem_.points(), generator_);
+  for (const double reduction : {1e-1, 1e-4, 1e-8, 1e-12}) {
+    ASSERT_TRUE(system_.factorize());
+    Eigen::VectorXd x, product;
+    ASSERT_TRUE(system_.solve(r, x, reduction)) << reduction;
+    problem_.apply(system_.tangent().cwiseProduct(x), product);
+    const double rounding = 1e3 * eps * (product.norm() + r.norm());
+    EXPECT_LE((x + product - r).norm(), reduction * r.norm() + rounding);
+  }
+}
+
+TEST_P(LinearSolverTest, SolutionsByGmresAndByLuAreEqual) {
+  const Eigen::Index points = problem_.points();
+  const Eigen::VectorXd r = testing::random_vector(points, generator_);
+  const Eigen::VectorXd b = testing::random_vector(points, generator_);
+  const Eigen::VectorXd c = testing::random_vector(points, generator_);
+  struct Solution {
+    Eigen::VectorXd plain, bordered;
+    double last = 0.0;
+  };
+  const auto solve = [&](LinearSolver method) {
+    Solution found;
+    system_.set_linear_solver(method);
+    EXPECT_TRUE(system_.factorize());
+    EXPECT_TRUE(system_.solve(r, found.plain, 1e-12));
+    EXPECT_TRUE(system_.factorize_bordered(b, c, 0.7));
+    EXPECT_TRUE(system_.solve_bordered(r, -0.4, found.bordered, found.last, 1e-12));
+    return found;
+  };
+  const Solution lu = solve(LinearSolver::dense), gmres = solve(LinearSolver::krylov);
+  EXPECT_LE((lu.plain - gmres.plain).norm(), 1e-9 * lu.plain.norm());
+  EXPECT_LE((lu.bordered - gmres.bordered).norm(), 1e-9 * lu.bordered.norm());
+  EXPECT_NEAR(lu.last, gmres.last, 1e-9 * std::abs(lu.last));
+  EXPECT_NEAR(c.dot(gmres.bordered) + 0.7 * gmres.last, -0.4, 1e-9 * c.norm() * gmres.bordered.norm());
+}
+
+TEST_P(LinearSolverTest, ConditionOfGmresIsALowerBound) {
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index l = 0; l < u_.size(); ++l)
+    if (system_.tangent()[l] != 0.0) active.push_back(l);
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(u_.size(), u_.size()) +
+                                   testing::compliance_matrix(problem_) * system_.tangent().asDiagonal();
+  const Eigen::MatrixXd block = jacobian(active, active);
+  const double bound = block.norm() * block.inverse().norm();  // Frobenius: at least the 2-norm's
+  system_.set_linear_solver(LinearSolver::krylov);
+  EXPECT_EQ(system_.condition(), 0.0);
+  ASSERT_TRUE(system_.factorize());
+  Eigen::VectorXd x;
+  ASSERT_TRUE(system_.solve(system_.residual(), x));
+  EXPECT_GE(system_.condition(), 1.0);
+  EXPECT_LE(system_.condition(), bound);
+  system_.set_linear_solver(LinearSolver::dense);
+  ASSERT_TRUE(system_.factorize());
+  // Eigen's estimate of the inverse's 1-norm is a lower bound too, hardly ever off by more than three.
+  const auto norm = [](const Eigen::MatrixXd& m) { return m.cwiseAbs().colwise().sum().maxCoeff(); };
+  const double exact = norm(block) * norm(block.inverse());
+  EXPECT_LE(system_.condition(), exact * (1.0 + 1e-9));
+  EXPECT_GE(system_.condition(), exact / 3.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(PairKinds, LinearSolverTest, ::testing::Range(0, testing::pair_kind_count));
+
+// A force that grows with -stiffness times the displacement.
+struct Destabilising {
+  double stiffness;
+  double force(double u) const { return -stiffness * u; }
+  double tangent(double) const { return -stiffness; }
+  double potential(double u) const { return -0.5 * stiffness * u * u; }
+  double gap() const { return -std::numeric_limits<double>::infinity(); }
+};
+
+// It takes away the static stiffness, up to a rounding or a little more: the mean of the response is anything
+// or nearly so. Whether a pivot vanishes in the first case is a matter of rounding.
+TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
+  const LinearStructure bar = testing::jl14_bar(1, 1e-4);
+  CondensedProblem problem(testing::fourier_pair(127, 512), bar, Eigen::Vector2cd(1.0, 1.0));
+  problem.set_frequency(150.0);
+  for (const auto method : {LinearSolver::dense, LinearSolver::krylov}) {
+    ForcedResponseOptions options;
+    options.newton.linear_solver = method;
+    options.homotopy = false;
+    for (const double detuning : {0.5, 1e-13, 0.0}) {
+      const double stiffness = (1.0 - detuning) * bar.stiffness.coeff(0, 0);
+      const auto response = forced_response(problem, Destabilising{stiffness}, options);
+      EXPECT_EQ(response.condition > 1e12, detuning < 0.5) << response.condition << " at " << detuning;
+      EXPECT_TRUE(response.converged() || detuning < 0.5);
+    }
+  }
+}
+
+TEST(LinearSolver, ATangentThatIsNotFiniteIsASingularMatrix) {
+  CondensedProblem problem(testing::fourier_pair(127, 512), testing::jl14_bar(1, 1e-4),
+                           testing::cosine_load());
+  problem.set_frequency(150.0);
+  for (const auto method : {LinearSolver::dense, LinearSolver::krylov, LinearSolver::automatic}) {
+    for (const double stiffness : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+      ContactSystem system(problem, Destabilising{1e6});
+      system.set_linear_solver(method);
+      system.evaluate(problem.free_response());
+      system.set_tangent(3, stiffness);
+      EXPECT_FALSE(system.factorize());
+    }
+  }
+}
+
+// Newton by GMRES takes the steps of Newton by LU, in both cases of JL14 and against a stiff linear stop.
+TEST(LinearSolver, ResponsesByGmresAndByLuAreEqual) {
+  struct Stop {
+    double start;
+    double force(double u) const { return u > start ? 1e10 * (u - start) : 0.0; }
+    double tangent(double u) const { return u >= start ? 1e10 : 0.0; }
+    double potential(double u) const { return u > start ? 0.5e10 * (u - start) * (u - start) : 0.0; }
+    double gap() const { return start; }
+  };
+  int converged = 0;
+  for (const auto& reference : {testing::jl14_case_1, testing::jl14_case_2})
+    for (const TimePair& pair : testing::pair_kinds(256, 1024)) {
+      CondensedProblem problem(pair, reference.structure(), testing::cosine_load());
+      problem.set_frequency(reference.frequency_hz);
+      for (const AnyContactLaw& law :
+           {AnyContactLaw(reference.law), AnyContactLaw(Stop{reference.law.start})}) {
+        ForcedResponseOptions options;
+        options.homotopy = false;
+        options.newton.linear_solver = LinearSolver::dense;
+        const PeriodicResponse lu = forced_response(problem, law, options);
+        options.newton.linear_solver = LinearSolver::krylov;
+        const PeriodicResponse gmres = forced_response(problem, law, options);
+        ASSERT_EQ(lu.status, gmres.status) << to_string(gmres.status);
+        if (!lu.converged()) continue;  // Haar functions stall at the kink of the stiff stop
+        ++converged;
+        EXPECT_LE((lu.displacement - gmres.displacement).norm(), 1e-9 * lu.displacement.norm());
+        EXPECT_LE(std::abs(lu.iterations - gmres.iterations), 2);
+        EXPECT_GT(lu.condition, 1.0);
+        EXPECT_GT(gmres.condition, 1.0);
+      }
+    }
+  EXPECT_GE(converged, 20);  // of 24
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

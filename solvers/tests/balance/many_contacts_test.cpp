@@ -1,0 +1,331 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+
+// What holds of several contacts by their coupling and its symmetries; tests/pairs holds them to the
+// assembled system.
+namespace wavebalance::solvers {
+namespace {
+
+using testing::LinearContact;
+
+constexpr double frequency = 0.05;  // Hz, above the first resonance of the chain
+const Eigen::Vector3d gaps(1.1, 0.2, 0.5);
+
+LinearStructure chain(int contacts) {
+  std::mt19937 generator(11);
+  LinearStructure result = testing::random_chain(9, generator);
+  result.contact_dofs = std::vector<int>{8, 2, 5};
+  result.contact_dofs.resize(static_cast<std::size_t>(contacts));
+  return result;
+}
+
+std::vector<AnyContactLaw> springs(const std::vector<int>& order) {
+  std::vector<AnyContactLaw> laws;
+  for (const int c : order) laws.emplace_back(LinearContact{2.0 + c, gaps[c]});
+  return laws;
+}
+
+CondensedProblem make_problem(TimePair pair, const LinearStructure& structure, double at = frequency,
+                              CondensationMethod method = CondensationMethod::automatic) {
+  CondensedProblem problem(std::move(pair), structure, testing::cosine_load(), method);
+  problem.set_frequency(at);
+  return problem;
+}
+
+bool every_contact_presses(const CondensedProblem& problem, const Eigen::VectorXd& force) {
+  return (force.reshaped(problem.points(), problem.contacts()).colwise().maxCoeff().array() > 0.0).all();
+}
+
+class ManyContacts : public ::testing::TestWithParam<int> {
+ protected:
+  TimePair pair() const { return testing::pair_kinds()[static_cast<std::size_t>(GetParam())]; }
+};
+
+TEST_P(ManyContacts, SolvesInvertTheExplicitMatrix) {
+  std::mt19937 generator(3);
+  auto problem = make_problem(pair(), chain(3));
+  ContactSystem system(problem, springs({0, 1, 2}));
+  const Eigen::MatrixXd compliance = testing::compliance_matrix(problem);
+  for (const double scale : {0.0, 1.0, 2.0}) {
+    const Eigen::Index size = problem.samples();
+    system.evaluate(scale * testing::random_vector(size, generator));
+    const Eigen::MatrixXd jacobian =
+        Eigen::MatrixXd::Identity(size, size) + compliance * system.tangent().asDiagonal();
+    const Eigen::VectorXd r = testing::random_vector(size, generator),
+                          b = testing::random_vector(size, generator),
+                          c = testing::random_vector(size, generator);
+    Eigen::VectorXd x;
+    ASSERT_TRUE(system.factorize());
+    system.solve(r, x);
+    EXPECT_LE((jacobian * x - r).norm(), 1e-12 * (jacobian.norm() * x.norm() + r.norm()));
+    double y = 0.0;
+    ASSERT_TRUE(system.factorize_bordered(b, c, 0.7));
+    system.solve_bordered(r, -0.4, x, y);
+    const double size_of_terms = jacobian.norm() * x.norm() + b.norm() * std::abs(y) + r.norm();
+    EXPECT_LE((jacobian * x + b * y - r).norm(), 1e-12 * size_of_terms);
+    EXPECT_NEAR(c.dot(x) + 0.7 * y, -0.4, 1e-12 * size_of_terms * c.norm());
+    Eigen::MatrixXd bordered(size + 1, size + 1);
+    bordered << jacobian, b, c.transpose(), 0.7;
+    EXPECT_EQ(system.determinant_sign(), bordered.determinant() > 0.0 ? 1 : -1);
+  }
+}
+
+TEST_P(ManyContacts, ColumnsAndTransposedProductsAreThoseOfTheMatrix) {
+  std::mt19937 generator(5);
+  auto problem = make_problem(pair(), chain(2));
+  const Eigen::MatrixXd compliance = testing::compliance_matrix(problem);
+  const double eps = 1e-14 * compliance.norm();
+  const Eigen::VectorXd v = testing::random_vector(problem.samples(), generator);
+  Eigen::VectorXd product;
+  problem.apply_transposed(v, product);
+  EXPECT_LE((product - compliance.transpose() * v).norm(), 10.0 * eps * v.norm());
+  const Eigen::MatrixXd& columns = problem.columns();
+  const int points = problem.points(), period = problem.pair().shift_period();
+  ASSERT_EQ(columns.rows(), problem.samples());
+  ASSERT_EQ(columns.cols(), 2 * period);
+  for (int row = 0; row < problem.samples(); ++row)
+    for (int column = 0; column < problem.samples(); ++column) {
+      const int m = column % points, shift = m - m % period;
+      const int moved = row / points * points + (row % points - shift + points) % points;
+      EXPECT_NEAR(compliance(row, column), columns(moved, column / points * period + m % period), eps);
+    }
+}
+
+// A load that comes a quarter of a period later moves every contact's samples by as much.
+TEST_P(ManyContacts, LaterLoadShiftsTheResponse) {
+  if (pair().points() % (4 * pair().shift_period()) != 0) GTEST_SKIP() << "a quarter is no whole shift";
+  auto first = make_problem(pair(), chain(3));
+  CondensedProblem later(pair(), chain(3), Eigen::Vector2cd(0.0, std::complex<double>(0.0, -1.0)));
+  later.set_frequency(frequency);
+  const PeriodicResponse a = forced_response(first, springs({0, 1, 2}), {});
+  const PeriodicResponse b = forced_response(later, springs({0, 1, 2}), {});
+  ASSERT_TRUE(a.converged() && b.converged());
+  EXPECT_GT(a.contact_force.maxCoeff(), 0.0);
+  const int points = first.points();
+  for (int c = 0; c < 3; ++c)
+    for (int l = 0; l < points; ++l)
+      EXPECT_NEAR(a.displacement[c * points + l], b.displacement[c * points + (l + points / 4) % points],
+                  1e-8 * a.displacement.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(PairKinds, ManyContacts, ::testing::Range(0, testing::pair_kind_count));
+
+// Two oscillators that nothing couples, in one structure and each alone; the contact of `first` comes first.
+struct Uncoupled {
+  testing::Oscillator first, second;
+  LinearStructure both;
+
+  Uncoupled() {
+    first.mass = 3.0;
+    first.load = -70.0;
+    first.stiffness = 1.1e5;
+    const auto diagonal = [](double a, double b) -> Eigen::SparseMatrix<double> {
+      const Eigen::Matrix2d matrix = Eigen::Vector2d(a, b).asDiagonal();
+      return matrix.sparseView();
+    };
+    both.mass = diagonal(second.mass, first.mass);
+    both.damping = diagonal(second.damping, first.damping);
+    both.stiffness = diagonal(second.stiffness, first.stiffness);
+    both.load = Eigen::Vector2d(second.load, first.load);
+    both.contact_dofs = {1, 0};
+  }
+};
+
+TEST(ManyContactsResponse, OfUncoupledOscillatorsIsThatOfEach) {
+  const Uncoupled structures;
+  const TimePair pair = testing::fourier_pair(31, 64);
+  auto together = make_problem(pair, structures.both, 27.0),
+       first = make_problem(pair, structures.first.structure(), 27.0),
+       second = make_problem(pair, structures.second.structure(), 27.0);
+  const LinearContact law_first{4e4, 0.3e-3}, law_second{9e4, 0.4e-3};
+  const PeriodicResponse a = forced_response(together, std::vector<AnyContactLaw>{law_first, law_second}, {});
+  const PeriodicResponse b = forced_response(first, law_first, {}),
+                         c = forced_response(second, law_second, {});
+  ASSERT_TRUE(a.converged() && b.converged() && c.converged());
+  EXPECT_TRUE(every_contact_presses(together, a.contact_force));
+  EXPECT_LE((a.displacement.head(64) - b.displacement).norm(), 1e-9 * b.displacement.norm());
+  EXPECT_LE((a.displacement.tail(64) - c.displacement).norm(), 1e-9 * c.displacement.norm());
+  EXPECT_LE((a.coefficients.col(1) - c.coefficients).norm(), 1e-9 * c.coefficients.norm());
+}
+
+// Rigid obstacles have several responses at this resolution: that of each oscillator in the structure must be
+// one of its own.
+TEST(ManyContactsResponse, AgainstRigidObstaclesUncoupledOscillatorsSolveTheirOwnProblems) {
+  const Uncoupled structures;
+  const TimePair pair = testing::fourier_pair(31, 64);
+  auto together = make_problem(pair, structures.both, 27.0);
+  const RigidResponse rigid = rigid_response(together, Eigen::Vector2d(0.3e-3, 0.4e-3), {});
+  ASSERT_TRUE(rigid.response.converged());
+  ASSERT_TRUE(std::isinf(rigid.stiffness)) << "not an exact active set";
+  for (const int c : {0, 1}) {
+    auto alone = make_problem(pair, (c == 0 ? structures.first : structures.second).structure(), 27.0);
+    const Eigen::VectorXd force = rigid.response.contact_force.segment(64 * c, 64),
+                          u = rigid.response.displacement.segment(64 * c, 64);
+    Eigen::VectorXd product;
+    alone.apply(force, product);
+    const double size = alone.free_response().cwiseAbs().maxCoeff();
+    EXPECT_LE((u - alone.free_response() + product).cwiseAbs().maxCoeff(), 1e-12 * size);
+    const Complementarity found = complementarity(u, force, c == 0 ? 0.3e-3 : 0.4e-3);
+    EXPECT_GT(force.maxCoeff(), 0.0);
+    EXPECT_GE(found.min_force, 0.0);
+    EXPECT_LE(found.max_penetration, 1e-9 * size);
+    EXPECT_LE(found.product, 1e-9);
+  }
+}
+
+TEST(ManyContactsResponse, DoesNotDependOnTheOrderOfContacts) {
+  const TimePair pair = testing::fourier_pair(31, 64);
+  LinearStructure reordered = chain(3);
+  reordered.contact_dofs = {5, 8, 2};
+  auto a = make_problem(pair, chain(3)), b = make_problem(pair, reordered);
+  const PeriodicResponse first = forced_response(a, springs({0, 1, 2}), {});
+  const PeriodicResponse second = forced_response(b, springs({2, 0, 1}), {});
+  ASSERT_TRUE(first.converged() && second.converged());
+  EXPECT_TRUE(every_contact_presses(a, first.contact_force));
+  const Eigen::MatrixXd u = first.displacement.reshaped(64, 3), v = second.displacement.reshaped(64, 3);
+  EXPECT_LE((u.col(2) - v.col(0)).norm() + (u.col(0) - v.col(1)).norm() + (u.col(1) - v.col(2)).norm(),
+            1e-9 * u.norm());
+}
+
+TEST(ManyContactsResponse, IsThatOfEveryCondensationMethod) {
+  const TimePair pair = testing::fourier_pair(31, 64);
+  auto expected = make_problem(pair, chain(3), frequency, CondensationMethod::tridiagonal);
+  const PeriodicResponse reference = forced_response(expected, springs({0, 1, 2}), {});
+  for (const auto method :
+       {CondensationMethod::modal, CondensationMethod::dense, CondensationMethod::sparse}) {
+    auto problem = make_problem(pair, chain(3), frequency, method);
+    const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_LE((response.displacement - reference.displacement).norm(), 1e-9 * reference.displacement.norm());
+    const Eigen::VectorXd slope = problem.free_response_slope();
+    EXPECT_LE((slope - expected.free_response_slope()).norm(), 1e-9 * slope.norm());
+  }
+}
+
+// Over a period the load's work is what dampers and contacts take, the products exact with these points.
+TEST(ManyContactsResponse, BalancesTheWorkOfLoadDampersAndContacts) {
+  const LinearStructure structure = chain(3);
+  auto problem = make_problem(testing::fourier_pair(31, 64), structure);
+  const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
+  ASSERT_TRUE(response.converged());
+  const PeriodicField field = periodic_field(problem, response.contact_force, 64);
+  double load = 0.0, dampers = 0.0, contacts = 0.0, size = 0.0;
+  for (int l = 0; l < 64; ++l) {
+    const Eigen::VectorXd v = field.velocity.col(l);
+    load += std::cos(2.0 * std::numbers::pi * l / 64) * structure.load.dot(v);
+    dampers += v.dot(structure.damping * v);
+    for (int c = 0; c < 3; ++c) {
+      const double power = response.contact_force[c * 64 + l] * v[structure.contact_dofs[std::size_t(c)]];
+      contacts += power;
+      size += std::abs(power);
+    }
+  }
+  EXPECT_GT(size, 0.1 * load) << "the contacts do not matter";
+  EXPECT_NEAR(load, dampers + contacts, 1e-9 * (load + size));
+  const Eigen::MatrixXd at_contacts = field.displacement(structure.contact_dofs, Eigen::all).transpose();
+  EXPECT_LE((at_contacts.reshaped() - response.displacement).norm(), 1e-9 * response.displacement.norm());
+  MotionEvaluator motion(problem.pair().trial(), 64);
+  EXPECT_LE((motion.displacement(response.coefficients) - at_contacts).norm(), 1e-9 * at_contacts.norm());
+  EXPECT_LE((motion.velocity(response.coefficients, frequency) -
+             field.velocity(structure.contact_dofs, Eigen::all).transpose())
+                .norm(),
+            1e-9 * field.velocity.norm());
+}
+
+TEST(ManyContactsResponse, EnergyHoldsThePotentialOfEveryContact) {
+  const LinearStructure structure = chain(3);
+  auto problem = make_problem(testing::fourier_pair(31, 64), structure);
+  const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
+  const PeriodicField field = periodic_field(problem, response.contact_force, 64);
+  const Eigen::VectorXd stored =
+      system_energy(structure, springs({0, 1, 2}), field) - system_energy(structure, AnyContactLaw(), field);
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(64);
+  for (int c = 0; c < 3; ++c)
+    expected += (0.5 / (2.0 + c)) * response.contact_force.segment(c * 64, 64).cwiseAbs2();
+  EXPECT_LE((stored - expected).norm(), 1e-9 * stored.norm());
+}
+
+// Independent of any time basis. Force of a linear stop: the harmonics of the displacement fall like n^-4.
+TEST(ManyContactsResponse, IsWhatTimeSteppingSettlesTo) {
+  const LinearStructure structure = chain(2);
+  auto problem = make_problem(testing::fourier_pair(63, 256), structure, 0.11);
+  const PeriodicResponse response = forced_response(problem, springs({0, 1}), {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_TRUE(every_contact_presses(problem, response.contact_force));
+  TimeSteppingOptions options;
+  options.output_points = 256;
+  options.step_tolerance = 1e-8;
+  options.period_tolerance = 1e-6;
+  const TimeSteppingResult settled = integrate_to_periodic(structure, springs({0, 1}), 0.11, options);
+  ASSERT_EQ(settled.status, TimeSteppingStatus::converged);
+  ASSERT_EQ(settled.samples.contacts, 2);
+  ASSERT_EQ(settled.samples.points(), 256);
+  EXPECT_LE((settled.samples.displacement - response.displacement).norm(),
+            1e-4 * response.displacement.norm());
+  EXPECT_LE((settled.samples.contact_force - response.contact_force).norm(),
+            1e-3 * response.contact_force.norm());
+}
+
+TEST(ManyContactsSweep, PassesFoldsAndEqualsPointsSolvedSingly) {
+  const TimePair pair = testing::fourier_pair(7, 32);
+  CondensedProblem problem(pair, chain(2), testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 0.02;
+  options.to = 0.06;
+  const FrequencySweep sweep = frequency_sweep(problem, springs({0, 1}), options);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+  ASSERT_GE(sweep.turning_points.size(), 2u);
+  double low = options.to, high = options.from;
+  for (const TurningPoint& turning : sweep.turning_points) {
+    low = std::min(low, turning.frequency);
+    high = std::max(high, turning.frequency);
+  }
+  int compared = 0;
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const SweepPoint& point = sweep.points[i];
+    EXPECT_LE(point.residual, 1e-9);
+    if (i % 5 != 0) continue;
+    if (point.frequency >= low && point.frequency <= high) continue;  // more than one response
+    problem.set_frequency(point.frequency);
+    const PeriodicResponse single = forced_response(problem, springs({0, 1}), {});
+    ASSERT_TRUE(single.converged());
+    MotionEvaluator motion(pair.trial(), options.output_points);
+    const Eigen::MatrixXd u = motion.displacement(single.coefficients);
+    EXPECT_NEAR(u.maxCoeff(), point.max_displacement, 1e-6 * point.max_displacement) << point.frequency;
+    EXPECT_NEAR((u.colwise().norm() / std::sqrt(double(u.rows()))).maxCoeff(), point.rms_displacement,
+                1e-6 * point.rms_displacement);
+    ++compared;
+  }
+  EXPECT_GE(compared, 20);
+}
+
+TEST(ManyContactsErrors, NameTheNumberFoundAndWanted) {
+  auto problem = make_problem(testing::fourier_pair(7, 32), chain(3));
+  EXPECT_THROW(forced_response(problem, springs({0, 1}), {}), std::invalid_argument);
+  EXPECT_THROW(forced_response(problem, springs({0, 1, 2}), {}, Eigen::VectorXd::Zero(32)),
+               std::invalid_argument);
+  EXPECT_THROW(rigid_response(problem, Eigen::Vector2d(1.0, 1.0), {}), std::invalid_argument);
+  EXPECT_THROW(rigid_response(problem, Eigen::Vector3d(1.0, INFINITY, 1.0), {}), std::invalid_argument);
+  EXPECT_THROW(ContactLaws(std::vector<AnyContactLaw>{}), std::invalid_argument);
+  EXPECT_THROW(integrate_to_periodic(chain(3), springs({0, 1}), frequency), std::invalid_argument);
+  EXPECT_THROW(shoot(chain(2), LinearContact{1.0, 1.0}, frequency), std::invalid_argument);
+  try {
+    ContactSystem(problem, springs({0, 1}));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("2 laws for 3 contacts"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
+
+// Laws from stops that Newton stalls at to those whose penetration is below the rounding of displacements.
+namespace wavebalance::solvers {
+namespace {
+
+using testing::LinearContact;
+
+// Three masses of 2 kg between springs of 1e6 N/m, 1 % modal damping; the last two touch.
+LinearStructure three_masses(double load) {
+  const Eigen::Matrix3d stiffness{{2e6, -1e6, 0.0}, {-1e6, 2e6, -1e6}, {0.0, -1e6, 1e6}};
+  const Eigen::Matrix3d mass = 2.0 * Eigen::Matrix3d::Identity();
+  LinearStructure chain{mass.sparseView(),
+                        Eigen::Matrix3d(4.0 * mass + 1e-5 * stiffness).sparseView(),
+                        stiffness.sparseView(),
+                        Eigen::Vector3d(0.0, 0.0, load),
+                        {1, 2}};
+  return chain;
+}
+
+CondensedProblem chain_problem(double load = 100.0) {
+  CondensedProblem problem(testing::fourier_pair(31, 128), three_masses(load), testing::cosine_load());
+  problem.set_frequency(50.0);
+  return problem;
+}
+
+CondensedProblem bar_problem(int functions = 63, int points = 256) {
+  CondensedProblem problem(testing::fourier_pair(functions, points), testing::jl14_case_1.structure(),
+                           testing::cosine_load());
+  problem.set_frequency(testing::jl14_case_1.frequency_hz);
+  return problem;
+}
+
+// The balance, and the law met in force or, where rounding of the displacements hides it, in displacement.
+template <class Law>
+void expect_solution(CondensedProblem& problem, const Law& law, const PeriodicResponse& response) {
+  ASSERT_TRUE(response.converged()) << to_string(response.status) << " " << response.residual;
+  Eigen::VectorXd product;
+  problem.apply(response.contact_force, product);
+  const Eigen::VectorXd motion = problem.free_response() - product;
+  const double size = problem.free_response().cwiseAbs().maxCoeff() + product.cwiseAbs().maxCoeff();
+  EXPECT_LE((response.displacement - motion).cwiseAbs().maxCoeff(), 1e-10 * size);
+  const double largest = response.contact_force.maxCoeff(), near = 1e-9 * size;
+  EXPECT_GT(largest, 0.0);
+  for (int l = 0; l < problem.samples(); ++l) {
+    EXPECT_GE(response.contact_force[l], law.force(motion[l] - near) - 1e-9 * largest) << l;
+    EXPECT_LE(response.contact_force[l], law.force(motion[l] + near) + 1e-9 * largest) << l;
+  }
+}
+
+TEST(StiffContact, OfTwoContactsIsSolvedFromOrdinaryStopsToNearlyRigidOnes) {
+  for (const double gap : {1e-4, -1e-4})
+    for (const double stiffness : {1e7, 1e9, 1e12, 1e18}) {
+      SCOPED_TRACE(::testing::Message() << "stiffness " << stiffness << ", gap " << gap);
+      CondensedProblem problem = chain_problem();
+      const LinearContact law{stiffness, gap};
+      expect_solution(problem, law, forced_response(problem, law, {}));
+    }
+}
+
+TEST(StiffContact, OfTheBarIsSolvedByLinearAndExponentialLawsAlike) {
+  for (const double stiffness : {1e9, 1e12, 1e15, 1e18}) {
+    SCOPED_TRACE(stiffness);
+    CondensedProblem problem = bar_problem();
+    const LinearContact linear{stiffness, 1e-3};
+    expect_solution(problem, linear, forced_response(problem, linear, {}));
+    for (const double exponent : {50.0, 1e3}) {
+      const testing::ExponentialLaw exponential{stiffness / exponent, exponent, 1e-3};
+      expect_solution(problem, exponential, forced_response(problem, exponential, {}));
+    }
+  }
+}
+
+TEST(StiffContact, ApproachesTheRigidObstacle) {
+  CondensedProblem problem = bar_problem();
+  const RigidResponse rigid = rigid_response(problem, 1e-3, {});
+  ASSERT_TRUE(rigid.response.converged());
+  const double size = problem.free_response().cwiseAbs().maxCoeff();
+  for (const double stiffness : {1e12, 1e15, 1e18}) {
+    const PeriodicResponse response = forced_response(problem, LinearContact{stiffness, 1e-3}, {});
+    ASSERT_TRUE(response.converged()) << stiffness;
+    EXPECT_LE(response.displacement.maxCoeff() - 1e-3,
+              response.contact_force.maxCoeff() / stiffness * (1.0 + 1e-9) + 1e-9 * size)
+        << stiffness;
+    if (stiffness < 1e15) continue;
+    EXPECT_LE((response.displacement - rigid.response.displacement).cwiseAbs().maxCoeff(), 1e-4 * size);
+  }
+}
+
+// The force is then what makes the motion, the law's at it would be rounding times stiffness.
+TEST(StiffContact, SaysWhenTheForceIsThatOfTheBalance) {
+  CondensedProblem problem = chain_problem();
+  EXPECT_FALSE(forced_response(problem, LinearContact{1e7, 1e-4}, {}).force_by_balance);
+  const PeriodicResponse stiff = forced_response(problem, LinearContact{1e18, 1e-4}, {});
+  EXPECT_TRUE(stiff.force_by_balance);
+  EXPECT_LE(stiff.residual, 1e-9);
+  EXPECT_GE(stiff.contact_force.minCoeff(), 0.0);
+  EXPECT_GE(stiff.condition, 1.0);
+  EXPECT_TRUE(std::isfinite(stiff.condition));
+}
+
+// Load, gap and motion of a stop that is linear in contact scale together.
+TEST(StiffContact, ScalesWithLoadAndGapUpToTheLargestNumbers) {
+  for (const double stiffness : {1e7, 1e9}) {
+    CondensedProblem plain = chain_problem();
+    const PeriodicResponse expected = forced_response(plain, LinearContact{stiffness, 1e-4}, {});
+    ASSERT_TRUE(expected.converged());
+    for (const int power : {-900, 900}) {
+      const double scale = std::ldexp(1.0, power);
+      CondensedProblem problem = chain_problem(100.0 * scale);
+      const PeriodicResponse response = forced_response(problem, LinearContact{stiffness, 1e-4 * scale}, {});
+      ASSERT_TRUE(response.converged()) << stiffness << " " << power;
+      EXPECT_TRUE((response.displacement / scale).isApprox(expected.displacement, 1e-9)) << power;
+    }
+  }
+}
+
+TEST(StiffContact, AgainstAnExponentialLawIsSolvedAtAnyLoad) {
+  for (const double scale : {1e15, 1e145, 1e295}) {
+    SCOPED_TRACE(scale);
+    LinearStructure bar = testing::jl14_case_1.structure();
+    bar.load *= scale;
+    CondensedProblem problem(testing::fourier_pair(63, 256), bar, testing::cosine_load());
+    problem.set_frequency(150.0);
+    const PeriodicResponse response = forced_response(problem, testing::jl14_case_1.law, {});
+    ASSERT_TRUE(response.converged()) << to_string(response.status);
+    EXPECT_TRUE(response.displacement.allFinite() && response.contact_force.allFinite());
+    // Beside such a load the law is rigid and the gap nothing.
+    const double size = problem.free_response().maxCoeff();
+    EXPECT_LE(response.displacement.maxCoeff(), 1e-3 * size);
+    EXPECT_GT(response.contact_force.mean(), 0.04 * bar.load.maxCoeff());
+  }
+}
+
+// A law that starts without a slope has no obstacle to begin with: Newton and the arc length solve it as
+// before.
+TEST(StiffContact, LeavesLawsWithoutASlopeToTheArcLength) {
+  struct Rubber {
+    double force(double u) const { return u > 1e-3 ? 3e13 * (u - 1e-3) * (u - 1e-3) : 0.0; }
+    double tangent(double u) const { return u > 1e-3 ? 6e13 * (u - 1e-3) : 0.0; }
+    double potential(double u) const { return u > 1e-3 ? 1e13 * std::pow(u - 1e-3, 3) : 0.0; }
+    double gap() const { return 1e-3; }
+  };
+  CondensedProblem problem = bar_problem();
+  expect_solution(problem, Rubber{}, forced_response(problem, Rubber{}, {}));
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

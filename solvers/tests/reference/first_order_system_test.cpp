@@ -1,0 +1,63 @@
+#include "wavebalance/solvers/reference/first_order_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "support/jl14_bar.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::ExponentialLaw;
+using testing::jl14_bar;
+
+constexpr double frequency = 150.0;
+const ExponentialLaw law{1e8, 50.0, 1e-3};
+
+TEST(FirstOrderSystem, TimeDerivativeIsThatOfTheLoad) {
+  const FirstOrderSystem system(jl14_bar(3, 1e-4), law, frequency);
+  const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(6, -0.3, 0.4);
+  Eigen::VectorXd before(6), after(6), by_time(6);
+  Eigen::MatrixXd by_state(6, 6);
+  const double step = 1e-5, periods = 0.37;
+  system.derivative(periods - step, {state.data(), 6}, {before.data(), 6});
+  system.derivative(periods + step, {state.data(), 6}, {after.data(), 6});
+  system.jacobian(periods, {state.data(), 6}, {by_state.data(), 36}, {by_time.data(), 6});
+  const Eigen::VectorXd difference = (after - before) / (2.0 * step);
+  EXPECT_LT((by_time - difference).norm(), 1e-7 * by_time.norm());  // O(step^2) and cancellation
+  EXPECT_GT(by_time.norm(), 0.0);
+}
+
+TEST(FirstOrderSystem, JacobianOnTheKinkTakesTheSlopeInContact) {
+  const LinearStructure bar = jl14_bar(2, 1e-4);
+  const FirstOrderSystem system(bar, law, frequency);
+  const auto jacobian = [&](double tip) {
+    const Eigen::VectorXd state = system.state(Eigen::Vector2d(0.0, tip), Eigen::Vector2d::Zero());
+    Eigen::VectorXd by_time(4);
+    Eigen::MatrixXd by_state(4, 4);
+    system.jacobian(0.0, {state.data(), 4}, {by_state.data(), 16}, {by_time.data(), 4});
+    return by_state;
+  };
+  const Eigen::MatrixXd inside = jacobian(law.start + 1e-12), outside = jacobian(law.start - 1e-12);
+  const double jump = (inside - outside).norm();
+  EXPECT_GT(jump, 0.0);
+  EXPECT_LT((inside - jacobian(law.start + 1e-15)).norm(), 1e-9 * jump);
+}
+
+TEST(FirstOrderSystem, RejectsBadInput) {
+  const LinearStructure bar = jl14_bar(3, 1e-4);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(FirstOrderSystem(bar, law, bad), std::invalid_argument) << bad;
+  LinearStructure massless = bar;
+  massless.mass.coeffRef(1, 1) = 0.0;
+  EXPECT_THROW(FirstOrderSystem(massless, law, frequency), std::invalid_argument);
+  LinearStructure misfit = bar;
+  misfit.load = Eigen::VectorXd::Zero(2);
+  EXPECT_THROW(FirstOrderSystem(misfit, law, frequency), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,165 @@
+#include "wavebalance/solvers/reference/shooting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "support/jl14_bar.hpp"
+#include "support/oscillator.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::jl14_bar;
+using testing::LinearContact;
+using testing::Oscillator;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Shooting, GivesTheClosedFormOfALinearOscillator) {
+  Oscillator oscillator;
+  const double critical = 2.0 * std::sqrt(oscillator.stiffness * oscillator.mass);
+  for (const double damping : {0.0, 30.0, critical, 100.0 * critical}) {
+    oscillator.damping = damping;
+    ShootingOptions options;
+    options.output_points = 60;
+    options.initial_displacement = Eigen::VectorXd::Constant(1, 3e-3);
+    const ShootingResult result =
+        shoot(oscillator.structure(), AnyContactLaw(), oscillator.frequency, options);
+    ASSERT_EQ(result.status, ShootingStatus::converged) << damping;
+    const double amplitude = std::abs(oscillator.amplitude());
+    const double omega = 2.0 * std::numbers::pi * oscillator.frequency;
+    for (int l = 0; l < 60; ++l) {
+      const double t = l / (60.0 * oscillator.frequency);
+      EXPECT_NEAR(result.samples.displacement[l], oscillator.steady_displacement(t), 1e-10 * amplitude);
+      EXPECT_NEAR(result.samples.velocity[l], oscillator.steady_velocity(t), 1e-10 * omega * amplitude);
+    }
+  }
+}
+
+TEST(Shooting, MultipliersOfALinearOscillatorAreItsDecay) {
+  const Oscillator oscillator;
+  const ShootingResult result = shoot(oscillator.structure(), AnyContactLaw(), oscillator.frequency);
+  const double expected = std::exp(-0.5 * oscillator.damping / oscillator.mass / oscillator.frequency);
+  ASSERT_EQ(result.floquet_multipliers.size(), 2);
+  EXPECT_NEAR(std::abs(result.floquet_multipliers[0]), expected, 1e-12);
+  EXPECT_NEAR(std::abs(result.floquet_multipliers[1]), expected, 1e-12);
+}
+
+TEST(Shooting, SamplesDoNotDependOnTheirNumber) {
+  const testing::Jl14Case& scene = testing::jl14_case_2;
+  const LinearStructure bar = scene.structure(6);
+  ShootingOptions coarse, fine;
+  coarse.output_points = 10;
+  fine.output_points = 4000;
+  const ShootingResult a = shoot(bar, scene.law, scene.frequency_hz, coarse);
+  const ShootingResult b = shoot(bar, scene.law, scene.frequency_hz, fine);
+  ASSERT_EQ(a.status, ShootingStatus::converged);
+  ASSERT_EQ(b.status, ShootingStatus::converged);
+  EXPECT_GT(b.samples.contact_force.maxCoeff(), 0.0);
+  const double scale = b.samples.displacement.cwiseAbs().maxCoeff();
+  for (int l = 0; l < 10; ++l)
+    EXPECT_NEAR(a.samples.displacement[l], b.samples.displacement[400 * l], 1e-10 * scale);
+}
+
+TEST(Shooting, FullHistoryHoldsTheContactSamplesAndTheInitialState) {
+  ShootingOptions options;
+  options.output_points = 32;
+  options.full_history = true;
+  const ShootingResult result = shoot(jl14_bar(4, 1e-4), testing::ExponentialLaw{}, 150.0, options);
+  ASSERT_EQ(result.status, ShootingStatus::converged);
+  ASSERT_EQ(result.samples.displacements.rows(), 4);
+  ASSERT_EQ(result.samples.velocities.cols(), 32);
+  const double eps = std::numeric_limits<double>::epsilon();
+  const PeriodSamples& samples = result.samples;
+  EXPECT_LT((samples.displacements.row(3).transpose() - samples.displacement).norm(),
+            100 * eps * samples.displacement.norm());
+  EXPECT_LT((samples.velocities.row(3).transpose() - samples.velocity).norm(),
+            100 * eps * samples.velocity.norm());
+  EXPECT_LT((samples.displacements.col(0) - result.displacement).norm(),
+            100 * eps * result.displacement.norm());
+  EXPECT_LT((samples.velocities.col(0) - result.velocity).norm(), 100 * eps * result.velocity.norm());
+}
+
+TEST(Shooting, StartsOnEitherBranchOfABistableResponse) {
+  // Between its folds near 1315 and 1338 Hz case 2 has one motion in contact and one without.
+  const testing::Jl14Case& scene = testing::jl14_case_2;
+  const LinearStructure bar = scene.structure();
+  const ShootingResult below = shoot(bar, scene.law, 1300.0);
+  ASSERT_EQ(below.status, ShootingStatus::converged);
+  ShootingOptions options;
+  options.initial_displacement = below.displacement;
+  options.initial_velocity = below.velocity;
+  const ShootingResult contact = shoot(bar, scene.law, 1320.0, options);
+  const ShootingResult free = shoot(bar, scene.law, 1320.0);
+  ASSERT_EQ(contact.status, ShootingStatus::converged);
+  ASSERT_EQ(free.status, ShootingStatus::converged);
+  EXPECT_GT(contact.samples.contact_force.maxCoeff(), 1e5);
+  EXPECT_EQ(free.samples.contact_force.maxCoeff(), 0.0);
+  EXPECT_LT(std::abs(contact.floquet_multipliers[0]), 1.0);
+  EXPECT_LT(std::abs(free.floquet_multipliers[0]), 1.0);
+}
+
+TEST(Shooting, TooFewIterationsAreNotConverged) {
+  const testing::Jl14Case& scene = testing::jl14_case_2;
+  ShootingOptions options;
+  options.settling_periods = 0;
+  options.max_iterations = 1;
+  const ShootingResult result = shoot(scene.structure(6), scene.law, scene.frequency_hz, options);
+  EXPECT_EQ(result.status, ShootingStatus::not_converged);
+  EXPECT_STREQ(to_string(result.status), "not_converged");
+  EXPECT_GT(result.residual, options.tolerance);
+  EXPECT_EQ(result.residual_history.back(), result.residual);
+}
+
+TEST(Shooting, LawThatJumpsIsAStepFailure) {
+  struct Jump {
+    double force(double u) const { return u > 1e-3 ? 1e5 : 0.0; }
+    double tangent(double) const { return 0.0; }
+    double potential(double u) const { return u > 1e-3 ? 1e5 * (u - 1e-3) : 0.0; }
+    double gap() const { return 1e-3; }
+  };
+  const ShootingResult result = shoot(jl14_bar(4, 1e-4), Jump{}, 150.0);
+  EXPECT_EQ(result.status, ShootingStatus::step_failure);
+  EXPECT_EQ(result.samples.points(), 0);
+}
+
+TEST(Shooting, RejectsStructuresItCannotTreat) {
+  const LinearStructure bar = jl14_bar(3, 1e-4);
+  for (const double bad : {0.0, -150.0, nan, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(shoot(bar, AnyContactLaw(), bad), std::invalid_argument) << bad;
+  LinearStructure coupled = bar;
+  coupled.damping.coeffRef(0, 0) *= 2.0;
+  EXPECT_THROW(shoot(coupled, AnyContactLaw(), 150.0), std::invalid_argument);
+  LinearStructure massless = bar;
+  massless.mass.coeffRef(1, 1) = -1.0;
+  EXPECT_THROW(shoot(massless, AnyContactLaw(), 150.0), std::invalid_argument);
+  LinearStructure misfit = bar;
+  misfit.load = Eigen::VectorXd::Zero(2);
+  EXPECT_THROW(shoot(misfit, AnyContactLaw(), 150.0), std::invalid_argument);
+}
+
+TEST(Shooting, RejectsOptionsOutOfRangeAndNamesThem) {
+  const auto expect = [](const char* name, auto&& change) {
+    ShootingOptions options;
+    change(options);
+    try {
+      shoot(jl14_bar(3, 1e-4), AnyContactLaw(), 150.0, options);
+      ADD_FAILURE() << name << " was accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  };
+  expect("output_points is 1;", [](auto& o) { o.output_points = 1; });
+  expect("settling_periods", [](auto& o) { o.settling_periods = -1; });
+  expect("max_iterations", [](auto& o) { o.max_iterations = 0; });
+  expect("tolerance", [](auto& o) { o.tolerance = 0.0; });
+  expect("step_tolerance", [](auto& o) { o.step_tolerance = nan; });
+  expect("initial_displacement has 2 entries", [](auto& o) { o.initial_displacement.setZero(2); });
+  expect("initial_velocity has an entry", [](auto& o) { o.initial_velocity.setConstant(3, nan); });
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,201 @@
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "support/small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+struct BarSweep {
+  CondensedProblem problem;
+  FrequencySweepOptions options;
+
+  explicit BarSweep(TimePair pair)
+      : problem(std::move(pair), testing::jl14_case_2.structure(), testing::cosine_load()) {
+    options.from = 1100.0;
+    options.to = 1700.0;
+  }
+  FrequencySweep run() { return frequency_sweep(problem, testing::jl14_case_2.law, options); }
+};
+
+// Where the largest sample of the contact-free response reaches the gap, by bisection.
+double grazing_frequency(CondensedProblem& problem, double gap, double low, double high) {
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    problem.set_frequency(middle);
+    (problem.free_response().maxCoeff() > gap ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(FrequencySweep, TurnsAtTheGrazingCornerOfTheBar) {
+  for (const bool haar : {false, true})
+    for (const bool rising : {true, false}) {
+      BarSweep sweep(haar ? testing::make_pair(testing::HaarBasis{64}, spectral::FourierBasis(64), 256)
+                          : testing::fourier_pair(63, 256));
+      if (!rising) std::swap(sweep.options.from, sweep.options.to);
+      const FrequencySweep result = sweep.run();
+      ASSERT_EQ(result.status, SweepStatus::reached_end);
+      ASSERT_GE(result.turning_points.size(), 2u);
+      const TurningPoint& corner = rising ? result.turning_points.back() : result.turning_points.front();
+      const double grazing = grazing_frequency(sweep.problem, testing::jl14_case_2.law.start, 1300.0, 1400.0);
+      EXPECT_TRUE(corner.corner);
+      EXPECT_NEAR(corner.frequency, grazing, haar ? 1e-4 : 2e-2);
+      EXPECT_NEAR(corner.max_displacement, testing::jl14_case_2.law.start, 2e-5);
+      for (const SweepPoint& point : result.points) EXPECT_LE(point.residual, 1e-10);
+    }
+}
+
+// The curve of JL14's case 2 from its response at 1275 Hz.
+class BarCurve : public ::testing::Test {
+ protected:
+  BarCurve() : sweep_(testing::fourier_pair(31, 128)), law_(testing::jl14_case_2.law) {
+    sweep_.problem.set_frequency(1275.0);
+    first_ = forced_response(sweep_.problem, law_, {}).displacement;
+    system_.emplace(sweep_.problem, law_);
+    options_.displacement_scale = law_.gap();
+    options_.parameter_scale = 20.0;
+  }
+
+  BarSweep sweep_;
+  AnyContactLaw law_;
+  Eigen::VectorXd first_;
+  std::optional<ContactSystem> system_;
+  ArcLengthOptions options_;
+  FrequencyParameter parameter_;
+};
+
+// Else a stiff law with thousands of samples in contact would keep the homotopy for minutes.
+TEST_F(BarCurve, EndsWhereItsOperationsAreUsedUp) {
+  options_.most_operations = 1e5;  // an LU of the 25 samples in contact takes 1e4
+  ArcLength curve(*system_, parameter_, options_);
+  ASSERT_EQ(curve.start(first_, 1275.0, 1.0), ArcLength::Status::advanced);
+  int points = 0;
+  while (curve.advance() == ArcLength::Status::advanced) ++points;
+  EXPECT_GT(points, 0);
+  EXPECT_LT(points, 30);  // of some hundred
+  EXPECT_GT(system_->operations(), 1e5);
+  EXPECT_LT(system_->operations(), 2e5);
+}
+
+// Points, unit tangents and corners of the curve, each checked with a problem of its own.
+TEST_F(BarCurve, SolvesItsFrequencyAtEveryPoint) {
+  ArcLength curve(*system_, parameter_, options_);
+  ASSERT_EQ(curve.start(first_, 1275.0, 1.0), ArcLength::Status::advanced);
+  BarSweep fresh(testing::fourier_pair(31, 128));
+  ContactSystem check(fresh.problem, law_);
+  int falling = 0;
+  while (curve.point().displacement.maxCoeff() > 0.8 * law_.gap()) {
+    ASSERT_EQ(curve.advance(), ArcLength::Status::advanced);
+    const CurvePoint& point = curve.point();
+    fresh.problem.set_frequency(point.parameter);
+    EXPECT_LE(check.evaluate(point.displacement), 1e-10);
+    const double length = point.displacement_tangent.squaredNorm() / (128 * law_.gap() * law_.gap()) +
+                          point.parameter_tangent * point.parameter_tangent / 400.0;
+    EXPECT_NEAR(length, 1.0, 1e-12);
+    falling += point.parameter_tangent < 0.0;
+  }
+  EXPECT_GT(falling, 3) << "the curve must have turned back and on again";
+  CurvePoint missed;
+  EXPECT_FALSE(curve.locate([](const CurvePoint&) { return 1.0; }, missed));
+}
+
+TEST(FrequencySweep, StopsAtThePointLimitAndWhenTheObserverSaysSo) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  sweep.options.max_points = 7;
+  const FrequencySweep limited = sweep.run();
+  EXPECT_EQ(limited.status, SweepStatus::point_limit);
+  EXPECT_EQ(limited.points.size(), 7u);
+  sweep.options.max_points = 1000;
+  int seen = 0;
+  sweep.options.observer = [&](const SweepPoint& point) {
+    EXPECT_GE(point.frequency, 1100.0);
+    return ++seen < 5;
+  };
+  const FrequencySweep cancelled = sweep.run();
+  EXPECT_EQ(cancelled.status, SweepStatus::cancelled);
+  EXPECT_EQ(cancelled.points.size(), 5u);
+}
+
+TEST(FrequencySweep, ObserverMayStopAtTheFirstPoint) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  sweep.options.observer = [](const SweepPoint&) { return false; };
+  const FrequencySweep result = sweep.run();
+  EXPECT_EQ(result.status, SweepStatus::cancelled);
+  EXPECT_EQ(result.points.size(), 1u);
+}
+
+TEST(FrequencySweep, SaysWhenThereIsNoStart) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  sweep.options.from = 1275.0;
+  sweep.options.start.newton.max_iterations = 1;
+  sweep.options.start.homotopy = false;
+  const FrequencySweep result = sweep.run();
+  EXPECT_EQ(result.status, SweepStatus::no_start);
+  EXPECT_TRUE(result.points.empty());
+}
+
+// A force that jumps at the gap: the curve of responses without contact ends there.
+struct Jump {
+  double force(double u) const { return u > 14.5e-3 ? 1e6 : 0.0; }
+  double tangent(double) const { return 0.0; }
+  double potential(double u) const { return u > 14.5e-3 ? 1e6 * (u - 14.5e-3) : 0.0; }
+  double gap() const { return 14.5e-3; }
+};
+
+TEST(FrequencySweep, SaysWhenTheCurveEnds) {
+  BarSweep sweep(testing::fourier_pair(31, 128));
+  const FrequencySweep result = frequency_sweep(sweep.problem, Jump{}, sweep.options);
+  EXPECT_EQ(result.status, SweepStatus::lost);
+  ASSERT_FALSE(result.points.empty());
+  EXPECT_LE(result.points.back().max_displacement, 14.5e-3 * (1 + 1e-3));  // between the 128 samples
+}
+
+// An even number of functions leaves the Nyquist coefficient of the bar without damping.
+TEST(FrequencySweep, SaysWhenTheCurveGrowsPastAllBounds) {
+  BarSweep even(testing::fourier_pair(64, 256)), odd(testing::fourier_pair(63, 256));
+  even.options.arc_length.corners = odd.options.arc_length.corners = Corners::every;
+  EXPECT_EQ(even.run().status, SweepStatus::unbounded);
+  EXPECT_EQ(odd.run().status, SweepStatus::reached_end);
+}
+
+// Steps grow to more than the frequency itself: a trial point below zero is a step too long, not an error.
+TEST(FrequencySweep, GoesDownToAHundredthOfTheFirstFrequency) {
+  CondensedProblem problem(testing::fourier_pair(7, 32), testing::jl14_case_1.structure(),
+                           testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 100.0;
+  options.to = 0.1;
+  const FrequencySweep result = frequency_sweep(problem, testing::jl14_case_1.law, options);
+  EXPECT_EQ(result.status, SweepStatus::reached_end);
+  EXPECT_NEAR(result.points.back().frequency, 0.1, 1e-8);
+}
+
+TEST(FrequencySweep, RefusesFrequenciesThatAreNotPositiveAndDifferent) {
+  BarSweep sweep(testing::fourier_pair(7, 32));
+  for (const auto& [from, to] : {std::pair{0.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}, {1.0, std::nan("")}}) {
+    sweep.options.from = from;
+    sweep.options.to = to;
+    EXPECT_THROW(sweep.run(), std::invalid_argument);
+  }
+  sweep.options.to = 2.0;
+  sweep.options.smallest_return = -1.0;
+  EXPECT_THROW(sweep.run(), std::invalid_argument);
+}
+
+TEST(SweepStatus, IsSpelledAsInTheSource) {
+  EXPECT_EQ(to_string(SweepStatus::reached_end), "reached_end");
+  EXPECT_EQ(to_string(SweepStatus::returned), "returned");
+  EXPECT_EQ(to_string(SweepStatus::no_start), "no_start");
+  EXPECT_EQ(to_string(SweepStatus::lost), "lost");
+  EXPECT_EQ(to_string(SweepStatus::unbounded), "unbounded");
+  EXPECT_EQ(to_string(SweepStatus::point_limit), "point_limit");
+  EXPECT_EQ(to_string(SweepStatus::cancelled), "cancelled");
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,236 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// m = k = 1 of each, uncoupled, with a stop of `stiffness` at a gap of 1.
+struct StoppedOscillators {
+  double stiffness = 10.0;
+  int count = 1;
+
+  FrequencySweep sweep(TimePair pair, double from, double to, Corners corners = Corners::at_turns) const {
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
+    LinearStructure structure;
+    structure.mass = structure.stiffness = identity.sparseView();
+    structure.damping = 0.04 * structure.mass;
+    structure.load = Eigen::VectorXd::Constant(count, 0.1);
+    structure.contact_dofs.clear();
+    for (int c = 0; c < count; ++c) structure.contact_dofs.push_back(c);
+    CondensedProblem problem(std::move(pair), structure, testing::cosine_load());
+    FrequencySweepOptions options;
+    options.from = from;
+    options.to = to;
+    options.arc_length.corners = corners;
+    if (corners == Corners::every) options.smallest_return = 1e-12;
+    return frequency_sweep(problem, testing::LinearContact{stiffness, 1.0}, options);
+  }
+};
+
+std::vector<double> turning_frequencies(const FrequencySweep& sweep) {
+  std::vector<double> frequencies;
+  for (const TurningPoint& turn : sweep.turning_points) frequencies.push_back(turn.frequency);
+  return frequencies;
+}
+
+void expect_near(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
+
+// Their samples reach the gaps together, and at each turn three curves meet: all touch, one does, none does.
+TEST(FrequencySweep, OfTwinsThatTouchTogetherIsThatOfOne) {
+  for (const bool haar : {false, true})
+    for (const bool rising : {true, false}) {
+      const auto pair = [&] {
+        return haar ? testing::make_pair(testing::HaarBasis{16}, spectral::FourierBasis(16), 64)
+                    : testing::fourier_pair(15, 64);
+      };
+      const double from = rising ? 0.1 : 0.35, to = rising ? 0.35 : 0.1;
+      const FrequencySweep one = StoppedOscillators{10.0, 1}.sweep(pair(), from, to, Corners::every);
+      const FrequencySweep two = StoppedOscillators{10.0, 2}.sweep(pair(), from, to, Corners::every);
+      const FrequencySweep three = StoppedOscillators{10.0, 3}.sweep(pair(), from, to);
+      EXPECT_EQ(one.status, SweepStatus::reached_end) << to_string(one.status);
+      EXPECT_EQ(two.status, SweepStatus::reached_end) << to_string(two.status);
+      EXPECT_EQ(three.status, SweepStatus::reached_end) << to_string(three.status);
+      EXPECT_GT(one.turning_points.size(), 10u);
+      expect_near(turning_frequencies(one), turning_frequencies(two), 1e-8);
+    }
+}
+
+TEST(FrequencySweep, OfEveryCornerIsTheSameUpAndDown) {
+  for (const double stiffness : {1.0, 10.0, 100.0}) {
+    const StoppedOscillators one{stiffness};
+    for (const int functions : {7, 15}) {
+      const auto pair = testing::fourier_pair(functions, 32);
+      const FrequencySweep up = one.sweep(pair, 0.1, 0.35, Corners::every),
+                           down = one.sweep(pair, 0.35, 0.1, Corners::every);
+      ASSERT_EQ(up.status, SweepStatus::reached_end);
+      ASSERT_EQ(down.status, SweepStatus::reached_end);
+      std::vector<double> reversed = turning_frequencies(down);
+      std::reverse(reversed.begin(), reversed.end());
+      expect_near(turning_frequencies(up), reversed, 1e-8);
+    }
+  }
+}
+
+// All responses at a frequency, without following anything: each set of neighbouring samples in contact, and
+// none, gives a linear system, whose solution is a response if it presses there and nowhere else.
+int count_responses(CondensedProblem& problem, double frequency, const testing::LinearContact& law) {
+  problem.set_frequency(frequency);
+  const Eigen::MatrixXd compliance = testing::compliance_matrix(problem);
+  const int points = problem.points();
+  int found = problem.free_response().maxCoeff() <= law.start ? 1 : 0;
+  for (int first = 0; first < points; ++first)
+    for (int length = 1; length < points; ++length) {
+      Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(points);
+      for (int i = 0; i < length; ++i) stiffness[(first + i) % points] = law.stiffness;
+      const Eigen::MatrixXd jacobian =
+          Eigen::MatrixXd::Identity(points, points) + compliance * stiffness.asDiagonal();
+      const Eigen::VectorXd u =
+          jacobian.partialPivLu().solve(problem.free_response() + law.start * (compliance * stiffness));
+      found += ((u.array() > law.start) == (stiffness.array() > 0.0)).all() ? 1 : 0;
+    }
+  return found;
+}
+
+TEST(FrequencySweep, OfEveryCornerPassesAllResponsesThatThereAre) {
+  const testing::LinearContact law{1.0, 1.0};
+  const TimePair pair = testing::fourier_pair(15, 32);
+  const FrequencySweep sweep = StoppedOscillators{1.0}.sweep(pair, 0.1, 0.35, Corners::every);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  std::vector<double> curve = turning_frequencies(sweep);
+  EXPECT_EQ(curve.size(), 12u);
+  std::vector<double> sorted = curve;
+  std::sort(sorted.begin(), sorted.end());
+  curve.insert(curve.begin(), 0.1);
+  curve.push_back(0.35);
+  CondensedProblem problem(pair, testing::unit_oscillator(0.04, 0.1), testing::cosine_load());
+  for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
+    const double frequency = 0.5 * (sorted[i] + sorted[i + 1]);
+    int passes = 0;
+    for (std::size_t k = 0; k + 1 < curve.size(); ++k)
+      passes += (curve[k] < frequency) != (curve[k + 1] < frequency) ? 1 : 0;
+    EXPECT_EQ(count_responses(problem, frequency, law), passes) << frequency << " Hz";
+  }
+}
+
+// Long steps may leave out small returns, but what they report is on the curve.
+TEST(FrequencySweep, TurnsReportedWithLongStepsAreTurnsOfTheCurve) {
+  const StoppedOscillators one{1.0};
+  for (const TimePair& pair : {testing::fourier_pair(15, 32), testing::fourier_pair(31, 128)}) {
+    const FrequencySweep every = one.sweep(pair, 0.1, 0.35, Corners::every);
+    const FrequencySweep some = one.sweep(pair, 0.1, 0.35);
+    ASSERT_EQ(some.status, SweepStatus::reached_end);
+    ASSERT_GE(some.turning_points.size(), 2u);
+    EXPECT_LT(some.turning_points.size(), every.turning_points.size());
+    for (const double frequency : turning_frequencies(some)) {
+      double nearest = 1.0;
+      for (const double other : turning_frequencies(every))
+        nearest = std::min(nearest, std::abs(other - frequency));
+      EXPECT_LE(nearest, 1e-8) << frequency;
+    }
+    EXPECT_GE(some.turning_points[0].frequency, some.turning_points[1].frequency + 0.25e-3);
+  }
+}
+
+// Six contacts of a reduced structure: dense matrices of contact coordinates and modes, as a Craig-Bampton
+// reduction leaves them. Its first mode moves all contacts, by different amounts.
+LinearStructure reduced_structure() {
+  constexpr int contacts = 6, modes = 4, size = contacts + modes;
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size), mass = stiffness;
+  const auto random = [&](int rows, int columns) {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(generator); }).eval();
+  };
+  const Eigen::MatrixXd shapes = random(contacts, contacts), coupling = random(contacts, modes);
+  stiffness.topLeftCorner(contacts, contacts) =
+      40.0 * (shapes * shapes.transpose() + Eigen::MatrixXd::Identity(contacts, contacts));
+  mass.topLeftCorner(contacts, contacts) = 2.0 * Eigen::MatrixXd::Identity(contacts, contacts);
+  mass.topRightCorner(contacts, modes) = 0.4 * coupling;
+  mass.bottomLeftCorner(modes, contacts) = 0.4 * coupling.transpose();
+  mass.bottomRightCorner(modes, modes).setIdentity();
+  for (int j = 0; j < modes; ++j) stiffness(contacts + j, contacts + j) = (j + 1) * (j + 1);
+  LinearStructure structure;
+  structure.mass = mass.sparseView();
+  structure.stiffness = stiffness.sparseView();
+  structure.damping = (0.005 * stiffness).sparseView();
+  structure.load = Eigen::VectorXd::Unit(size, contacts);
+  structure.contact_dofs = {0, 1, 2, 3, 4, 5};
+  return structure;
+}
+
+TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefaultSteps) {
+  CondensedProblem problem(testing::fourier_pair(15, 64), reduced_structure(), testing::cosine_load());
+  double free = 0.0;
+  for (double frequency = 0.15; frequency < 0.17; frequency += 0.0002) {
+    problem.set_frequency(frequency);
+    free = std::max(free, problem.free_response().maxCoeff());
+  }
+  const testing::LinearContact stop{1000.0, free / 3.0};
+  std::vector<double> largest;
+  for (const bool rising : {true, false}) {
+    FrequencySweepOptions options;
+    options.from = rising ? 0.12 : 0.25;
+    options.to = rising ? 0.25 : 0.12;
+    const FrequencySweep sweep = frequency_sweep(problem, stop, options);
+    ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+    largest.push_back(0.0);
+    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+      const SweepPoint& point = sweep.points[i];
+      EXPECT_LE(point.residual, 1e-10);
+      largest.back() = std::max(largest.back(), point.max_displacement);
+      if (i % 20 != 0) continue;
+      problem.set_frequency(point.frequency);
+      const PeriodicResponse single = forced_response(problem, stop, {});
+      ASSERT_TRUE(single.converged());
+      // 1024 points of the period against its 64 samples
+      EXPECT_NEAR(single.displacement.maxCoeff(), point.max_displacement, 0.02 * point.max_displacement);
+    }
+  }
+  EXPECT_GT(largest[0], 1.05 * stop.start) << "hardly a contact";
+  EXPECT_NEAR(largest[0], largest[1], 0.01 * largest[0]);
+}
+
+// Equal sectors under equal loads: the coupling does not act while all move alike, but curves of unlike
+// motions leave the common one at its turns.
+TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {
+  constexpr int sectors = 4;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Identity(sectors, sectors);
+  for (int i = 0; i < sectors; ++i) {
+    const int next = (i + 1) % sectors;
+    stiffness(i, i) += 0.3;
+    stiffness(next, next) += 0.3;
+    stiffness(i, next) -= 0.3;
+    stiffness(next, i) -= 0.3;
+  }
+  LinearStructure ring = testing::unit_oscillator(0.04, 0.1);
+  ring.stiffness = stiffness.sparseView();
+  ring.mass = Eigen::MatrixXd::Identity(sectors, sectors).sparseView();
+  ring.damping = 0.04 * ring.mass;
+  ring.load = Eigen::VectorXd::Constant(sectors, 0.1);
+  ring.contact_dofs = {0, 1, 2, 3};
+  const TimePair pair = testing::fourier_pair(7, 32);
+  CondensedProblem problem(pair, ring, testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 0.35;
+  options.to = 0.1;
+  const FrequencySweep whole = frequency_sweep(problem, testing::LinearContact{10.0, 1.0}, options);
+  const FrequencySweep sector = StoppedOscillators{10.0}.sweep(pair, 0.35, 0.1, Corners::every);
+  ASSERT_EQ(whole.status, SweepStatus::reached_end) << to_string(whole.status);
+  ASSERT_EQ(sector.status, SweepStatus::reached_end) << to_string(sector.status);
+  expect_near(turning_frequencies(whole), turning_frequencies(sector), 1e-8);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

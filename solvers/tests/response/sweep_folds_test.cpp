@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// u'' + 2 zeta u' + u + u^3 = cos, time in units of 1/omega_0: with one harmonic and enough points for the
+// third, balance is exact and has a closed form.
+struct Cubic {
+  double force(double u) const { return u * u * u; }
+  double tangent(double u) const { return 3.0 * u * u; }
+  double potential(double u) const { return 0.25 * u * u * u * u; }
+  double gap() const { return std::numeric_limits<double>::infinity(); }
+};
+
+constexpr double duffing_load = 0.3, duffing_damping = 0.05;
+
+// Frequencies (Hz) on the Duffing curve at amplitude a, lower and upper branch of
+// ((1 - w^2 + 3/4 a^2)^2 + (c w)^2) a^2 = F^2, a quadratic equation for w^2.
+std::array<double, 2> duffing_frequencies(double a) {
+  const double k = 1.0 + 0.75 * a * a, c = duffing_damping, ratio = duffing_load / a;
+  const double half = k - 0.5 * c * c;
+  const double root = std::sqrt(half * half - k * k + ratio * ratio);
+  return {std::sqrt(std::max(half - root, 0.0)) / two_pi, std::sqrt(half + root) / two_pi};
+}
+
+// Where a branch turns in frequency between two amplitudes, by golden section.
+double duffing_fold(int branch, double low, double high, double sign) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  const auto value = [&](double a) {
+    return sign * duffing_frequencies(a)[static_cast<std::size_t>(branch)];
+  };
+  for (int i = 0; i < 200; ++i) {
+    const double left = high - ratio * (high - low), right = low + ratio * (high - low);
+    (value(left) > value(right) ? high : low) = value(left) > value(right) ? right : left;
+  }
+  return sign * value(0.5 * (low + high));
+}
+
+FrequencySweep duffing_sweep(double from, double to) {
+  CondensedProblem problem(testing::fourier_pair(3, 16),
+                           testing::unit_oscillator(duffing_damping, duffing_load), testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = from;
+  options.to = to;
+  return frequency_sweep(problem, Cubic{}, options);
+}
+
+TEST(FrequencySweep, PointsLieOnTheClosedFormOfTheDuffingCurve) {
+  const FrequencySweep sweep = duffing_sweep(0.05, 0.5);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+  ASSERT_GT(sweep.points.size(), 30u);
+  for (const SweepPoint& point : sweep.points) {
+    const double a = std::sqrt(2.0) * point.rms_displacement, w = two_pi * point.frequency;
+    const double k = 1.0 + 0.75 * a * a - w * w;
+    EXPECT_NEAR(a * std::hypot(k, duffing_damping * w), duffing_load, 1e-8) << point.frequency;
+    EXPECT_NEAR(point.max_displacement, a, 1e-5 * a);  // 1024 points miss the top by less than (pi/1024)^2/2
+    EXPECT_FALSE(point.corner);
+  }
+  EXPECT_EQ(sweep.points.front().frequency, 0.05);
+  EXPECT_NEAR(sweep.points.back().frequency, 0.5, 1e-9);
+}
+
+TEST(FrequencySweep, FindsTheFoldsOfTheDuffingCurveInBothDirections) {
+  // The backbone's peak a = F / (c w) bounds the upper branch; the lower fold lies on the right branch.
+  double peak = 1.0;
+  for (int i = 0; i < 200; ++i) peak = duffing_load / (duffing_damping * std::sqrt(1.0 + 0.75 * peak * peak));
+  const double upper = duffing_fold(1, 0.9 * peak, peak, 1.0);
+  const double lower = duffing_fold(1, 0.2, 0.9 * peak, -1.0);
+  ASSERT_LT(lower, 0.95 * upper);
+  for (const bool rising : {true, false}) {
+    const FrequencySweep sweep = rising ? duffing_sweep(0.05, 0.5) : duffing_sweep(0.5, 0.05);
+    ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+    ASSERT_EQ(sweep.turning_points.size(), 2u);
+    EXPECT_NEAR(sweep.turning_points[rising ? 0 : 1].frequency, upper, 1e-7);
+    EXPECT_NEAR(sweep.turning_points[rising ? 1 : 0].frequency, lower, 1e-7);
+  }
+}
+
+// A linear stop at a gap, one harmonic and the mean, in the limit of many points: with u = a0 + A cos(x) in
+// contact for |x| < b, the mean and the first harmonic of the force are A k_c / pi (sin b - b cos b) and
+// A k_c / pi (b - sin b cos b), a0 = gap - A cos b, and balance gives A and the frequencies for each b.
+struct LinearStop : testing::LinearContact {
+  // Hz on the branch of the higher frequency; NaN where the load does not reach that far.
+  double frequency(double b, double load, double damping) const {
+    const double share = stiffness / std::numbers::pi;
+    const double amplitude = start / (std::cos(b) - share * (std::sin(b) - b * std::cos(b)));
+    const double k = 1.0 + share * (b - std::sin(b) * std::cos(b));
+    const double half = k - 0.5 * damping * damping, ratio = load / amplitude;
+    if (amplitude < 0.0) return std::nan("");
+    return std::sqrt(half + std::sqrt(half * half - k * k + ratio * ratio)) / two_pi;
+  }
+};
+
+TEST(FrequencySweep, FindsTheFoldsOfALinearStopInBothDirections) {
+  const LinearStop stop{{.stiffness = 2.0, .start = 1.0}};
+  const double load = 0.1, damping = 0.05;
+  double lower = 1.0, upper = 0.0;
+  for (double b = 0.0; b < std::numbers::pi; b += 1e-5) {
+    const double f = stop.frequency(b, load, damping);
+    if (std::isnan(f)) break;
+    upper = std::max(upper, f);
+    lower = std::min(lower, f);
+  }
+  EXPECT_LT(lower, stop.frequency(0.0, load, damping));  // the fold lies beyond grazing
+  CondensedProblem problem(testing::fourier_pair(3, 512), testing::unit_oscillator(damping, load),
+                           testing::cosine_load());
+  for (const bool rising : {true, false}) {
+    FrequencySweepOptions options;
+    options.from = rising ? 0.1 : 0.3;
+    options.to = rising ? 0.3 : 0.1;
+    const FrequencySweep sweep = frequency_sweep(problem, stop, options);
+    ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+    ASSERT_GE(sweep.turning_points.size(), 2u);
+    const auto& [first, last] = std::pair{sweep.turning_points.front(), sweep.turning_points.back()};
+    EXPECT_NEAR((rising ? first : last).frequency, upper, 1e-5);  // 512 points find b to about (2 pi / 512)^2
+    EXPECT_NEAR((rising ? last : first).frequency, lower, 1e-5);
+  }
+}
+
+// Downwards from the low branch between the folds: round the lower fold and back on the unstable branch.
+TEST(FrequencySweep, SaysWhenTheCurveReturnsToWhereItStarted) {
+  CondensedProblem problem(testing::fourier_pair(3, 16),
+                           testing::unit_oscillator(duffing_damping, duffing_load), testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 0.3;
+  options.to = 0.05;
+  const FrequencySweep sweep = frequency_sweep(problem, Cubic{}, options);
+  ASSERT_LT(sweep.points.front().max_displacement, 0.5) << "the low branch";
+  EXPECT_EQ(sweep.status, SweepStatus::returned);
+  EXPECT_EQ(sweep.turning_points.size(), 1u);
+  EXPECT_NEAR(sweep.points.back().frequency, 0.3, 1e-9);
+  EXPECT_GT(sweep.points.back().max_displacement, 2.0 * sweep.points.front().max_displacement);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

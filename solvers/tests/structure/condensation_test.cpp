@@ -1,0 +1,315 @@
+#include "wavebalance/solvers/structure/condensation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "support/small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// The same structure with its degrees of freedom in another order, which is not tridiagonal any more.
+LinearStructure shuffled(const LinearStructure& structure, std::mt19937& generator) {
+  Eigen::PermutationMatrix<Eigen::Dynamic> order(structure.size());
+  order.setIdentity();
+  auto& indices = order.indices();
+  std::shuffle(indices.data(), indices.data() + indices.size(), generator);
+  LinearStructure out = structure;
+  out.mass = structure.mass.twistedBy(order);
+  out.damping = structure.damping.twistedBy(order);
+  out.stiffness = structure.stiffness.twistedBy(order);
+  out.load = order * structure.load;
+  for (int& dof : out.contact_dofs) dof = indices[dof];
+  return out;
+}
+
+Eigen::MatrixXcd dense(const LinearStructure& s, const StiffnessFactors& factors) {
+  return factors[0] * Eigen::MatrixXcd(s.mass.cast<Complex>()) +
+         factors[1] * Eigen::MatrixXcd(s.damping.cast<Complex>()) +
+         factors[2] * Eigen::MatrixXcd(s.stiffness.cast<Complex>());
+}
+
+struct Dense {
+  CondensedPoint point;
+  Eigen::VectorXcd recovered;
+};
+
+Dense by_dense_lu(const LinearStructure& s, const StiffnessFactors& factors, const StiffnessFactors& rates,
+                  Complex load, const Eigen::VectorXcd& contact) {
+  const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
+  const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
+  const Eigen::VectorXcd forces = s.load.cast<Complex>();
+  const auto& c = s.contact_dofs;
+  Eigen::VectorXcd all = forces * load;
+  all(c) -= contact;
+  return {{inverse(c, c), (inverse * forces)(c), slope(c, c), (slope * forces)(c)}, inverse * all};
+}
+
+void expect_equal(const CondensedPoint& a, const CondensedPoint& b, double tolerance) {
+  EXPECT_LE((a.compliance - b.compliance).norm(), tolerance * b.compliance.norm());
+  EXPECT_LE((a.load_response - b.load_response).norm(), tolerance * b.load_response.norm());
+  EXPECT_LE((a.compliance_slope - b.compliance_slope).norm(), tolerance * b.compliance_slope.norm());
+  EXPECT_LE((a.load_response_slope - b.load_response_slope).norm(), tolerance * b.load_response_slope.norm());
+}
+
+constexpr CondensationMethod all_methods[] = {CondensationMethod::tridiagonal, CondensationMethod::modal,
+                                              CondensationMethod::dense, CondensationMethod::sparse};
+
+// M, C, K times 2^entries and the factors times 2^(total - entries), seen in the old units.
+struct Rescaled {
+  Condensation condensation;
+  double factor, unit;
+
+  Rescaled(LinearStructure structure, CondensationMethod method, int entries, int total)
+      : condensation(times(std::move(structure), std::ldexp(1.0, entries)), method),
+        factor(std::ldexp(1.0, total - entries)),
+        unit(std::ldexp(1.0, total)) {}
+
+  static LinearStructure times(LinearStructure structure, double factor) {
+    for (auto* matrix : {&structure.mass, &structure.damping, &structure.stiffness}) *matrix *= factor;
+    return structure;
+  }
+  StiffnessFactors in_units(const StiffnessFactors& s) const {
+    return {s[0] * factor, s[1] * factor, s[2] * factor};
+  }
+  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+    const CondensedPoint point = condensation.at(in_units(factors), in_units(rates));
+    return {point.compliance * unit, point.load_response * unit, point.compliance_slope * unit,
+            point.load_response_slope * unit};
+  }
+  Complex spectrum_at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+    const Eigen::VectorXcd one = Eigen::VectorXcd::Constant(1, factor);
+    CondensedSpectrum result;
+    condensation.condense({one * factors[0], one * factors[1], one * factors[2]},
+                          {one * rates[0], one * rates[1], one * rates[2]}, result);
+    return result.compliance_slope(0, 0) * unit;
+  }
+};
+
+// Numbers whose squares overflow or vanish, as entries of the matrices and as factors.
+TEST(Condensation, StiffnessesBeyondTheRangeOfSquaresAreOnlyAnotherUnit) {
+  std::mt19937 generator(7);
+  LinearStructure chain = testing::random_chain(12, generator);
+  chain.load = Eigen::VectorXd::Unit(12, 11) * 2.0;
+  chain.contact_dofs = {11};
+  const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  const Eigen::VectorXcd force = Eigen::VectorXcd::Constant(1, Complex(0.3, -0.4));
+  for (const CondensationMethod method : all_methods) {
+    Rescaled ordinary(chain, method, 0, 0);
+    const CondensedPoint expected = ordinary.at(factors, rates);
+    const Eigen::VectorXcd full = ordinary.condensation.recover(factors, Complex(1.0, 2.0), force);
+    for (const int entries : {-900, -520, 0, 520, 900})
+      for (const int total : {-520, 0, 520, 900}) {
+        if (std::abs(total - entries) > 1000) continue;  // factors out of range
+        Rescaled rescaled(chain, method, entries, total);
+        expect_equal(rescaled.at(factors, rates), expected, 1e-13);
+        EXPECT_LE(std::abs(rescaled.spectrum_at(factors, rates) - expected.compliance_slope(0, 0)),
+                  1e-13 * std::abs(expected.compliance_slope(0, 0)));
+        const Eigen::VectorXcd recovered =
+            rescaled.condensation.recover(rescaled.in_units(factors), Complex(1.0, 2.0), force);
+        EXPECT_LE((recovered * rescaled.unit - full).norm(), 1e-13 * full.norm());
+      }
+  }
+}
+
+// Of one to three contacts: the chain, whose damping its modes decouple, by every method.
+TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
+  std::mt19937 generator(1);
+  const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  for (const int size : {1, 2, 9, 25})
+    for (const int contacts : {1, 2, 3}) {
+      if (contacts > size) continue;
+      LinearStructure chain = testing::random_chain(size, generator);
+      chain.contact_dofs = std::vector<int>{size / 2, 0, size - 1};
+      chain.contact_dofs.resize(static_cast<std::size_t>(contacts));
+      const Eigen::VectorXcd force = testing::random_vector(contacts, generator) * Complex(0.3, -0.4);
+      const Dense expected = by_dense_lu(chain, factors, rates, Complex(1.0, 2.0), force);
+      for (const CondensationMethod method : all_methods) {
+        Condensation condensation(chain, method);
+        EXPECT_EQ(condensation.method(), method);
+        EXPECT_EQ(condensation.contacts(), contacts);
+        expect_equal(condensation.at(factors, rates), expected.point, 1e-11);
+        const auto recovered = condensation.recover(factors, Complex(1.0, 2.0), force);
+        EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
+      }
+    }
+}
+
+TEST(Condensation, TakesTheFastestMethodThatTheMatricesAdmit) {
+  std::mt19937 generator(7);
+  const LinearStructure chain = testing::random_chain(120, generator);
+  EXPECT_EQ(Condensation(chain).method(), CondensationMethod::tridiagonal);
+  LinearStructure other = shuffled(chain, generator);
+  EXPECT_EQ(Condensation(other).method(), CondensationMethod::modal);
+  EXPECT_THROW(Condensation(other, CondensationMethod::tridiagonal), std::invalid_argument);
+  other.damping.coeffRef(3, 3) += 0.1;  // couples the modes
+  EXPECT_EQ(Condensation(other).method(), CondensationMethod::sparse);
+  EXPECT_THROW(Condensation(other, CondensationMethod::modal), std::invalid_argument);
+  other.stiffness =
+      Eigen::MatrixXd(Eigen::MatrixXd(chain.stiffness).llt().solve(Eigen::MatrixXd::Identity(120, 120)))
+          .sparseView();
+  other.stiffness = 0.5 * (other.stiffness + Eigen::SparseMatrix<double>(other.stiffness.transpose()));
+  EXPECT_EQ(Condensation(other).method(), CondensationMethod::dense);
+}
+
+// A contact without mass, and a body that nothing holds: modes of whichever matrix is definite.
+TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
+  std::mt19937 generator(8);
+  const StiffnessFactors factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0}, rates{Complex(-2.6), 1.0, 0.0};
+  LinearStructure massless = testing::random_chain(9, generator);
+  massless.contact_dofs = {8, 2};
+  massless.mass.row(8) *= 0.0;
+  massless.mass.col(8) *= 0.0;
+  massless.damping = 0.01 * massless.stiffness;
+  LinearStructure loose = testing::random_chain(9, generator);
+  loose.contact_dofs = {8, 2};
+  loose.stiffness.coeffRef(0, 0) = -loose.stiffness.coeff(1, 0);
+  loose.damping = 0.02 * loose.mass;
+  for (const LinearStructure& structure : {massless, loose}) {
+    const Eigen::VectorXcd force = testing::random_vector(2, generator) * Complex(0.3, -0.4);
+    const Dense expected = by_dense_lu(structure, factors, rates, 1.0, force);
+    Condensation modal(structure, CondensationMethod::modal);
+    expect_equal(modal.at(factors, rates), expected.point, 1e-11);
+    EXPECT_LE((modal.recover(factors, 1.0, force) - expected.recovered).norm(),
+              1e-11 * expected.recovered.norm());
+  }
+}
+
+// The load only at the contact takes a shorter way in the tridiagonal method.
+TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
+  const LinearStructure bar = testing::jl14_bar(25, 1e-4);
+  const Complex rate(0.0, 2.0 * std::numbers::pi * 1275.0);
+  const StiffnessFactors factors{rate * rate, rate, 1.0};
+  const StiffnessFactors rates{2.0 * rate, 1.0, 0.0};
+  expect_equal(Condensation(bar).at(factors, rates),
+               by_dense_lu(bar, factors, rates, 1.0, Eigen::VectorXcd::Zero(1)).point, 1e-9);
+}
+
+// A bar that is loaded and touches at its tip takes the recursion over all k, any other structure goes point
+// by point.
+TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
+  std::mt19937 generator(4);
+  const LinearStructure chain = testing::random_chain(7, generator);
+  for (const LinearStructure& structure : {chain, shuffled(chain, generator), testing::jl14_bar(25, 1e-4)}) {
+    const double unit = structure.stiffness.coeff(0, 0) / structure.mass.coeff(0, 0);
+    StiffnessSpectrum factors, rates;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double scale = std::pow(unit, 0.5 * (2.0 - double(d)));
+      factors[d] =
+          (testing::random_vector(9, generator) + Complex(0, 1) * testing::random_vector(9, generator)) *
+          scale;
+      rates[d] =
+          (testing::random_vector(9, generator) + Complex(0, 1) * testing::random_vector(9, generator)) *
+          scale;
+    }
+    Condensation condensation(structure);
+    CondensedSpectrum result;
+    condensation.condense(factors, rates, result);
+    ASSERT_EQ(result.compliance.rows(), 9);
+    for (int k = 0; k < 9; ++k) {
+      const CondensedPoint point = condensation.at({factors[0][k], factors[1][k], factors[2][k]},
+                                                   {rates[0][k], rates[1][k], rates[2][k]});
+      const int contacts = structure.contacts();
+      expect_equal(
+          {result.compliance.row(k).reshaped(contacts, contacts), result.load_response.row(k).transpose(),
+           result.compliance_slope.row(k).reshaped(contacts, contacts),
+           result.load_response_slope.row(k).transpose()},
+          point, 1e-11);
+    }
+  }
+}
+
+// Central differences of step h: the error of the slope is h^2 / 6 of the third derivative and eps / h.
+TEST(Condensation, SlopesAreTheDerivativesAlongTheRates) {
+  std::mt19937 generator(2);
+  const LinearStructure chain = testing::random_chain(6, generator);
+  for (const LinearStructure& structure : {chain, shuffled(chain, generator)}) {
+    Condensation condensation(structure);
+    const StiffnessFactors factors{Complex(-2.0, 0.1), Complex(0.0, 1.5), 1.0};
+    const StiffnessFactors rates{Complex(-2.7, 0.3), Complex(0.1, 1.0), Complex(0.2, 0.1)};
+    const auto moved = [&](double h) {
+      StiffnessFactors at = factors;
+      for (std::size_t i = 0; i < 3; ++i) at[i] += h * rates[i];
+      return condensation.at(at, rates);
+    };
+    const double h = 1e-5;
+    const CondensedPoint point = condensation.at(factors, rates), ahead = moved(h), behind = moved(-h);
+    EXPECT_LE(((ahead.compliance - behind.compliance) / (2 * h) - point.compliance_slope).norm(),
+              1e-7 * point.compliance_slope.norm());
+    EXPECT_LE(((ahead.load_response - behind.load_response) / (2 * h) - point.load_response_slope).norm(),
+              1e-7 * point.load_response_slope.norm());
+  }
+}
+
+// Z = [0 1; 1 0] for both orders: regular, but the first pivot of an elimination without exchange vanishes.
+TEST(Condensation, VanishingLeadingPivotIsNotSingular) {
+  LinearStructure s;
+  Eigen::Matrix2d stiffness, mass;
+  stiffness << 4.0, 1.0, 1.0, 5.0;
+  mass << 4.0, 0.0, 0.0, 5.0;
+  s.stiffness = stiffness.sparseView();
+  s.mass = mass.sparseView();
+  s.damping = Eigen::SparseMatrix<double>(2, 2);
+  s.load = Eigen::Vector2d(3.0, 0.0);
+  s.contact_dofs = {1};
+  Condensation condensation(s);
+  const CondensedPoint point = condensation.at({-1.0, 0.0, 1.0}, {0.0, 0.0, 1.0});
+  EXPECT_NEAR(point.compliance.norm(), 0.0, 1e-14);
+  EXPECT_NEAR(std::abs(point.load_response[0] - 3.0), 0.0, 1e-14);
+  s.load = Eigen::Vector2d(0.0, 3.0);  // now at the contact: the recursion over k
+  const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1), none = Eigen::VectorXcd::Zero(1);
+  CondensedSpectrum result;
+  Condensation(s).condense({-one, none, one}, {none, none, one}, result);
+  EXPECT_NEAR(result.load_response.norm(), 0.0, 1e-14);
+}
+
+TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
+  std::mt19937 generator(3);
+  for (const int size : {1, 2, 25}) {
+    LinearStructure bar = testing::jl14_bar(size, 0.0);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(bar.stiffness),
+                                                                          Eigen::MatrixXd(bar.mass));
+    for (const LinearStructure& structure : {bar, shuffled(bar, generator)}) {
+      Condensation condensation(structure);
+      const Complex at = -modes.eigenvalues()[0];
+      EXPECT_THROW(condensation.at({at, 0.0, 1.0}, {1.0, 0.0, 0.0}), SingularSystem) << size;
+      EXPECT_THROW(condensation.recover({at, 0.0, 1.0}, 1.0, Eigen::VectorXcd::Zero(1)), SingularSystem)
+          << size;
+      const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
+      CondensedSpectrum result;
+      EXPECT_THROW(condensation.condense({at * one, 0.0 * one, one}, {one, one, one}, result),
+                   SingularSystem);
+      EXPECT_NO_THROW(condensation.at({at * 1.0001, 0.0, 1.0}, {1.0, 0.0, 0.0})) << size;
+    }
+  }
+}
+
+TEST(Condensation, RefusesMatricesThatDoNotFit) {
+  LinearStructure bar = testing::jl14_bar(3, 1e-4);
+  bar.stiffness.coeffRef(0, 1) *= 2.0;
+  EXPECT_THROW(Condensation{bar}, std::invalid_argument);
+  bar = testing::jl14_bar(3, 1e-4);
+  bar.damping.resize(2, 2);
+  try {
+    Condensation{bar};
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("damping is 2 x 2; the load has 3"), std::string::npos);
+  }
+  bar = testing::jl14_bar(3, 1e-4);
+  for (const std::vector<int>& contacts : {std::vector<int>{3}, {-1}, {}, {1, 0, 1}}) {
+    bar.contact_dofs = contacts;
+    EXPECT_THROW(Condensation{bar}, std::invalid_argument) << contacts.size();
+  }
+  EXPECT_THROW(Condensation{LinearStructure{}}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

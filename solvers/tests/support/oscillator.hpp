@@ -1,0 +1,68 @@
+#pragma once
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+
+namespace wavebalance::solvers::testing {
+
+/// m u'' + c u' + k u = F cos(2 pi f t), with its closed form.
+struct Oscillator {
+  double mass = 2.0;          ///< kg
+  double damping = 30.0;      ///< N s/m
+  double stiffness = 8e4;     ///< N/m
+  double load = 50.0;         ///< N
+  double frequency = 25.0;    ///< Hz
+  double displacement = 0.0;  ///< m, at t = 0
+  double velocity = 0.0;      ///< m/s, at t = 0
+
+  LinearStructure structure() const {
+    LinearStructure one;
+    for (auto* matrix : {&one.mass, &one.damping, &one.stiffness}) matrix->resize(1, 1);
+    one.mass.insert(0, 0) = mass;
+    one.damping.insert(0, 0) = damping;
+    one.stiffness.insert(0, 0) = stiffness;
+    one.load = Eigen::VectorXd::Constant(1, load);
+    return one;
+  }
+
+  std::complex<double> amplitude() const {
+    const double omega = 2.0 * std::numbers::pi * frequency;
+    return load / std::complex<double>(stiffness - omega * omega * mass, omega * damping);
+  }
+  double steady_displacement(double t) const {
+    return std::real(amplitude() * std::polar(1.0, 2.0 * std::numbers::pi * frequency * t));
+  }
+  double steady_velocity(double t) const {
+    const double omega = 2.0 * std::numbers::pi * frequency;
+    return -omega * std::imag(amplitude() * std::polar(1.0, omega * t));
+  }
+  /// From the initial state, the damping below the critical one.
+  double transient_displacement(double t) const {
+    const double decay = 0.5 * damping / mass;
+    const double natural = std::sqrt(stiffness / mass - decay * decay);
+    const double a = displacement - steady_displacement(0.0);
+    const double b = (velocity - steady_velocity(0.0) + decay * a) / natural;
+    return steady_displacement(t) +
+           std::exp(-decay * t) * (a * std::cos(natural * t) + b * std::sin(natural * t));
+  }
+};
+
+/// m = k = 1.
+inline LinearStructure unit_oscillator(double damping, double load) {
+  return Oscillator{.mass = 1.0, .damping = damping, .stiffness = 1.0, .load = load}.structure();
+}
+
+/// f_c = max(stiffness (u - start), 0).
+struct LinearContact {
+  double stiffness;  ///< N/m
+  double start;      ///< m
+
+  double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
+  double tangent(double u) const { return u >= start ? stiffness : 0.0; }
+  double potential(double u) const { return 0.5 * force(u) * (u > start ? u - start : 0.0); }
+  double gap() const { return start; }
+};
+
+}  // namespace wavebalance::solvers::testing

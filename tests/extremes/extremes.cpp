@@ -1,0 +1,91 @@
+// The table of the extremes: an input, what must happen, what happened, what the solution leaves.
+#include <algorithm>
+
+#include "family.hpp"
+#include "wavebalance/report/artefact.hpp"
+
+using namespace wavebalance;
+using extremes::Case;
+using extremes::Verdict;
+
+namespace {
+
+std::string input_text(const Case& item) {
+  std::string text = item.scene;
+  for (const auto& one : item.overrides) text += " --set " + one;
+  return text;
+}
+
+std::string must_text(const Case& item) {
+  return item.named.empty() ? to_string(item.must) : to_string(item.must) + ": " + item.named;
+}
+
+std::string happened_text(const Verdict& verdict) {
+  return verdict.outcome == extremes::Outcome::solved ? to_string(verdict.outcome)
+                                                      : to_string(verdict.outcome) + ": " + verdict.text;
+}
+
+const std::vector<std::string> columns{"group",       "input",           "must",
+                                       "happened",    "motion_residual", "complementarity",
+                                       "periodicity", "seconds",         "holds"};
+
+void append(app::Table& table, const Case& item, const Verdict& verdict) {
+  const auto& found = verdict.residuals;
+  table.append_row({item.group, input_text(item), must_text(item), happened_text(verdict), found.motion,
+                    found.complementarity, found.periodicity, verdict.seconds, verdict.holds});
+}
+
+/// The same with three digits, for reading.
+void append_rounded(app::Table& table, const Case& item, const Verdict& verdict) {
+  const auto short_text = [](double value) {
+    return std::isnan(value) ? std::string("-") : report::number(value, 2);
+  };
+  const auto& found = verdict.residuals;
+  table.append_row({item.group, input_text(item), must_text(item), happened_text(verdict),
+                    short_text(found.motion), short_text(found.complementarity),
+                    short_text(found.periodicity), short_text(verdict.seconds), verdict.holds});
+}
+
+void append_units(app::Table& table, app::Table& rounded, const std::filesystem::path& scenes) {
+  constexpr double bound = 1e-9;
+  std::string names;
+  for (const auto& units : extremes::unit_systems()) names += (names.empty() ? "" : ", ") + units.scene;
+  const double difference = extremes::difference_between_units(scenes);
+  const bool holds = difference <= bound;
+  const std::string happened = "largest relative difference " + report::number(difference, 2);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  table.append_row({"units", names, "equal to 1e-9", happened, none, none, none, none, holds});
+  rounded.append_row({"units", names, "equal to 1e-9", happened, "-", "-", "-", "-", holds});
+}
+
+void make(report::Artefact& artefact, const std::filesystem::path& scenes) {
+  for (const char* name : {"bar.toml", "bar_linear.toml", "bar_rigid.toml", "bar_mm_n_t.toml",
+                           "bar_nondimensional.toml", "blade.toml", "chain.toml", "chain_rigid.toml"})
+    artefact.scene(name);
+  app::Table table(columns), rounded(columns);
+  int holding = 0;
+  double longest = 0.0;
+  for (const Case& item : extremes::family(scenes)) {
+    const Verdict verdict = extremes::judge(item, scenes);
+    append(table, item, verdict);
+    append_rounded(rounded, item, verdict);
+    holding += verdict.holds ? 1 : 0;
+    longest = std::max(longest, verdict.seconds);
+  }
+  append_units(table, rounded, scenes);
+  artefact.caption(
+      std::to_string(holding) + " of " + std::to_string(table.rows() - 1) +
+      " inputs led to what they must, the longest in " + report::number(longest, 2) +
+      " s. Residuals are computed from the samples of the response, apart from the solver: the equation of "
+      "motion of every degree of freedom; force and penetration; the change of the state over one "
+      "period of time stepping, where the error of the time basis shows.");
+  artefact.data(std::move(table), "residuals are relative; processor seconds of one run, checks included");
+  artefact.markdown(rounded);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return report::run_artefact(argc, argv, {"extremes", "Extremes", "inputs at the edge", "extremes"},
+                              [](report::Artefact& artefact) { make(artefact, artefact.scenes()); });
+}

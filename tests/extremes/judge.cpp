@@ -1,0 +1,279 @@
+#include "judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
+#include "wavebalance/spectral/fft.hpp"
+
+namespace wavebalance::extremes {
+namespace {
+
+using app::ContactLawType;
+using app::Scene;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+Eigen::VectorXcd spectrum(spectral::RealFft& fft, const Eigen::VectorXd& samples) {
+  Eigen::VectorXcd result(fft.harmonics());
+  fft.forward({samples.data(), static_cast<std::size_t>(samples.size())},
+              {result.data(), static_cast<std::size_t>(result.size())});
+  return result;
+}
+
+/// Trial coefficients of every degree of freedom, n x (M/2 + 1), by projecting its samples on the trial
+/// functions.
+Eigen::MatrixXcd coefficients(const solvers::TimePair& pair, const Eigen::MatrixXd& displacements) {
+  const solvers::TranslateIndex index{pair.functions(), pair.points()};
+  spectral::RealFft fft(pair.points());
+  Eigen::VectorXcd gram, projected;
+  index.fold(pair.trial_spectrum(), pair.trial_spectrum(), gram);
+  Eigen::MatrixXcd result(displacements.rows(), pair.spectrum_size());
+  for (Eigen::Index dof = 0; dof < displacements.rows(); ++dof) {
+    index.fold(pair.trial_spectrum(), spectrum(fft, displacements.row(dof)), projected);
+    result.row(dof) = projected.cwiseQuotient(gram);
+  }
+  return result;
+}
+
+/// Standard deviation of a coefficient's spectrum, M/2 + 1 values, by that projection of samples with errors
+/// of deviation one: large where a trial function has little of a harmonic.
+Eigen::VectorXd projected_noise(const solvers::TimePair& pair) {
+  const solvers::TranslateIndex index{pair.functions(), pair.points()};
+  Eigen::VectorXcd gram;
+  index.fold(pair.trial_spectrum(), pair.trial_spectrum(), gram);
+  return (double(pair.points()) * gram.real().cwiseInverse()).cwiseSqrt();
+}
+
+double largest(const Eigen::SparseMatrix<double>& matrix) {
+  return matrix.nonZeros() == 0
+             ? 0.0
+             : Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).cwiseAbs().maxCoeff();
+}
+
+/// Weighted contact forces of every contact, C x (M/2 + 1).
+Eigen::MatrixXcd projected(const solvers::TimePair& pair, const Eigen::MatrixXd& forces) {
+  spectral::RealFft fft(pair.points());
+  Eigen::MatrixXcd result(forces.rows(), pair.spectrum_size());
+  Eigen::VectorXcd one;
+  for (Eigen::Index contact = 0; contact < forces.rows(); ++contact) {
+    pair.project(spectrum(fft, forces.row(contact)), one);
+    result.row(contact) = one;
+  }
+  return result;
+}
+
+void measure_motion(const Scene& scene, const app::Response& response, Residuals& result) {
+  const solvers::PeriodSamples& samples = response.samples;
+  const solvers::LinearStructure structure = app::make_model(scene).structure;
+  const solvers::TimePair pair = app::make_pair(scene.time);
+  const Eigen::MatrixXcd a = coefficients(pair, samples.displacements);
+  const Eigen::MatrixXcd contact = projected(pair, response.contacts.force);
+  Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(2);
+  harmonics[1] = 1.0;
+  const Eigen::VectorXcd load = pair.load(harmonics);
+  const double f = scene.forcing.frequency;
+  const double mass = largest(structure.mass), damping = largest(structure.damping),
+               stiffness = largest(structure.stiffness);
+  constexpr double deviations = 4.0;  // hardly a coefficient in ten thousand has a larger error
+  const Eigen::VectorXd noise = deviations * std::numeric_limits<double>::epsilon() *
+                                samples.displacements.cwiseAbs().maxCoeff() * projected_noise(pair);
+  double worst = 0.0, scale = 0.0, rounding = 0.0;
+  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+    const std::array<Eigen::VectorXcd, 3> terms{structure.mass * (pair.symbol(2)[k] * f * f * a.col(k)),
+                                                structure.damping * (pair.symbol(1)[k] * f * a.col(k)),
+                                                structure.stiffness * (pair.symbol(0)[k] * a.col(k))};
+    Eigen::VectorXcd residual = terms[0] + terms[1] + terms[2] - structure.load * load[k];
+    residual(structure.contact_dofs) += contact.col(k);
+    double size =
+        contact.col(k).cwiseAbs().maxCoeff() + structure.load.cwiseAbs().maxCoeff() * std::abs(load[k]);
+    for (const auto& term : terms) size += term.cwiseAbs().maxCoeff();
+    worst = std::max(worst, residual.cwiseAbs().maxCoeff());
+    if (std::isnan(residual.cwiseAbs().sum())) worst = std::numeric_limits<double>::infinity();
+    scale = std::max(scale, size);
+    rounding = std::max(rounding, noise[k] * (std::abs(pair.symbol(2)[k]) * f * f * mass +
+                                              std::abs(pair.symbol(1)[k]) * f * damping +
+                                              std::abs(pair.symbol(0)[k]) * stiffness));
+  }
+  result.motion = scale > 0.0 ? worst / scale : worst;
+  result.motion_rounding = scale > 0.0 ? rounding / scale : rounding;
+}
+
+/// How far forces are outside of what their laws give within a billionth of the motion about its
+/// displacements, over the largest force. Displacements do not resolve a very stiff law any better.
+double law_violation(const Scene& scene, const app::ContactMotion& contacts) {
+  const solvers::ContactLaws laws = app::make_laws(scene);
+  const double largest = contacts.force.cwiseAbs().maxCoeff();
+  const double near = 1e-9 * contacts.displacement.cwiseAbs().maxCoeff();
+  double worst = 0.0;
+  for (int contact = 0; contact < contacts.contacts(); ++contact)
+    for (Eigen::Index l = 0; l < contacts.points(); ++l) {
+      const double u = contacts.displacement(contact, l), force = contacts.force(contact, l);
+      worst = std::max({worst, force - laws[contact].force(u + near), laws[contact].force(u - near) - force});
+    }
+  return largest > 0.0 ? worst / largest : worst;
+}
+
+double complementarity(const Scene& scene, const app::ContactMotion& contacts) {
+  if (scene.contact.law != ContactLawType::rigid) return law_violation(scene, contacts);
+  const Eigen::ArrayXXd force = contacts.force.array();
+  Eigen::ArrayXXd opening = -contacts.displacement.array();
+  for (int contact = 0; contact < contacts.contacts(); ++contact)
+    opening.row(contact) += scene.contact.gap_of(contact);
+  const double largest = force.abs().maxCoeff();
+  double span = contacts.displacement.cwiseAbs().maxCoeff();
+  // On the obstacle to rounding or to the solver's promise, which is relative to the response without
+  // contact.
+  Scene free = scene;
+  free.contact = {};
+  if (const auto motion = solve(free).contacts.displacement; motion.size() > 0)
+    span = std::max(span, motion.cwiseAbs().maxCoeff());
+  double worst = std::max(0.0, -force.minCoeff()) / (largest > 0.0 ? largest : 1.0);
+  if (span > 0.0) worst = std::max(worst, -opening.minCoeff() / span);
+  if (largest > 0.0 && span > 0.0)
+    worst = std::max(worst, ((force / largest) * (opening / span)).abs().maxCoeff());
+  return worst;
+}
+
+/// Steps follow the fastest mode of the structure: many periods of it take too many.
+bool is_slow(const Scene& scene) {
+  const auto& bar = scene.structure;
+  return scene.forcing.frequency * bar.length < 0.01 * std::sqrt(bar.youngs_modulus / bar.density);
+}
+
+/// They also follow the contact: against a law far stiffer than the bar's elements they take too many.
+bool is_stiff(const Scene& scene, double displacement) {
+  const auto& bar = scene.structure;
+  const double element = bar.youngs_modulus * bar.area / bar.length * bar.elements;
+  return !(app::make_law(scene.contact).tangent(std::max(displacement, scene.contact.gap)) <=
+           1e4 * element);
+}
+
+bool can_be_stepped(const Scene& scene, const solvers::PeriodSamples& samples, int stepped_elements) {
+  return scene.structure.type == app::StructureType::bar && !is_slow(scene) &&
+         scene.contact.law != ContactLawType::rigid && !is_stiff(scene, samples.displacement.maxCoeff()) &&
+         !scene.structure.massless_tip && scene.structure.elements <= stepped_elements &&
+         scene.time.trial != "haar" && scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
+}
+
+double periodicity(const Scene& scene, const solvers::PeriodSamples& samples) {
+  solvers::ShootingOptions options;
+  options.output_points = 2;
+  options.settling_periods = 0;
+  options.max_iterations = 1;
+  options.initial_displacement = samples.displacements.col(0);
+  options.initial_velocity = samples.velocities.col(0);
+  try {
+    const auto result = solvers::shoot(app::make_model(scene).structure,
+                                       app::make_law(scene.contact), scene.forcing.frequency, options);
+    return result.residual_history.empty() ? missing : result.residual_history.front();
+  } catch (const std::invalid_argument&) {
+    return missing;  // an undamped structure at a natural frequency of its own
+  }
+}
+
+bool all_finite(const solvers::PeriodSamples& samples) {
+  return samples.displacement.allFinite() && samples.velocity.allFinite() &&
+         samples.contact_force.allFinite() && samples.displacements.allFinite() &&
+         samples.velocities.allFinite();
+}
+
+/// What is wrong with a response that calls itself converged; empty if nothing is.
+std::string objection(const app::Response& response, const Residuals& found) {
+  if (!all_finite(response.samples)) return "converged with samples that are not finite";
+  if (!(response.residual >= 0.0)) return "converged with a residual that is no number";
+  if (!(found.motion <= largest_motion_residual + found.motion_rounding))
+    return "converged, the equation of motion does not hold";
+  if (!(found.complementarity <= largest_complementarity)) return "converged, complementarity does not hold";
+  return "";
+}
+
+Verdict solved_or_not(const Scene& scene, int stepped_elements = 30) {
+  Verdict verdict;
+  const app::Response response = solve(scene);
+  if (!response.converged) {
+    verdict.outcome = Outcome::not_converged;
+    verdict.text = response.status;
+    return verdict;
+  }
+  if (response.samples.displacements.size() == 0) {
+    verdict.text = "converged without a motion";
+    return verdict;
+  }
+  verdict.residuals = residuals(scene, response, stepped_elements);
+  verdict.text = objection(response, verdict.residuals);
+  verdict.outcome = verdict.text.empty() ? Outcome::solved : Outcome::wrong;
+  return verdict;
+}
+
+Verdict timed(const std::function<Verdict()>& run) {
+  const std::clock_t start = std::clock();
+  Verdict verdict;
+  try {
+    verdict = run();
+  } catch (const std::exception& error) {
+    verdict.outcome = Outcome::error;
+    verdict.text = error.what();
+  }
+  verdict.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return verdict;
+}
+
+/// The error without the place where the file lies, which differs from machine to machine.
+std::string without_folder(const std::string& text, const std::filesystem::path& scenes) {
+  const std::string folder = (scenes / "").string();
+  const auto place = text.find(folder);
+  return place == std::string::npos ? text : text.substr(0, place) + text.substr(place + folder.size());
+}
+
+}  // namespace
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::solved:
+      return "solved";
+    case Outcome::error:
+      return "error";
+    case Outcome::not_converged:
+      return "not converged";
+    case Outcome::wrong:
+      break;
+  }
+  return "wrong";
+}
+
+app::Response solve(Scene scene) {
+  scene.analysis.output_points = scene.time.quadrature_points;
+  app::ResponseOptions options;
+  options.full_history = true;
+  return app::weighted_residual_response(scene, options);
+}
+
+Residuals residuals(const Scene& scene, const app::Response& response, int stepped_elements) {
+  Residuals result;
+  measure_motion(scene, response, result);
+  result.complementarity = complementarity(scene, response.contacts);
+  if (can_be_stepped(scene, response.samples, stepped_elements))
+    result.periodicity = periodicity(scene, response.samples);
+  return result;
+}
+
+Verdict judge(const Scene& scene, int stepped_elements) {
+  return timed([&] { return solved_or_not(scene, stepped_elements); });
+}
+
+Verdict judge(const Case& item, const std::filesystem::path& scenes) {
+  Verdict verdict =
+      timed([&] { return solved_or_not(app::load_scene(scenes / item.scene, item.overrides)); });
+  verdict.text = without_folder(verdict.text, scenes);
+  verdict.holds = verdict.outcome == item.must && verdict.text.find(item.named) != std::string::npos &&
+                  verdict.seconds <= most_seconds;
+  return verdict;
+}
+
+}  // namespace wavebalance::extremes
