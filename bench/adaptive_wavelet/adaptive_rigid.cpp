@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "linalg/dense_solve.hpp"
+#include "dense_solve.hpp"
 #include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "linalg/dense_solve.hpp"
+#include "dense_solve.hpp"
 #include "linalg/safe_norm.hpp"
 #include "linalg/spans.hpp"
 #include "adaptive_wavelet.hpp"

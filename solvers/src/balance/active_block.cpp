@@ -1,7 +1,5 @@
 #include "balance/active_block.hpp"
 
-#include "linalg/pivots.hpp"
-
 namespace wavebalance::solvers {
 namespace {
 
@@ -66,13 +64,13 @@ bool ActiveBlock::factorize(CondensedProblem& problem, const Eigen::VectorXd& ta
   collect(tangent);
   matrix_.resize(count(), count());
   fill(problem);
-  if (count() > 0) lu_.compute(matrix_);
-  return count() == 0 || has_regular_pivots(lu_);
+  lu_.compute(matrix_);
+  return !lu_.is_singular();
 }
 
 void ActiveBlock::solve(CondensedProblem& problem, const Eigen::VectorXd& r, Eigen::VectorXd& x) {
   Eigen::VectorXd values = r(active_);
-  if (!active_.empty()) values = lu_.solve(values).eval();
+  if (!active_.empty()) values = lu_.solve(values);
   complete(problem, r, values, x);
 }
 
@@ -90,7 +88,7 @@ bool ActiveBlock::factorize_bordered(CondensedProblem& problem, const Eigen::Vec
   }
   matrix_(count(), count()) = d - c.dot(b);
   lu_.compute(matrix_);
-  return has_regular_pivots(lu_);
+  return !lu_.is_singular();
 }
 
 void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s,
@@ -98,19 +96,17 @@ void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorX
   Eigen::VectorXd values(count() + 1);
   values.head(count()) = r(active_);
   values[count()] = s - border_row_.dot(r);
-  values = lu_.solve(values).eval();
+  values = lu_.solve(values);
   y = values[count()];
   complete(problem, r - border_column_ * y, values.head(count()), x);
 }
 
-double ActiveBlock::condition() const { return matrix_.size() == 0 ? 1.0 : 1.0 / lu_.rcond(); }
+double ActiveBlock::condition() const { return lu_.condition(); }
 
 // Eliminating the samples without stiffness, on whose columns J is the identity, leaves the determinant as it
 // is.
 int ActiveBlock::determinant_sign() const {
-  if (lu_.rows() == 0) return 1;
-  const auto negative = (lu_.matrixLU().diagonal().array() < 0.0).count();
-  return static_cast<int>(lu_.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+  return lu_.determinant_sign();
 }
 
 }  // namespace wavebalance::solvers

@@ -1,9 +1,9 @@
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <span>
 #include <vector>
 
+#include "linalg/dense.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 
 namespace wavebalance::solvers {
@@ -44,7 +44,7 @@ class ActiveBlock {
   std::vector<int> active_;
   Eigen::VectorXd stiffness_;  // D at the active samples
   Eigen::MatrixXd matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  detail::Lu<double> lu_;
   Eigen::VectorXd weighted_, product_;
   Eigen::VectorXd border_column_, border_row_;  // b and c of the last bordered factorization
 };

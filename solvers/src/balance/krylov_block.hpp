@@ -1,10 +1,10 @@
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <vector>
 
-#include "linalg/gmres.hpp"
 #include "balance/harmonic_coarse_space.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/gmres.hpp"
 
 namespace wavebalance::solvers {
 
@@ -70,7 +70,7 @@ class KrylovBlock {
   Eigen::VectorXd stiffness_;  // D at the active samples
   HarmonicCoarseSpace coarse_;
   Eigen::MatrixXd matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  detail::Lu<double> lu_;
   Eigen::VectorXd weighted_, samples_, coefficients_, responses_;  // work
   double largest_gain_ = 0.0, smallest_gain_ = 0.0;                // of ||J z|| / ||z||
   bool bordered_ = false;

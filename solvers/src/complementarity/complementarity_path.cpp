@@ -1,12 +1,12 @@
 #include "complementarity/complementarity_path.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "balance/active_block.hpp"
+#include "linalg/dense.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -41,7 +41,7 @@ Eigen::MatrixXd ComplementarityPath::block(const std::vector<int>& samples) cons
 }
 
 void ComplementarityPath::invert(const std::vector<int>& samples) {
-  inverse_.assign(samples, block(samples).partialPivLu().inverse());
+  inverse_.assign(samples, detail::Lu<double>(block(samples)).inverse());
   const auto n = static_cast<double>(samples.size());
   operations_ -= 2.0 * n * n * n;
 }

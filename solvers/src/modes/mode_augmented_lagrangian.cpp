@@ -1,13 +1,12 @@
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -55,12 +54,8 @@ ModalModel scaled(const ModalModel& model, int mode) {
 // shortest one.
 bool newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {
   constexpr double tiny = 1e-14;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(hessian);
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  if (pivots.minCoeff() > tiny * pivots.maxCoeff())
-    step = -lu.solve(gradient);
-  else
-    step = -hessian.completeOrthogonalDecomposition().solve(gradient);
+  const detail::Lu<double> lu(hessian);
+  step = lu.is_singular(tiny) ? -detail::least_squares(hessian, gradient) : -lu.solve(gradient);
   return step.allFinite();
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "linalg/dense.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -67,14 +69,13 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
         matrix(i, j) += compliance(row, column);
     }
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
+  const detail::Lu<double> lu(matrix);
   const Eigen::VectorXd values = lu.solve(right);
   force.setZero(unknowns_);
   for (Eigen::Index i = 0; i < count; ++i)
     for (const int index : orbit(representatives[static_cast<std::size_t>(i)])) force[index] = values[i];
   constexpr double tiny = 1e-13;
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  return values.allFinite() && pivots.minCoeff() > tiny * matrix.cwiseAbs().maxCoeff();
+  return values.allFinite() && !lu.is_singular(tiny);
 }
 
 // How far a sample is from its condition, relative to gap or largest force; not positive when it holds.

@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <set>
 
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"

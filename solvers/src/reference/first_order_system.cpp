@@ -1,12 +1,12 @@
 #include "wavebalance/solvers/reference/first_order_system.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -14,14 +14,15 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-Eigen::LLT<Eigen::MatrixXd> factor_mass(const LinearStructure& structure) {
-  Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(structure.mass)};
-  if (factor.info() != Eigen::Success)
+// The lower Cholesky factor of the mass.
+Eigen::MatrixXd factor_mass(const LinearStructure& structure) {
+  const auto factor = detail::cholesky(Eigen::MatrixXd(structure.mass));
+  if (!factor)
     throw std::invalid_argument(
         "FirstOrderSystem: mass (" + std::to_string(structure.size()) + " x " +
         std::to_string(structure.size()) +
         ") is not positive definite; time integration needs a mass on every degree of freedom");
-  return factor;
+  return *factor;
 }
 
 }  // namespace
@@ -35,17 +36,20 @@ FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws
   detail::require_positive("FirstOrderSystem", "frequency_hz", frequency_hz);
   const double period = 1.0 / frequency_hz;
   const int n = structure.size();
-  const Eigen::LLT<Eigen::MatrixXd> mass = factor_mass(structure);
-  load_ = period * mass.solve(structure.load);
+  const Eigen::MatrixXd lower = factor_mass(structure);
+  const auto divide_by_mass = [&](const Eigen::MatrixXd& right) -> Eigen::MatrixXd {
+    return detail::solve_lower_transposed(lower, detail::solve_lower(lower, right));
+  };
+  load_ = period * divide_by_mass(structure.load);
   Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(n, structure.contacts());
   for (int c = 0; c < structure.contacts(); ++c)
     contacts(contact_dofs_[static_cast<std::size_t>(c)], c) = 1.0;
-  contact_inertia_ = period * mass.solve(contacts);
+  contact_inertia_ = period * divide_by_mass(contacts);
   linear_ = RowMajorMatrix::Zero(2 * n, 2 * n);
   linear_.topRightCorner(n, n).diagonal().setConstant(two_pi);
   linear_.bottomLeftCorner(n, n) =
-      -period / angular_frequency_ * mass.solve(Eigen::MatrixXd(structure.stiffness));
-  linear_.bottomRightCorner(n, n) = -period * mass.solve(Eigen::MatrixXd(structure.damping));
+      -period / angular_frequency_ * divide_by_mass(Eigen::MatrixXd(structure.stiffness));
+  linear_.bottomRightCorner(n, n) = -period * divide_by_mass(Eigen::MatrixXd(structure.damping));
 }
 
 void FirstOrderSystem::derivative(double periods, std::span<const double> state,

@@ -1,13 +1,12 @@
 #include "wavebalance/solvers/reference/shooting.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 #include "reference/shooting_propagator.hpp"
 
@@ -120,7 +119,7 @@ class Shooting {
       if (result.residual <= options_.tolerance) return ShootingStatus::converged;
       if (result.iterations == options_.max_iterations) return ShootingStatus::not_converged;
       sensitivity.diagonal().array() -= 1.0;
-      if (!search(state, -sensitivity.partialPivLu().solve(change), result.residual))
+      if (!search(state, -detail::Lu<double>(sensitivity).solve(change), result.residual))
         return ShootingStatus::not_converged;
       ++result.iterations;
     }
@@ -139,7 +138,7 @@ class Shooting {
   }
 
   static void store_multipliers(const Eigen::MatrixXd& sensitivity, ShootingResult& result) {
-    result.floquet_multipliers = Eigen::EigenSolver<Eigen::MatrixXd>(sensitivity, false).eigenvalues();
+    result.floquet_multipliers = detail::eigenvalues(sensitivity);
     std::stable_sort(result.floquet_multipliers.begin(), result.floquet_multipliers.end(),
                      [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   }

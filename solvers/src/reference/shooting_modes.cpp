@@ -1,11 +1,11 @@
 #include "reference/shooting_modes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "linalg/dense.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -26,17 +26,16 @@ void require_modal_damping(const Eigen::MatrixXd& modal) {
 
 ModalStructure::ModalStructure(const LinearStructure& structure, double frequency_hz)
     : angular_frequency(2.0 * std::numbers::pi * frequency_hz) {
-  // The eigen solver does not look at its own factorisation of the mass.
-  if (Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(structure.mass)).info() != Eigen::Success)
+  if (!cholesky(Eigen::MatrixXd(structure.mass)))
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(structure.stiffness),
-                                                                         Eigen::MatrixXd(structure.mass)};
-  if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite())
+  const auto modes =
+      symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
+  if (!modes)
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
-  stiffness = solver.eigenvalues();
-  shapes = solver.eigenvectors();
+  stiffness = modes->values;
+  shapes = modes->vectors;
   const Eigen::MatrixXd modal_damping = shapes.transpose() * (structure.damping * shapes);
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();

@@ -3,7 +3,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,6 +12,8 @@
 #include <numbers>
 #include <span>
 
+#include "linalg/dense.hpp"
+#include "linalg/gsl_errors.hpp"
 #include "linalg/option_checks.hpp"
 #include "wavebalance/solvers/reference/first_order_system.hpp"
 
@@ -51,22 +52,12 @@ double state_scale(const LinearStructure& structure, double angular_frequency,
       Eigen::MatrixXcd(structure.stiffness.cast<Complex>() -
                        Complex(angular_frequency * angular_frequency) * structure.mass.cast<Complex>() +
                        Complex(0.0, angular_frequency) * structure.damping.cast<Complex>());
-  const Eigen::VectorXcd response = impedance.partialPivLu().solve(structure.load.cast<Complex>());
+  const detail::Lu<Complex> lu(impedance);
+  const Eigen::VectorXcd response = lu.solve(Eigen::VectorXcd(structure.load.cast<Complex>()));
   const double linear = angular_frequency * response.cwiseAbs().maxCoeff();
   const double scale = std::max(std::isfinite(linear) ? linear : 0.0, initial.cwiseAbs().maxCoeff());
   return scale > 0.0 ? scale : 1.0;
 }
-
-class SilencedGslErrors {
- public:
-  SilencedGslErrors() : previous_(gsl_set_error_handler_off()) {}
-  ~SilencedGslErrors() { gsl_set_error_handler(previous_); }
-  SilencedGslErrors(const SilencedGslErrors&) = delete;
-  SilencedGslErrors& operator=(const SilencedGslErrors&) = delete;
-
- private:
-  gsl_error_handler_t* previous_;
-};
 
 std::span<const double> view(const double* values, int size) {
   return {values, static_cast<std::size_t>(size)};
@@ -262,7 +253,7 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
   validate(options, structure.size());
   FirstOrderSystem system(structure, laws, frequency_hz);
   const Eigen::VectorXd initial = initial_state(system, options);
-  const SilencedGslErrors silence;
+  const detail::SilencedGslErrors silence;
   Integrator integrator(system, initial, options,
                         state_scale(structure, system.angular_frequency(), initial));
   PeriodRecorder recorder(system, options.output_points);

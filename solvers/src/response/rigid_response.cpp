@@ -1,6 +1,5 @@
 #include "wavebalance/solvers/response/rigid_response.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "balance/active_block.hpp"
 #include "complementarity/unilateral_force.hpp"
+#include "linalg/dense.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -38,7 +38,7 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   fill_active_compliance(problem, active, matrix);
   const Eigen::VectorXd right = (problem.free_response() - gap)(active);
   const double unit = matrix.cwiseAbs().maxCoeff();  // compliances below 1e-154 m/N have squares that vanish
-  const Eigen::VectorXd values = (matrix / unit).completeOrthogonalDecomposition().solve(right) / unit;
+  const Eigen::VectorXd values = detail::least_squares(matrix / unit, right) / unit;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(start.size());
   force(active) = values;
   Eigen::VectorXd product(start.size());

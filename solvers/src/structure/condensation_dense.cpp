@@ -1,5 +1,4 @@
-#include <Eigen/LU>
-
+#include "linalg/dense.hpp"
 #include "structure/condensation_direct.hpp"
 
 namespace wavebalance::solvers {
@@ -15,7 +14,7 @@ class DenseMethod final : public DirectMethod {
   }
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const override { return solver_.solve(right); }
 
-  Eigen::PartialPivLU<Eigen::MatrixXcd> solver_;
+  detail::Lu<std::complex<double>> solver_;
 };
 
 }  // namespace

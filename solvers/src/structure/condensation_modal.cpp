@@ -1,9 +1,8 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "linalg/dense.hpp"
 #include "structure/condensation_method.hpp"
 
 namespace wavebalance::solvers {
@@ -18,11 +17,11 @@ struct Modes {
 };
 
 // L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its own entry.
-std::optional<Eigen::LLT<Eigen::MatrixXd>> definite_factor(const Eigen::MatrixXd& matrix) {
-  Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  if (factor.info() != Eigen::Success) return std::nullopt;
+std::optional<Eigen::MatrixXd> definite_factor(const Eigen::MatrixXd& matrix) {
+  auto factor = detail::cholesky(matrix);
+  if (!factor) return std::nullopt;
   const double rounding = 100.0 * double(matrix.rows()) * std::numeric_limits<double>::epsilon();
-  const Eigen::ArrayXd pivots = factor.matrixLLT().diagonal().array().square();
+  const Eigen::ArrayXd pivots = factor->diagonal().array().square();
   if (!(pivots > rounding * matrix.diagonal().array()).all()) return std::nullopt;
   return factor;
 }
@@ -32,12 +31,11 @@ bool solve_modes(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denomi
                  Eigen::MatrixXd& shapes, Eigen::VectorXd& ratios) {
   const auto factor = definite_factor(denominator);
   if (!factor) return false;
-  Eigen::MatrixXd scaled = factor->matrixL().solve(numerator);
-  scaled = factor->matrixL().solve(scaled.transpose()).eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  if (solver.info() != Eigen::Success) return false;
-  shapes = factor->matrixU().solve(solver.eigenvectors());
-  ratios = solver.eigenvalues();
+  const Eigen::MatrixXd scaled = detail::solve_lower(*factor, numerator);
+  const auto modes = detail::symmetric_eigen(detail::solve_lower(*factor, scaled.transpose()));
+  if (!modes) return false;
+  shapes = detail::solve_lower_transposed(*factor, modes->vectors);
+  ratios = modes->values;
   return true;
 }
 
