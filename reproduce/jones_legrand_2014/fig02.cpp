@@ -1,6 +1,6 @@
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/spectral/trigonometric_transform.hpp"
+#include "wavebalance/spectral/fft.hpp"
 
 using namespace wavebalance;
 
@@ -8,15 +8,24 @@ namespace {
 
 const std::vector<std::string> names{"1", "cos 2πt", "sin 2πt", "cos 4πt", "sin 4πt", "cos 6πt"};
 
+// Samples of function i of the basis, whose spectrum has one entry.
+Eigen::VectorXd samples(std::size_t i, int points) {
+  std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(points) / 2 + 1);
+  if (i == 0)
+    spectrum[0] = 1.0;
+  else
+    spectrum[(i + 1) / 2] = i % 2 == 1 ? std::complex(0.5, 0.0) : std::complex(0.0, -0.5);
+  Eigen::VectorXd values(points);
+  spectral::RealFft(points).inverse(spectrum, {values.data(), static_cast<std::size_t>(points)});
+  return values;
+}
+
 jl14::Table functions_table() {
   constexpr int points = 1024;
-  spectral::TrigonometricTransform transform(static_cast<int>(names.size()), points);
   jl14::Table table;
   table.add_column("time_fraction", app::time_fractions(points));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(static_cast<Eigen::Index>(names.size()), i);
-    table.add_column("function_" + std::to_string(i + 1), transform.inverse(unit));
-  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    table.add_column("function_" + std::to_string(i + 1), samples(i, points));
   return table;
 }
 

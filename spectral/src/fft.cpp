@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <stdexcept>
 #include <string>
+
+#include "require.hpp"
 
 namespace wavebalance::spectral {
 namespace {
@@ -31,22 +34,15 @@ std::unique_ptr<T[], FreeBuffer> make_buffer(int count) {
   return std::unique_ptr<T[], FreeBuffer>(static_cast<T*>(memory));
 }
 
-int require_positive(int size) {
-  if (size >= 1) return size;
-  throw std::invalid_argument("RealFft: size is " + std::to_string(size) + "; it must be at least 1");
-}
-
-void require_length(const char* call, const char* span, std::size_t found, int wanted, int size) {
-  if (found == static_cast<std::size_t>(wanted)) return;
-  throw std::invalid_argument("RealFft::" + std::string(call) + ": " + span + " has " +
-                              std::to_string(found) + " entries; a transform of size " +
-                              std::to_string(size) + " needs " + std::to_string(wanted));
+int checked_size(int size) {
+  detail::require_at_least("RealFft: size", size, 1);
+  return size;
 }
 
 fftw_complex* as_fftw(std::complex<double>* values) { return reinterpret_cast<fftw_complex*>(values); }
 
-// The plans of one size, each made by the first transform that needs it: planning takes longer than a
-// transform, and many objects transform in one direction only. Executing a plan changes nothing in it.
+// The two plans of one size. Each is made by the first transform that needs it, because planning takes longer
+// than a transform and many objects transform in one direction only. Execution does not change a plan.
 class PlanPair {
  public:
   explicit PlanPair(int size) : size_(size) {}
@@ -58,7 +54,7 @@ class PlanPair {
   PlanPair(const PlanPair&) = delete;
   PlanPair& operator=(const PlanPair&) = delete;
 
-  // `real` and `complex` are not touched: plans made by estimate only look at their alignment.
+  // Planning by estimate does not write to `real` and `complex`; only their alignment matters.
   fftw_plan forward(double* real, fftw_complex* complex) {
     const std::lock_guard lock(planner_mutex());
     if (forward_ == nullptr)
@@ -83,8 +79,8 @@ class PlanPair {
   fftw_plan inverse_ = nullptr;
 };
 
-// Plans outlive the objects that use them, up to this many points in all: resolutions are tried again and
-// again.
+// Plans are kept after the objects that use them, up to `most_points` points in total, because a solver makes
+// transforms of the same sizes many times.
 std::shared_ptr<PlanPair> shared_plans(int size) {
   constexpr std::size_t most_points = std::size_t{1} << 20;
   static std::mutex mutex;
@@ -134,7 +130,7 @@ struct RealFft::Plan {
   fftw_plan inverse_ = nullptr;
 };
 
-RealFft::RealFft(int size) : size_(require_positive(size)), plan_(std::make_unique<Plan>(size)) {}
+RealFft::RealFft(int size) : size_(checked_size(size)), plan_(std::make_unique<Plan>(size)) {}
 RealFft::~RealFft() = default;
 RealFft::RealFft(RealFft&&) noexcept = default;
 RealFft& RealFft::operator=(RealFft&&) noexcept = default;
@@ -142,8 +138,8 @@ RealFft& RealFft::operator=(RealFft&&) noexcept = default;
 // One plan serves aligned and unaligned spans, so that the result does not depend on where the caller's data
 // lie.
 void RealFft::forward(std::span<const double> in, std::span<std::complex<double>> out) {
-  require_length("forward", "in", in.size(), size_, size_);
-  require_length("forward", "out", out.size(), harmonics(), size_);
+  detail::require_length("RealFft::forward: in", std::ssize(in), size_);
+  detail::require_length("RealFft::forward: out", std::ssize(out), harmonics());
   double* source = const_cast<double*>(in.data());  // kept by FFTW_PRESERVE_INPUT
   if (!plan_->fits(in.data())) source = std::copy(in.begin(), in.end(), plan_->real.get()) - size_;
   const bool direct = plan_->fits(out.data());
@@ -153,8 +149,8 @@ void RealFft::forward(std::span<const double> in, std::span<std::complex<double>
 }
 
 void RealFft::inverse(std::span<const std::complex<double>> in, std::span<double> out) {
-  require_length("inverse", "in", in.size(), harmonics(), size_);
-  require_length("inverse", "out", out.size(), size_, size_);
+  detail::require_length("RealFft::inverse: in", std::ssize(in), harmonics());
+  detail::require_length("RealFft::inverse: out", std::ssize(out), size_);
   std::complex<double>* source = plan_->complex.get();  // the fast complex-to-real plans destroy their input
   std::copy(in.begin(), in.end(), source);
   source[0] = source[0].real();

@@ -1,5 +1,6 @@
 #include "wavebalance/spectral/fourier_basis.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -7,29 +8,31 @@
 #include <stdexcept>
 #include <string>
 
-#include "derivative_symbol.hpp"
+#include "require.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::spectral {
 namespace {
 
-void require_at_least(const char* name, int value, int least) {
-  if (value >= least) return;
-  throw std::invalid_argument("FourierBasis: " + std::string(name) + " is " + std::to_string(value) +
-                              "; it must be at least " + std::to_string(least));
+// (2 pi i harmonic)^derivative with an exact power of i.
+std::complex<double> derivative_symbol(int harmonic, int derivative) {
+  constexpr std::array<std::complex<double>, 4> powers_of_i{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  const double magnitude = std::pow(2.0 * std::numbers::pi * harmonic, derivative);
+  return powers_of_i[static_cast<std::size_t>(derivative % 4)] * magnitude;
 }
 
 void require_representable(int functions, int derivative) {
-  if (derivative * std::log10(std::numbers::pi * functions + 1.0) < 300.0) return;
+  const double most = 300.0 / std::log10(std::numbers::pi * functions + 1.0);
+  if (derivative < most) return;
   throw std::invalid_argument("FourierBasis::samples: derivative is " + std::to_string(derivative) +
-                              "; with " + std::to_string(functions) +
-                              " functions its values do not fit a double");
+                              "; it must be below " + std::to_string(most) + " with " +
+                              std::to_string(functions) + " functions, so that its values fit a double");
 }
 
 }  // namespace
 
 FourierBasis::FourierBasis(int functions, Nyquist nyquist) : functions_(functions), nyquist_(nyquist) {
-  require_at_least("functions", functions, 1);
+  detail::require_at_least("FourierBasis: functions", functions, 1);
 }
 
 std::complex<double> FourierBasis::fourier_coefficient(int harmonic) const {
@@ -42,14 +45,14 @@ std::complex<double> FourierBasis::fourier_coefficient(int harmonic) const {
 }
 
 Eigen::VectorXd FourierBasis::samples(int points, int derivative) const {
-  require_at_least("points", points, 1);
-  require_at_least("derivative", derivative, 0);
+  detail::require_at_least("FourierBasis::samples: points", points, 1);
+  detail::require_at_least("FourierBasis::samples: derivative", derivative, 0);
   require_representable(functions_, derivative);
-  // Harmonics that differ by a multiple of `points` have the same samples: add them up.
+  // Harmonics that differ by a multiple of `points` have the same samples, so their coefficients are added.
   Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(points / 2 + 1);
   for (int n = -functions_ / 2; n <= functions_ / 2; ++n) {
     const int bin = (n % points + points) % points;
-    if (2 * static_cast<long long>(bin) > points) continue;  // the conjugate of a bin that is kept
+    if (2 * static_cast<long long>(bin) > points) continue;  // conjugate of a bin that is kept
     spectrum[bin] += fourier_coefficient(n) * derivative_symbol(n, derivative);
   }
   Eigen::VectorXd values(points);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -38,17 +39,25 @@ Eigen::VectorXd random_coefficients(int harmonics, unsigned seed) {
 
 // Coefficients of the cube by convolution of the two-sided spectrum, without any sampling.
 Eigen::VectorXd convolved_cube(const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXcd half = to_complex(coefficients);
-  const int harmonics = static_cast<int>(half.size()) - 1;
+  using Complex = std::complex<double>;
+  const int harmonics = static_cast<int>(coefficients.size()) / 2;
   const auto c = [&](int n) {
-    if (std::abs(n) > harmonics) return std::complex<double>(0.0);
-    return n < 0 ? std::conj(half[-n]) : half[n];
+    const int m = std::abs(n);
+    if (m > harmonics) return Complex(0.0);
+    if (m == 0) return Complex(coefficients[0]);
+    return Complex(coefficients[2 * m - 1], n > 0 ? -coefficients[2 * m] : coefficients[2 * m]) / 2.0;
   };
-  Eigen::VectorXcd result = Eigen::VectorXcd::Zero(harmonics + 1);
-  for (int n = 0; n <= harmonics; ++n)
+  Eigen::VectorXd result(coefficients.size());
+  for (int n = 0; n <= harmonics; ++n) {
+    Complex sum = 0.0;
     for (int a = -harmonics; a <= harmonics; ++a)
-      for (int b = -harmonics; b <= harmonics; ++b) result[n] += c(a) * c(b) * c(n - a - b);
-  return to_real(result);
+      for (int b = -harmonics; b <= harmonics; ++b) sum += c(a) * c(b) * c(n - a - b);
+    if (n == 0)
+      result[0] = sum.real();
+    else
+      result.segment<2>(2 * n - 1) << 2.0 * sum.real(), -2.0 * sum.imag();
+  }
+  return result;
 }
 
 // The defining sums, for any scalar.
@@ -168,7 +177,7 @@ TEST(Aft, RejectsTooFewPointsAndWrongLengths) {
     Aft aft(3, 6);
     FAIL() << "six points cannot tell seven coefficients apart";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "Aft: points is 6; 3 harmonics need at least 2H+1 = 7");
+    EXPECT_STREQ(error.what(), "Aft: points is 6; it must be at least 7");
   }
   EXPECT_THROW(Aft(3, 7).force(Eigen::VectorXd::Zero(6), square), std::invalid_argument);
   EXPECT_THROW(Aft(3, 7).jacobian(Eigen::VectorXd::Zero(8), square), std::invalid_argument);

@@ -175,11 +175,11 @@ TEST(RealFft, NamesWhatIsWrong) {
   std::vector<double> samples(8);
   std::vector<Complex> spectrum(8);
   EXPECT_EQ(message_of([&] { fft.forward(samples, spectrum); }),
-            "RealFft::forward: out has 8 entries; a transform of size 8 needs 5");
+            "RealFft::forward: out has 8 entries; it must have 5");
   spectrum.resize(5);
   samples.resize(7);
   EXPECT_EQ(message_of([&] { fft.inverse(spectrum, samples); }),
-            "RealFft::inverse: out has 7 entries; a transform of size 8 needs 8");
+            "RealFft::inverse: out has 7 entries; it must have 8");
 }
 
 }  // namespace

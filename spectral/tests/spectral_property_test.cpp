@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "wavebalance/spectral/aft.hpp"
+#include "wavebalance/spectral/fourier_basis.hpp"
 
 namespace wavebalance::spectral {
 namespace {
@@ -47,31 +50,32 @@ RC_GTEST_PROP(RealFftProperty, AShiftInTimeTurnsThePhases, ()) {
   RC_ASSERT((spectrum_of(shifted) - expected).cwiseAbs().maxCoeff() <= 32 * eps * size);
 }
 
-RC_GTEST_PROP(TrigonometricTransformProperty, ForwardIsTheAdjointOfInverse, ()) {
-  const int functions = *rc::gen::inRange(1, 60);
-  const int points = functions + *rc::gen::inRange(1, 60);
-  const Nyquist nyquist = *rc::gen::element(Nyquist::cosine, Nyquist::sine);
-  TrigonometricTransform transform(functions, points, nyquist);
-  const Eigen::VectorXd coefficients = any_vector(functions);
+// <u(a), f>/N = <a, W F(f)> with W the mean squares of the functions.
+RC_GTEST_PROP(AftProperty, TheSumsAreTheAdjointOfTheSamples, ()) {
+  const int harmonics = *rc::gen::inRange(0, 30);
+  const int points = 2 * harmonics + 1 + *rc::gen::inRange(0, 60);
+  Aft aft(harmonics, points);
+  const Eigen::VectorXd coefficients = any_vector(aft.coefficients());
   const Eigen::VectorXd samples = any_vector(points);
-  // <inverse a, u>/N = <a, W forward u>, W the mean squares of the functions.
-  Eigen::VectorXd weighted = 0.5 * transform.forward(samples);
+  const PointwiseLaw prescribed = [&](std::span<const double>, std::span<double> result) {
+    std::copy(samples.begin(), samples.end(), result.begin());
+  };
+  Eigen::VectorXd weighted = 0.5 * aft.force(coefficients, prescribed).coefficients;
   weighted[0] *= 2.0;
-  const double left = transform.inverse(coefficients).dot(samples) / points;
-  RC_ASSERT(std::abs(left - coefficients.dot(weighted)) <= 64 * eps * functions);
+  const double left = aft.displacement(coefficients).dot(samples) / points;
+  RC_ASSERT(std::abs(left - coefficients.dot(weighted)) <= 64 * eps * aft.coefficients());
 }
 
 RC_GTEST_PROP(AftProperty, AShiftOfTheDisplacementShiftsTheForce, ()) {
   const int harmonics = *rc::gen::inRange(0, 12);
   const int points = 2 * harmonics + 1 + *rc::gen::inRange(0, 40);
-  const double turn =
+  const double angle =
       2.0 * std::numbers::pi * *rc::gen::inRange(0, points) / points;  // a whole number of samples
   const Eigen::VectorXd at = any_vector(2 * harmonics + 1);
-  const auto shift = [turn](const Eigen::VectorXd& coefficients) {
-    Eigen::VectorXcd complex = to_complex(coefficients);
-    for (Eigen::Index n = 1; n < complex.size(); ++n)
-      complex[n] *= std::polar(1.0, -turn * static_cast<double>(n));
-    return to_real(complex);
+  const auto shift = [angle](Eigen::VectorXd coefficients) {
+    for (int n = 1; 2 * n < coefficients.size(); ++n)
+      coefficients.segment<2>(2 * n - 1) = Eigen::Rotation2D(n * angle) * coefficients.segment<2>(2 * n - 1);
+    return coefficients;
   };
   const PointwiseLaw law = [](std::span<const double> u, std::span<double> f) {
     for (std::size_t i = 0; i < u.size(); ++i) f[i] = std::abs(u[i]) + std::max(u[i] - 0.3, 0.0);

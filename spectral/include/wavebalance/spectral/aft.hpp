@@ -3,7 +3,7 @@
 #include <functional>
 #include <span>
 
-#include "wavebalance/spectral/trigonometric_transform.hpp"
+#include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::spectral {
 
@@ -22,18 +22,19 @@ struct AftForce {
 ///     F_n = (2/N) sum_l f(u(t_l)) {cos, sin} 2 pi n t_l,   mean with 1/N,   0 <= n <= H.
 ///
 /// The sums are exact for a polynomial force of degree p when N > (p+1) H; other forces alias, see
-/// aliasing(). Real coefficients throughout; to_complex and to_real convert. Not to be used from two threads
-/// at the same time.
+/// aliasing(). All coefficients are real. Not to be used from two threads at the same time (it owns an FFT
+/// plan).
 class Aft {
  public:
   /// harmonics: H >= 0; points: N >= 2H+1. Throws std::invalid_argument otherwise.
   Aft(int harmonics, int points);
 
-  int harmonics() const { return harmonics_; }        ///< H
-  int points() const { return transform_.points(); }  ///< N
+  int harmonics() const { return harmonics_; }  ///< H
+  int points() const { return fft_.size(); }    ///< N
   int coefficients() const { return 2 * harmonics_ + 1; }
 
-  /// N samples of the displacement with the given 2H+1 coefficients. O(N log N).
+  /// N samples of the displacement with the given 2H+1 coefficients. O(N log N). This and all functions below
+  /// throw std::invalid_argument for another number of coefficients.
   Eigen::VectorXd displacement(const Eigen::Ref<const Eigen::VectorXd>& coefficients);
 
   /// Force samples and coefficients. O(N log N).
@@ -46,12 +47,17 @@ class Aft {
                            const PointwiseLaw& tangent);
 
   /// Aliasing estimate |F_N - F_2N| / |F_2N| with F_2N the same sums over 2N points and |.| the root mean
-  /// square over the period; 0 when both vanish. One more force evaluation, at t = (l + 1/2)/N. O(N log N).
+  /// square over the period; 0 when both vanish. It evaluates the force a second time, at t = (l + 1/2)/N.
+  /// O(N log N).
   double aliasing(const Eigen::Ref<const Eigen::VectorXd>& coefficients, const PointwiseLaw& force);
 
  private:
+  Eigen::VectorXd samples_at(const Eigen::Ref<const Eigen::VectorXd>& coefficients, double shift);
+  Eigen::VectorXd coefficients_of(const Eigen::VectorXd& samples, double shift);
+
   int harmonics_;
-  TrigonometricTransform transform_;
+  RealFft fft_;
+  Eigen::VectorXcd spectrum_;
 };
 
 }  // namespace wavebalance::spectral

@@ -11,9 +11,10 @@ namespace wavebalance::spectral {
 ///     inverse:  u(l) = sum_{n=-N/2}^{N/2} c(n) exp(2 pi i n l/N),  c(-n) = conj c(n), n = +-N/2 counted once
 ///
 /// Neither is normalised: forward then inverse multiplies by N. For a period sampled at l/N, c(n)/N
-/// approximates the Fourier coefficient of harmonic n. O(N log N) for every N, primes included. Plans are
-/// made by the first transform of that size each way, without timing, so that results are the same bit for
-/// bit every time; they are shared by all objects of one size and kept up to 2^20 points in all.
+/// approximates the Fourier coefficient of harmonic n. O(N log N) for every N, primes included. The plan of a
+/// direction is made by the first transform of that size and direction, without timing, so that results
+/// repeat bit for bit. All objects of one size share their plans; plans of up to 2^20 points in total are
+/// kept.
 ///
 /// The object owns work buffers: one object must not be used from two threads at the same time (hence no
 /// const transforms), different objects may. Making and destroying objects is thread-safe. Movable, not
@@ -29,12 +30,12 @@ class RealFft {
   int size() const { return size_; }               ///< N
   int harmonics() const { return size_ / 2 + 1; }  ///< coefficients 0..N/2 that the transform has
 
-  /// in: N samples, kept; out: N/2 + 1 coefficients. The spans must not overlap; any alignment is right.
+  /// in: N samples, not changed; out: N/2 + 1 coefficients. The spans must not overlap; any alignment works.
   /// Throws std::invalid_argument if a length is wrong.
   void forward(std::span<const double> in, std::span<std::complex<double>> out);
 
-  /// in: N/2 + 1 coefficients, kept; out: N samples. The imaginary parts of c(0) and, for even N, of c(N/2)
-  /// are taken as zero: a real signal has none. Throws std::invalid_argument if a length is wrong.
+  /// in: N/2 + 1 coefficients, not changed; out: N samples. The imaginary parts of c(0) and, for even N, of
+  /// c(N/2) are taken as zero: a real signal has none. Throws std::invalid_argument if a length is wrong.
   void inverse(std::span<const std::complex<double>> in, std::span<double> out);
 
  private:

@@ -9,7 +9,7 @@ namespace wavebalance::spectral {
 enum class Nyquist {
   cosine,  ///< cos(M pi t), the order {1, cos 2 pi t, sin 2 pi t, ...} of [JL14, Fig. 2] cut after M
            ///< functions
-  sine     ///< sin(M pi t), which is not blind to even derivatives when paired with Haar functions
+  sine     ///< sin(M pi t): with Haar weights and even derivatives the inner products of cos(M pi t) vanish
 };
 
 /// The Fourier space span{1, cos 2 pi t, sin 2 pi t, cos 4 pi t, ...} of M functions on the circle [0, 1), as
@@ -27,20 +27,18 @@ class FourierBasis {
   int functions() const { return functions_; }  ///< M
   Nyquist nyquist() const { return nyquist_; }  ///< without effect for odd M
 
-  /// d^derivative g/dt^derivative at t = l/points, l = 0..points-1; points < M folds the spectrum, so any
-  /// points >= 1 will do. O(M derivative + points log points). Throws std::invalid_argument if points < 1,
-  /// derivative < 0 or (M pi)^derivative is too large for a double.
+  /// d^derivative g/dt^derivative at t = l/points, l = 0..points-1, for any points >= 1: where points < M,
+  /// the aliased harmonics are added. O(M derivative + points log points). Throws std::invalid_argument if
+  /// points < 1, derivative < 0 or (M pi)^derivative is too large for a double.
   Eigen::VectorXd samples(int points, int derivative = 0) const;
 
-  /// Integral over the period of g(t) exp(-2 pi i harmonic t): 1/M below M/2, 1/(2M) (cosine) or -+i/(2M)
-  /// (sine) at
-  /// +-M/2, zero above. O(1).
+  /// Integral over the period of g(t) exp(-2 pi i harmonic t): 1/M below M/2; 1/(2M) (cosine) or -+i/(2M)
+  /// (sine) at +-M/2; zero above. O(1).
   std::complex<double> fourier_coefficient(int harmonic) const;
 
   double sobolev_exponent() const { return std::numeric_limits<double>::infinity(); }
-  int pointwise_derivatives() const {
-    return 1'000'000;
-  }  ///< g is analytic: more than any order that is of use
+  /// g is analytic: a number above any order that is of use.
+  int pointwise_derivatives() const { return 1'000'000; }
   bool band_limited() const { return true; }
 
  private:
