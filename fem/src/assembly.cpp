@@ -2,22 +2,18 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <string>
+
+#include "require.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
-void require(bool valid, const std::string& message) {
-  if (!valid) throw std::invalid_argument(message);
-}
-
 void require_size(const char* where, const char* name, Eigen::Index found, Eigen::Index expected) {
-  require(found == expected, std::string(where) + ": " + name + " has size " + std::to_string(found) +
-                                 "; it must be " + std::to_string(expected));
+  detail::require_value(found == expected, where, name, static_cast<double>(found), std::to_string(expected));
 }
 
-// For every unknown the elements that have it: lists one after the other, and where each starts.
+// The elements of each unknown: all lists in one vector, and the start of each.
 struct Incidence {
   std::vector<int> starts;
   std::vector<int> elements;
@@ -41,11 +37,11 @@ Incidence incidence(int unknowns, const Connectivity& connectivity) {
 }  // namespace
 
 FreeDofs::FreeDofs(int dofs, std::span<const int> held) {
-  require(dofs >= 0, "FreeDofs: dofs is " + std::to_string(dofs) + "; it must not be negative");
+  detail::require_value(dofs >= 0, "FreeDofs", "dofs", dofs, "at least 0");
   unknowns_.assign(static_cast<std::size_t>(dofs), 0);
   for (int dof : held) {
-    require(dof >= 0 && dof < dofs, "FreeDofs: held has the dof " + std::to_string(dof) +
-                                        "; it must be in 0.." + std::to_string(dofs - 1));
+    if (dof < 0 || dof >= dofs)
+      detail::reject_value("FreeDofs", "an entry of held", dof, "in 0.." + std::to_string(dofs - 1));
     unknowns_[static_cast<std::size_t>(dof)] = -1;
   }
   for (int dof = 0; dof < dofs; ++dof) {
@@ -57,15 +53,10 @@ FreeDofs::FreeDofs(int dofs, std::span<const int> held) {
 }
 
 Eigen::VectorXd FreeDofs::expand(const Eigen::VectorXd& unknowns) const {
-  require_size("FreeDofs::expand", "unknowns", unknowns.size(), count());
+  require_size("FreeDofs::expand", "the size of unknowns", unknowns.size(), count());
   Eigen::VectorXd values = Eigen::VectorXd::Zero(dofs());
   for (int i = 0; i < count(); ++i) values[free_[static_cast<std::size_t>(i)]] = unknowns[i];
   return values;
-}
-
-Eigen::VectorXd FreeDofs::restrict_to_free(const Eigen::VectorXd& values) const {
-  require_size("FreeDofs::restrict_to_free", "values", values.size(), dofs());
-  return values(free_);
 }
 
 Connectivity FreeDofs::unknowns(const Connectivity& dofs) const {
@@ -73,10 +64,11 @@ Connectivity FreeDofs::unknowns(const Connectivity& dofs) const {
 }
 
 Assembly::Assembly(int unknowns, Connectivity connectivity) : connectivity_(std::move(connectivity)) {
-  require(unknowns >= 0, "Assembly: unknowns is " + std::to_string(unknowns) + "; it must not be negative");
+  detail::require_value(unknowns >= 0, "Assembly", "unknowns", unknowns, "at least 0");
   for (int unknown : connectivity_.reshaped())
-    require(unknown >= -1 && unknown < unknowns, "Assembly: connectivity has " + std::to_string(unknown) +
-                                                     "; it must be in -1.." + std::to_string(unknowns - 1));
+    if (unknown < -1 || unknown >= unknowns)
+      detail::reject_value("Assembly", "an entry of connectivity", unknown,
+                           "in -1.." + std::to_string(unknowns - 1));
   pattern_.resize(unknowns, unknowns);
   find_pattern();
 }
@@ -99,8 +91,9 @@ void Assembly::find_pattern() {
       }
     std::sort(rows.begin() + first, rows.end());
   }
-  require(rows.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
-          "Assembly: the matrix would have " + std::to_string(rows.size()) + " entries; the index is 32 bit");
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  detail::require_value(rows.size() <= most, "Assembly", "the number of entries of the matrix",
+                        static_cast<double>(rows.size()), "at most " + std::to_string(most));
   starts[unknowns] = static_cast<int>(rows.size());
   pattern_.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
   std::copy(rows.begin(), rows.end(), pattern_.innerIndexPtr());
@@ -115,8 +108,10 @@ Eigen::SparseMatrix<double> Assembly::matrix(
   double* values = sum.valuePtr();
   for (int element = 0; element < connectivity_.cols(); ++element) {
     const Eigen::MatrixXd part = element_matrix(element);
-    require_size("Assembly::matrix", "rows of an element matrix", part.rows(), connectivity_.rows());
-    require_size("Assembly::matrix", "columns of an element matrix", part.cols(), connectivity_.rows());
+    require_size("Assembly::matrix", "the number of rows of an element matrix", part.rows(),
+                 connectivity_.rows());
+    require_size("Assembly::matrix", "the number of columns of an element matrix", part.cols(),
+                 connectivity_.rows());
     for (Eigen::Index j = 0; j < part.cols(); ++j) {
       const int column = connectivity_(j, element);
       if (column < 0) continue;
@@ -135,7 +130,7 @@ Eigen::VectorXd Assembly::vector(const std::function<Eigen::VectorXd(int)>& elem
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(pattern_.rows());
   for (int element = 0; element < connectivity_.cols(); ++element) {
     const Eigen::VectorXd part = element_vector(element);
-    require_size("Assembly::vector", "an element vector", part.size(), connectivity_.rows());
+    require_size("Assembly::vector", "the size of an element vector", part.size(), connectivity_.rows());
     for (Eigen::Index i = 0; i < part.size(); ++i)
       if (connectivity_(i, element) >= 0) sum[connectivity_(i, element)] += part[i];
   }

@@ -1,24 +1,17 @@
 #include "wavebalance/fem/bar.hpp"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+
+#include "require.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-void require(bool valid, const char* member, double value, const char* allowed) {
-  if (valid) return;
-  std::ostringstream message;
-  message.precision(17);
-  message << "BarOptions: " << member << " is " << value << "; it must be " << allowed;
-  throw std::invalid_argument(message.str());
-}
-
 void require_positive(const char* member, double value) {
-  require(value > 0.0 && std::isfinite(value), member, value, "positive and finite");
+  detail::require_value(value > 0.0 && std::isfinite(value), "BarOptions", member, value,
+                        "positive and finite");
 }
 
 // The symmetric tridiagonal matrix of a chain of equal elements [near coupling; coupling near], clamped
@@ -52,10 +45,12 @@ void BarOptions::validate() const {
   require_positive("density", density);
   require_positive("area", area);
   require_positive("length", length);
-  require(elements >= 1 && elements <= 500'000'000, "elements", elements, "in 1..500000000");
-  require(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping), "stiffness_damping",
-          stiffness_damping, "finite and not negative");
-  require(lumped_fraction >= 0.0 && lumped_fraction <= 1.0, "lumped_fraction", lumped_fraction, "in [0, 1]");
+  detail::require_value(elements >= 1 && elements <= 500'000'000, "BarOptions", "elements", elements,
+                        "in 1..500000000");
+  detail::require_value(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping), "BarOptions",
+                        "stiffness_damping", stiffness_damping, "finite and at least 0");
+  detail::require_value(lumped_fraction >= 0.0 && lumped_fraction <= 1.0, "BarOptions", "lumped_fraction",
+                        lumped_fraction, "in [0, 1]");
 }
 
 Matrices bar(const BarOptions& options) {

@@ -2,22 +2,15 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
+
+#include "require.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
-void require(bool valid, const char* member, double value, const char* allowed) {
-  if (valid) return;
-  std::ostringstream message;
-  message.precision(17);
-  message << "BladeOptions: " << member << " is " << value << "; it must be " << allowed;
-  throw std::invalid_argument(message.str());
-}
-
 void require_positive(const char* member, double value) {
-  require(value > 0.0 && std::isfinite(value), member, value, "positive and finite");
+  detail::require_value(value > 0.0 && std::isfinite(value), "BladeOptions", member, value,
+                        "positive and finite");
 }
 
 double between(const std::array<double, 2>& ends, double s) { return ends[0] + (ends[1] - ends[0]) * s; }
@@ -43,15 +36,19 @@ void BladeOptions::validate() const {
     const auto at = static_cast<std::size_t>(end);
     require_positive("chord", chord[at]);
     require_positive("thickness_ratio", thickness_ratio[at]);
-    require(std::isfinite(camber_ratio[at]), "camber_ratio", camber_ratio[at], "finite");
-    require(std::isfinite(angle_degrees[at]), "angle_degrees", angle_degrees[at], "finite");
+    detail::require_value(std::isfinite(camber_ratio[at]), "BladeOptions", "camber_ratio", camber_ratio[at],
+                          "finite");
+    detail::require_value(std::isfinite(angle_degrees[at]), "BladeOptions", "angle_degrees",
+                          angle_degrees[at], "finite");
   }
-  require(edge_thickness > 0.0 && edge_thickness <= 1.0, "edge_thickness", edge_thickness, "in (0, 1]");
+  detail::require_value(edge_thickness > 0.0 && edge_thickness <= 1.0, "BladeOptions", "edge_thickness",
+                        edge_thickness, "in (0, 1]");
   require_positive("length", length);
   material.validate();
-  require(chord_elements >= 1, "chord_elements", chord_elements, "at least 1");
-  require(thickness_elements >= 1, "thickness_elements", thickness_elements, "at least 1");
-  require(span_elements >= 1, "span_elements", span_elements, "at least 1");
+  detail::require_value(chord_elements >= 1, "BladeOptions", "chord_elements", chord_elements, "at least 1");
+  detail::require_value(thickness_elements >= 1, "BladeOptions", "thickness_elements", thickness_elements,
+                        "at least 1");
+  detail::require_value(span_elements >= 1, "BladeOptions", "span_elements", span_elements, "at least 1");
 }
 
 Blade blade(const BladeOptions& options) {

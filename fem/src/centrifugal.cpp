@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "hexahedron.hpp"
+#include "require.hpp"
 #include "symmetric_factor.hpp"
 
 namespace wavebalance::fem {
@@ -12,14 +12,12 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-void require(bool valid, const std::string& message) {
-  if (!valid) throw std::invalid_argument("centrifugal_stiffness: " + message);
-}
-
 Eigen::Matrix3d projection_across(const RotationAxis& axis) {
   const double length = axis.direction.norm();
-  require(length > 0.0 && std::isfinite(length), "direction of the axis must be finite and not zero");
-  require(axis.point.allFinite(), "point of the axis must be finite");
+  detail::require_value(length > 0.0 && std::isfinite(length), "centrifugal_stiffness",
+                        "the length of axis.direction", length, "positive and finite");
+  detail::require(axis.point.allFinite(), "centrifugal_stiffness",
+                  "axis.point has an entry that is not finite");
   const Eigen::Vector3d unit = axis.direction / length;
   return Eigen::Matrix3d::Identity() - unit * unit.transpose();
 }
@@ -28,7 +26,7 @@ void drop_zeros(Sparse& matrix) {
   matrix.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
 }
 
-// Positions are interpolated as displacements are, so the load is the mass times the nodes' distances.
+// Positions are interpolated like displacements, so the load is the mass times the distances of the nodes.
 Eigen::VectorXd centrifugal_load(const SolidModel& model, const Assembly& assembly,
                                  const Eigen::Matrix3d& across, const Eigen::Vector3d& point) {
   return assembly.vector([&](int index) -> Eigen::VectorXd {
@@ -62,11 +60,8 @@ Eigen::MatrixXd geometric_matrix(const SolidModel& model, int index, const Eigen
 }  // namespace
 
 Sparse CentrifugalStiffness::stiffness(const Sparse& at_rest, double speed) const {
-  require(at_rest.rows() == geometric.rows() && at_rest.cols() == geometric.cols(),
-          "the stiffness at rest is " + std::to_string(at_rest.rows()) + " x " +
-              std::to_string(at_rest.cols()) + "; it must be " + std::to_string(geometric.rows()) + " x " +
-              std::to_string(geometric.cols()));
-  require(std::isfinite(speed), "speed is " + std::to_string(speed) + "; it must be finite");
+  detail::require_square(at_rest, "CentrifugalStiffness::stiffness", "at_rest", geometric.rows());
+  detail::require_value(std::isfinite(speed), "CentrifugalStiffness::stiffness", "speed", speed, "finite");
   return at_rest + speed * speed * (geometric - softening);
 }
 
@@ -74,9 +69,7 @@ CentrifugalStiffness centrifugal_stiffness(const SolidModel& model, const Sparse
                                            const RotationAxis& axis) {
   const Eigen::Matrix3d across = projection_across(axis);
   const Assembly assembly = model.assembly();
-  require(stiffness.rows() == model.dofs.count() && stiffness.cols() == model.dofs.count(),
-          "stiffness is " + std::to_string(stiffness.rows()) + " x " + std::to_string(stiffness.cols()) +
-              "; the model has " + std::to_string(model.dofs.count()) + " unknowns");
+  detail::require_square(stiffness, "centrifugal_stiffness", "stiffness", model.dofs.count());
   const detail::SymmetricFactor factor(stiffness);
   if (!factor.positive_definite())
     throw std::domain_error("centrifugal_stiffness: the stiffness is not positive definite");

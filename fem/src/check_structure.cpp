@@ -1,91 +1,98 @@
+#include "wavebalance/fem/check_structure.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "require.hpp"
 #include "symmetric_factor.hpp"
-#include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-[[noreturn]] void reject(const std::string& message) {
-  throw std::invalid_argument("check_structure: " + message);
+void require_size(StructureMatrix name, const Sparse& matrix, Eigen::Index size) {
+  if (matrix.rows() == size && matrix.cols() == size && size > 0) return;
+  throw StructureFault(name, "is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
+                                 "; it must be square, not empty and of the size of the stiffness, " +
+                                 std::to_string(size));
 }
 
-std::string text(double number) {
-  std::ostringstream digits;
-  digits << number;
-  return digits.str();
+void require_symmetric(StructureMatrix name, const Sparse& matrix, const StructureChecks& checks) {
+  const auto fault = detail::symmetry_fault(matrix, checks.symmetry_tolerance, checks.first_index);
+  if (fault) throw StructureFault(name, *fault);
 }
 
-void require_size(const Sparse& matrix, const char* name, Eigen::Index size) {
-  if (matrix.rows() != size || matrix.cols() != size || size == 0)
-    reject(std::string(name) + " is " + std::to_string(matrix.rows()) + " x " +
-           std::to_string(matrix.cols()) +
-           "; it must be square, not empty and of the size of the stiffness, " + std::to_string(size));
+// diag(factors) matrix diag(factors). With factors 1/sqrt(diagonal) the units of the unknowns (metres,
+// radians) do not affect the pivots.
+Sparse scaled(const Sparse& matrix, const Eigen::VectorXd& factors) {
+  return factors.asDiagonal() * matrix * factors.asDiagonal();
 }
 
-void require_symmetric(const Sparse& matrix, const char* name, const StructureChecks& checks) {
-  const auto place = [&](const Sparse::InnerIterator& entry) {
-    return "row " + std::to_string(entry.row() + checks.first_index) + ", column " +
-           std::to_string(entry.col() + checks.first_index);
-  };
-  double scale = 0.0;
-  for (int column = 0; column < matrix.outerSize(); ++column)
-    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (!std::isfinite(entry.value()))
-        reject(std::string(name) + " has an entry that is not finite at " + place(entry));
-      scale = std::max(scale, std::abs(entry.value()));
-    }
-  const Sparse difference = matrix - Sparse(matrix.transpose());
-  for (int column = 0; column < difference.outerSize(); ++column)
-    for (Sparse::InnerIterator entry(difference, column); entry; ++entry)
-      if (std::abs(entry.value()) > checks.symmetry_tolerance * scale)
-        reject(std::string(name) + " is not symmetric: " + place(entry) + " differs from its mirror by " +
-               text(entry.value()) + ", its largest entry is " + text(scale) + "; store both triangles");
-}
-
-// The diagonal scaled to ones, so that units of the unknowns (metres, radians) do not matter to the pivots.
-Sparse scaled(const Sparse& matrix, const char* name, int first_index) {
+void require_positive_definite(StructureMatrix name, const Sparse& matrix, int first_index,
+                               const char* advice) {
   const Eigen::VectorXd diagonal = matrix.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal[i] > 0.0))
-      reject(std::string(name) + " is not positive definite: its diagonal entry " +
-             std::to_string(i + first_index) + " is " + text(diagonal[i]));
-  const Eigen::VectorXd root = diagonal.cwiseSqrt().cwiseInverse();
-  return root.asDiagonal() * matrix * root.asDiagonal();
-}
-
-void require_positive_definite(const Sparse& matrix, const char* name, int first_index, const char* advice) {
-  const detail::SymmetricFactor factor(scaled(matrix, name, first_index));
-  if (!factor.complete() || !(factor.pivots().minCoeff() > 1e-13))
-    reject(std::string(name) + " is not positive definite" +
-           (factor.complete() ? ": a pivot is " + text(factor.pivots().minCoeff()) + " of its diagonal entry"
-                              : std::string(": a pivot is zero")) +
-           advice);
+      throw StructureFault(name, "is not positive definite: its diagonal entry " +
+                                     std::to_string(i + first_index) + " is " + detail::text(diagonal[i], 6));
+  const detail::SymmetricFactor factor(scaled(matrix, diagonal.cwiseSqrt().cwiseInverse()));
+  if (factor.complete() && factor.pivots().minCoeff() > 1e-13) return;
+  const std::string pivot = factor.complete() ? detail::text(factor.pivots().minCoeff(), 6) : "zero";
+  throw StructureFault(name,
+                       "is not positive definite: a pivot is " + pivot + " of its diagonal entry" + advice);
 }
 
 }  // namespace
 
+std::string_view to_string(StructureMatrix matrix) {
+  if (matrix == StructureMatrix::mass) return "mass";
+  return matrix == StructureMatrix::damping ? "damping" : "stiffness";
+}
+
+StructureFault::StructureFault(StructureMatrix matrix, const std::string& reason)
+    : std::invalid_argument("check_structure: " + std::string(to_string(matrix)) + " " + reason),
+      matrix_(matrix),
+      reason_(reason) {}
+
 void check_structure(const Matrices& matrices, const StructureChecks& checks) {
-  if (!(checks.symmetry_tolerance >= 0.0))
-    reject("symmetry_tolerance is " + text(checks.symmetry_tolerance) + "; it must not be negative");
+  detail::require_value(checks.symmetry_tolerance >= 0.0, "check_structure", "symmetry_tolerance",
+                        checks.symmetry_tolerance, "at least 0");
+  using enum StructureMatrix;
+  const bool damped = matrices.damping.size() > 0;
   const Eigen::Index size = matrices.stiffness.rows();
-  require_size(matrices.stiffness, "stiffness", size);
-  require_size(matrices.mass, "mass", size);
-  if (matrices.damping.size() > 0) require_size(matrices.damping, "damping", size);
-  require_symmetric(matrices.stiffness, "stiffness", checks);
-  require_symmetric(matrices.mass, "mass", checks);
-  if (matrices.damping.size() > 0) require_symmetric(matrices.damping, "damping", checks);
-  require_positive_definite(matrices.mass, "mass", checks.first_index, "");
+  require_size(stiffness, matrices.stiffness, size);
+  require_size(mass, matrices.mass, size);
+  if (damped) require_size(damping, matrices.damping, size);
+  require_symmetric(stiffness, matrices.stiffness, checks);
+  require_symmetric(mass, matrices.mass, checks);
+  if (damped) require_symmetric(damping, matrices.damping, checks);
+  require_positive_definite(mass, matrices.mass, checks.first_index, "");
   if (!checks.allow_free)
-    require_positive_definite(matrices.stiffness, "stiffness", checks.first_index,
+    require_positive_definite(stiffness, matrices.stiffness, checks.first_index,
                               "; is the structure free to move without being strained?");
+}
+
+bool positive_semidefinite(const Sparse& matrix, double tolerance) {
+  detail::require_square(matrix, "positive_semidefinite", "matrix", matrix.rows());
+  detail::require_value(tolerance > 0.0 && std::isfinite(tolerance), "positive_semidefinite", "tolerance",
+                        tolerance, "positive and finite");
+  if (matrix.rows() == 0) return true;
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  const double largest = diagonal.maxCoeff(), zero = tolerance * tolerance * largest;
+  if (!(diagonal.minCoeff() >= -zero)) return false;
+  // In a semidefinite matrix a_ij^2 <= a_ii a_jj: a row with a zero diagonal entry is zero, and left out.
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    if (diagonal[column] <= zero)
+      for (Sparse::InnerIterator entry(matrix, column); entry; ++entry)
+        if (!(std::abs(entry.value()) <= tolerance * largest)) return false;
+  const Eigen::VectorXd factors =
+      diagonal.unaryExpr([&](double d) { return d > zero ? 1.0 / std::sqrt(d) : 0.0; });
+  Sparse identity(matrix.rows(), matrix.cols());
+  identity.setIdentity();
+  return detail::SymmetricFactor(scaled(matrix, factors) + tolerance * identity).positive_definite();
 }
 
 void check_unknowns(std::span<const int> list, int unknowns, const std::string& name) {

@@ -2,24 +2,19 @@
 
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "require.hpp"
 #include "shift_invert.hpp"
 #include "wavebalance/fem/assembly.hpp"
+#include "wavebalance/fem/check_structure.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-void require(bool valid, const std::string& message) {
-  if (!valid) throw std::invalid_argument("craig_bampton: " + message);
-}
-
 void require_matrix(const Sparse& matrix, const char* name, Eigen::Index size) {
-  require(matrix.rows() == size && matrix.cols() == size,
-          std::string(name) + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
-              "; it must be " + std::to_string(size) + " x " + std::to_string(size));
+  detail::require_square(matrix, "craig_bampton", name, size);
   detail::require_symmetric(matrix, "craig_bampton", name);
 }
 
@@ -28,18 +23,13 @@ void validate(const Matrices& matrices, std::span<const int> boundary, const Cra
   require_matrix(matrices.stiffness, "stiffness", size);
   require_matrix(matrices.mass, "mass", size);
   if (matrices.damping.size() > 0) require_matrix(matrices.damping, "damping", size);
-  std::vector<bool> seen(static_cast<std::size_t>(size), false);
-  for (int unknown : boundary) {
-    require(unknown >= 0 && unknown < size,
-            "boundary has " + std::to_string(unknown) + "; it must be in 0.." + std::to_string(size - 1));
-    require(!seen[static_cast<std::size_t>(unknown)], "boundary has " + std::to_string(unknown) + " twice");
-    seen[static_cast<std::size_t>(unknown)] = true;
-  }
+  check_unknowns(boundary, static_cast<int>(size), "craig_bampton: boundary");
   const Eigen::Index interior = size - static_cast<Eigen::Index>(boundary.size());
-  require(interior >= 1, "boundary holds every unknown; nothing is left to reduce");
-  require(options.modes >= 0 && options.modes <= interior,
-          "modes is " + std::to_string(options.modes) + "; it must be in 0.." + std::to_string(interior));
-  require(options.solver.shift == 0.0, "solver.shift must be 0");
+  detail::require(interior >= 1, "craig_bampton", "boundary holds all unknowns; it must leave at least 1");
+  detail::require_value(options.modes >= 0 && options.modes <= interior, "craig_bampton", "modes",
+                        options.modes, "in 0.." + std::to_string(interior));
+  detail::require_value(options.solver.shift == 0.0, "craig_bampton", "solver.shift", options.solver.shift,
+                        "0");
 }
 
 // The block of the interior, and the columns of the boundary with interior rows.
@@ -91,7 +81,7 @@ Eigen::MatrixXd transformation(const FreeDofs& dofs, std::span<const int> bounda
   return result;
 }
 
-// The blocks that are known exactly replace what rounding made of them.
+// Sets the blocks that are known exactly, which rounding has changed.
 void clean(CraigBampton& reduced) {
   const Eigen::Index held = reduced.boundary.size(), modes = reduced.omega.size();
   reduced.stiffness.topRightCorner(held, modes).setZero();
@@ -103,25 +93,22 @@ void clean(CraigBampton& reduced) {
 }  // namespace
 
 Eigen::MatrixXd CraigBampton::project(const Sparse& matrix) const {
-  require(matrix.rows() == transformation.rows() && matrix.cols() == transformation.rows(),
-          "the matrix to project is " + std::to_string(matrix.rows()) + " x " +
-              std::to_string(matrix.cols()) + "; the structure has " + std::to_string(transformation.rows()) +
-              " unknowns");
+  detail::require_square(matrix, "CraigBampton::project", "matrix", transformation.rows());
   const Eigen::MatrixXd projected = transformation.transpose() * (matrix * transformation);
   return (projected + projected.transpose()) / 2.0;
 }
 
 Eigen::VectorXd CraigBampton::project_load(const Eigen::VectorXd& load) const {
-  require(load.size() == transformation.rows(), "the load has size " + std::to_string(load.size()) +
-                                                    "; the structure has " +
-                                                    std::to_string(transformation.rows()) + " unknowns");
+  detail::require_value(load.size() == transformation.rows(), "CraigBampton::project_load",
+                        "the size of load", static_cast<double>(load.size()),
+                        std::to_string(transformation.rows()));
   return transformation.transpose() * load;
 }
 
 Eigen::VectorXd CraigBampton::recover(const Eigen::VectorXd& coordinates) const {
-  require(coordinates.size() == transformation.cols(), "there are " + std::to_string(coordinates.size()) +
-                                                           " coordinates; there must be " +
-                                                           std::to_string(transformation.cols()));
+  detail::require_value(coordinates.size() == transformation.cols(), "CraigBampton::recover",
+                        "the size of coordinates", static_cast<double>(coordinates.size()),
+                        std::to_string(transformation.cols()));
   return transformation * coordinates;
 }
 

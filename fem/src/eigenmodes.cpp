@@ -2,7 +2,6 @@
 
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymGEigsShiftSolver.h>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "dense.hpp"
+#include "require.hpp"
 #include "shift_invert.hpp"
 
 namespace wavebalance::fem {
@@ -26,28 +27,21 @@ struct Modes {
   bool complete = true;
 };
 
-void require(bool valid, const std::string& message) {
-  if (!valid) throw std::invalid_argument("eigenmodes: " + message);
-}
-
 void validate(const Sparse& stiffness, const Sparse& mass, int count, const EigenmodesOptions& options) {
-  const auto shape = [](const Sparse& matrix) {
-    return std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols());
-  };
-  require(stiffness.rows() >= 1 && stiffness.rows() == stiffness.cols(),
-          "stiffness is " + shape(stiffness) + "; it must be square and not empty");
-  require(mass.rows() == stiffness.rows() && mass.cols() == stiffness.cols(),
-          "mass is " + shape(mass) + "; the stiffness is " + shape(stiffness));
-  require(count >= 1 && count <= stiffness.rows(),
-          "count is " + std::to_string(count) + "; it must be in 1.." + std::to_string(stiffness.rows()));
-  require(options.tolerance > 0.0 && options.tolerance < 1.0,
-          "tolerance is " + std::to_string(options.tolerance) + "; it must be in (0, 1)");
-  require(options.max_restarts >= 1,
-          "max_restarts is " + std::to_string(options.max_restarts) + "; it must be at least 1");
-  require(options.dense_up_to >= 0,
-          "dense_up_to is " + std::to_string(options.dense_up_to) + "; it must not be negative");
-  require(std::isfinite(options.shift) && options.shift <= 0.0,
-          "shift is " + std::to_string(options.shift) + "; it must be finite and not positive");
+  const Eigen::Index size = stiffness.rows();
+  detail::require(size >= 1, "eigenmodes", "stiffness has 0 rows; it must have at least 1");
+  detail::require_square(stiffness, "eigenmodes", "stiffness", size);
+  detail::require_square(mass, "eigenmodes", "mass", size);
+  detail::require_value(count >= 1 && count <= size, "eigenmodes", "count", count,
+                        "in 1.." + std::to_string(size));
+  detail::require_value(options.tolerance > 0.0 && options.tolerance < 1.0, "eigenmodes", "tolerance",
+                        options.tolerance, "in (0, 1)");
+  detail::require_value(options.max_restarts >= 1, "eigenmodes", "max_restarts", options.max_restarts,
+                        "at least 1");
+  detail::require_value(options.dense_up_to >= 0, "eigenmodes", "dense_up_to", options.dense_up_to,
+                        "at least 0");
+  detail::require_value(std::isfinite(options.shift) && options.shift <= 0.0, "eigenmodes", "shift",
+                        options.shift, "finite and at most 0");
 }
 
 [[noreturn]] void reject_stiffness(double shift) {
@@ -59,22 +53,20 @@ void validate(const Sparse& stiffness, const Sparse& mass, int count, const Eige
 // M phi = mu (K - shift M) phi: with the inverse of omega^2 as the eigenvalue, rounding is relative to the
 // lowest mode, and a singular mass is no exception.
 Modes dense_modes(const Sparse& shifted, const Sparse& mass, int count, double shift) {
-  const Eigen::MatrixXd right(shifted);
-  const Eigen::LLT<Eigen::MatrixXd> factor(right);
-  if (factor.info() != Eigen::Success) reject_stiffness(shift);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(mass), right);
-  const Eigen::VectorXd inverse = solver.eigenvalues().reverse();  // descending
+  const auto eigen = detail::generalized_eigen(Eigen::MatrixXd(mass), Eigen::MatrixXd(shifted));
+  if (!eigen) reject_stiffness(shift);
+  const Eigen::VectorXd inverse = eigen->values.reverse();  // descending
   const double rounding = 1e-14 * static_cast<double>(mass.rows()) * inverse[0];
   if (!(inverse[0] > 0.0) || inverse.tail(1)[0] < -rounding)
     throw std::domain_error("eigenmodes: mass is not positive semidefinite");
   if (inverse[count - 1] <= 0.0)
     throw std::domain_error("eigenmodes: the rank of mass is below the count of modes");
   return {inverse.head(count).cwiseInverse().array() + shift,
-          solver.eigenvectors().rowwise().reverse().leftCols(count)};
+          eigen->vectors.rowwise().reverse().leftCols(count)};
 }
 
-// The operator scale (K - shift M)^-1 as Spectra asks for it. The scale makes the largest eigenvalue about 1:
-// Spectra's tolerance has an absolute part.
+// The operator scale (K - shift M)^-1 with the members that Spectra requires. The scale makes the largest
+// eigenvalue about 1, because Spectra's tolerance has an absolute part.
 class ScaledInverse {
  public:
   using Scalar = double;
@@ -103,8 +95,8 @@ Start power_iteration(const Factor& factor, const Sparse& mass, unsigned seed) {
   const double range = 0.5 * static_cast<double>(std::mt19937::max());
   Eigen::VectorXd vector(mass.rows());
   for (double& entry : vector) entry = static_cast<double>(generator()) / range - 1.0;
-  // All modes should be in the start: one step takes it into the range, further ones serve the estimate
-  // alone.
+  // The start should contain all modes. The first step maps it into the range; further steps serve only to
+  // estimate the largest eigenvalue.
   Start start{factor.solve(mass * vector), 0.0};
   if (!(start.vector.norm() > 0.0)) throw std::domain_error("eigenmodes: mass is zero");
   start.vector.normalize();
@@ -133,8 +125,9 @@ Modes lanczos_modes(const Factor& factor, const Sparse& mass, int count, const E
           solver.info() == Spectra::CompInfo::Successful};
 }
 
-// Two steps of inverse iteration on all modes found and the best approximations in the space of the results:
-// Lanczos leaves errors of its tolerance over the distance between modes, this takes them to rounding.
+// Two steps of inverse iteration on all modes found, then the Rayleigh-Ritz approximations in the space of
+// the results. The errors that Lanczos leaves, its tolerance over the distance between modes, fall to
+// rounding.
 void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Sparse& mass, double shift) {
   if (modes.squares.size() == 0) return;
   Eigen::MatrixXd space = modes.shapes;
@@ -144,18 +137,19 @@ void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Spa
   }
   const Eigen::MatrixXd left = space.transpose() * (mass * space);
   const Eigen::MatrixXd right = space.transpose() * (shifted * space);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(left, right);
-  modes.squares = ritz.eigenvalues().reverse().cwiseInverse().array() + shift;
-  modes.shapes = space * ritz.eigenvectors().rowwise().reverse();
+  const auto ritz = detail::generalized_eigen(left, right);
+  if (!ritz) return;  // the iterates are dependent to rounding; the modes stay as Lanczos left them
+  modes.squares = ritz->values.reverse().cwiseInverse().array() + shift;
+  modes.shapes = space * ritz->vectors.rowwise().reverse();
 }
 
-// How many modes below the count-th one found, the highest that is asked for, are not among those found.
+// The number of modes below the count-th one found that are not among those found.
 int missing_modes(const Sparse& stiffness, const Sparse& mass, const Modes& modes, int count) {
   if (modes.squares.size() == 0) return 0;
   const double highest = modes.squares[std::min<Eigen::Index>(count, modes.squares.size()) - 1];
   const double below = highest - 1e-7 * std::abs(highest);
   const Factor factor(stiffness - below * mass);
-  if (!factor.complete()) return 0;  // a zero pivot: no count to be had
+  if (!factor.complete()) return 0;  // a zero pivot: the modes cannot be counted
   const auto expected = (factor.pivots().array() < 0.0).count();
   return static_cast<int>(std::max<Eigen::Index>(0, expected - (modes.squares.array() < below).count()));
 }
@@ -177,7 +171,7 @@ Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& sh
   return {modes.squares.head(kept), modes.shapes.leftCols(kept), modes.complete};
 }
 
-// phi^T M phi = 1 and a sign that does not depend on the solver.
+// Scales to phi^T M phi = 1, with a sign that does not depend on the solver.
 void normalise(Eigen::MatrixXd& shapes, const Sparse& mass) {
   for (Eigen::Index mode = 0; mode < shapes.cols(); ++mode) {
     auto shape = shapes.col(mode);
@@ -217,23 +211,6 @@ EigenmodesResult sparse_eigenmodes(const SymmetricFactor& factor, const Sparse& 
                                    int count, const EigenmodesOptions& options) {
   const Sparse shifted = stiffness - options.shift * mass;
   return make_result(sparse_modes(stiffness, mass, shifted, count, options, factor), stiffness, mass);
-}
-
-void require_symmetric(const Sparse& matrix, const char* caller, const char* name) {
-  const auto reject = [&](const std::string& what) {
-    throw std::invalid_argument(std::string(caller) + ": " + name + what);
-  };
-  double scale = 0.0;
-  for (int column = 0; column < matrix.outerSize(); ++column)
-    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (!std::isfinite(entry.value())) reject(" has an entry that is not finite");
-      scale = std::max(scale, std::abs(entry.value()));
-    }
-  const Sparse difference = matrix - Sparse(matrix.transpose());
-  const double asymmetry = difference.nonZeros() > 0 ? difference.coeffs().abs().maxCoeff() : 0.0;
-  if (asymmetry > 1e-10 * scale)
-    reject(" is not symmetric: entries differ by " + std::to_string(asymmetry / scale) +
-           " of the largest; store both triangles");
 }
 
 }  // namespace detail

@@ -1,11 +1,12 @@
 #include "hexahedron.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "dense.hpp"
+#include "require.hpp"
 
 namespace wavebalance::fem::detail {
 namespace {
@@ -85,25 +86,30 @@ Eigen::Matrix3d jacobian(const Eigen::Matrix3Xd& coordinates, const PointShapes&
 double positive_determinant(const Eigen::Matrix3d& matrix) {
   const double determinant = matrix.determinant();
   if (!(determinant > 0.0))
-    throw std::invalid_argument("solid element: the Jacobian determinant is " + std::to_string(determinant) +
-                                " m^3 at an integration point; it must be positive (check the order of the "
-                                "nodes and the distortion)");
+    reject_value("solid element", "the Jacobian determinant at an integration point", determinant,
+                 "positive (m^3); check the order of the nodes and the distortion");
   return determinant;
 }
 
 // Columns: gradients of 1 - xi^2, 1 - eta^2, 1 - zeta^2 with the Jacobian at the centre in place of that at
-// the point. Their integral over the element vanishes whatever its shape, so that constant stress does no
-// work on them.
+// the point. Their integral vanishes for an element of any shape, so that constant stress does no work on
+// them.
 Eigen::Matrix3d incompatible_gradients(const Eigen::Matrix3d& centre, double determinant,
                                        const Eigen::Vector3d& point) {
   const double ratio = centre.determinant() / determinant;
   return centre.transpose().inverse() * (-2.0 * ratio * point).asDiagonal();
 }
 
+// Writes a k x k block of directions a, b into the 3k x 3k matrix of dofs 3 i + direction.
+void scatter(const Eigen::MatrixXd& block, Eigen::Index a, Eigen::Index b, Eigen::MatrixXd& matrix) {
+  for (Eigen::Index j = 0; j < block.cols(); ++j)
+    for (Eigen::Index i = 0; i < block.rows(); ++i) matrix(3 * i + a, 3 * j + b) = block(i, j);
+}
+
 void require_sizes(SolidElement element, const Eigen::Matrix3Xd& coordinates) {
   if (coordinates.cols() != nodes_per_element(element))
-    throw std::invalid_argument("solid element: coordinates has " + std::to_string(coordinates.cols()) +
-                                " columns; it must have " + std::to_string(nodes_per_element(element)));
+    reject_value("solid element", "the number of columns of coordinates",
+                 static_cast<double>(coordinates.cols()), std::to_string(nodes_per_element(element)));
 }
 
 }  // namespace
@@ -180,8 +186,7 @@ Eigen::MatrixXd elastic_matrix(const Samples& samples, const SolidMaterial& mate
     for (std::size_t b = 0; b < 3; ++b) {
       Eigen::MatrixXd block = lame * products[a][b] + shear * products[b][a];
       if (a == b) block += laplacian;
-      matrix(Eigen::seqN(static_cast<Eigen::Index>(a), functions, 3),
-             Eigen::seqN(static_cast<Eigen::Index>(b), functions, 3)) = block;
+      scatter(block, static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b), matrix);
     }
   return matrix;
 }
@@ -194,7 +199,7 @@ Eigen::Matrix3Xd with_incompatible_modes(SolidElement element, const Eigen::Matr
       elastic_matrix(sample(element, coordinates, stiffness_rule(element)), material);
   const Eigen::VectorXd compatible = displacements.reshaped();
   const Eigen::VectorXd added =
-      -full.bottomRightCorner(9, 9).llt().solve(full.bottomLeftCorner(9, 24) * compatible);
+      -cholesky_solve(full.bottomRightCorner(9, 9), full.bottomLeftCorner(9, 24) * compatible);
   Eigen::Matrix3Xd all(3, 11);
   all << displacements, added.reshaped(3, 3);
   return all;
@@ -227,8 +232,7 @@ Eigen::MatrixXd expand_by_block(const Eigen::MatrixXd& scalar, const Eigen::Matr
   const Eigen::Index count = scalar.rows();
   Eigen::MatrixXd matrix(3 * count, 3 * count);
   for (Eigen::Index a = 0; a < 3; ++a)
-    for (Eigen::Index b = 0; b < 3; ++b)
-      matrix(Eigen::seqN(a, count, 3), Eigen::seqN(b, count, 3)) = block(a, b) * scalar;
+    for (Eigen::Index b = 0; b < 3; ++b) scatter(block(a, b) * scalar, a, b, matrix);
   return matrix;
 }
 

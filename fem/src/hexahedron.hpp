@@ -5,19 +5,19 @@
 
 namespace wavebalance::fem::detail {
 
-/// Points (3 x p, natural coordinates) and weights of a product Gauss rule with 2 or 3 points a direction.
+/// Points (3 x p, natural coordinates) and weights of a product Gauss rule with 2 or 3 points per direction.
 struct GaussRule {
   Eigen::Matrix3Xd points;
   Eigen::VectorXd weights;
 };
-GaussRule gauss_rule(int points_a_direction);
+GaussRule gauss_rule(int points_per_direction);
 GaussRule stiffness_rule(SolidElement element);
 GaussRule mass_rule(SolidElement element);
 
 /// Natural coordinates of the nodes, 3 x k.
 Eigen::Matrix3Xd natural_nodes(SolidElement element);
 
-/// The functions of one element at p points: those of the k nodes and behind them, in gradients only, the
+/// The functions of one element at p points: those of the k nodes and, after them and in gradients only, the
 /// three incompatible modes of the 8-node element.
 struct Samples {
   Eigen::MatrixXd values;                    // k x p
@@ -28,10 +28,10 @@ struct Samples {
 /// Throws std::invalid_argument if the Jacobian is not positive at a point or sizes do not fit.
 Samples sample(SolidElement element, const Eigen::Matrix3Xd& coordinates, const GaussRule& rule);
 
-/// Of all functions, incompatible ones included: 3f x 3f.
+/// The elastic matrix of all functions, the incompatible ones included, 3f x 3f.
 Eigen::MatrixXd elastic_matrix(const Samples& samples, const SolidMaterial& material);
 
-/// 3 x functions: the displacements and the incompatible modes that make their energy least.
+/// 3 x functions: the displacements and the amplitudes of the incompatible modes that minimize the energy.
 Eigen::Matrix3Xd with_incompatible_modes(SolidElement element, const Eigen::Matrix3Xd& coordinates,
                                          const SolidMaterial& material,
                                          const Eigen::Matrix3Xd& displacements);

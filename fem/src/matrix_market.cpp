@@ -1,6 +1,7 @@
 #include "wavebalance/fem/matrix_market.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace wavebalance::fem {
@@ -85,24 +87,27 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// The header's symmetry. `format` is coordinate or array.
-std::string read_header(Lines& lines, const std::string& format, const std::vector<std::string>& symmetries) {
+struct Header {
+  bool array, symmetric;
+};
+
+Header read_header(Lines& lines) {
   if (!lines.next()) lines.fail("the file is empty");
   const auto& words = lines.words();
   if (words.size() != 5 || lower(words[0]) != "%%matrixmarket" || lower(words[1]) != "matrix")
-    lines.fail("the header must be \"%%MatrixMarket matrix " + format + " real " + symmetries[0] + "\"");
-  if (lower(words[2]) != format)
-    lines.fail("the format is \"" + std::string(words[2]) + "\"; it must be " + format);
-  if (lower(words[3]) != "real" && lower(words[3]) != "integer")
-    lines.fail("the field is \"" + std::string(words[3]) + "\"; it must be real or integer");
-  const std::string symmetry = lower(words[4]);
-  if (std::find(symmetries.begin(), symmetries.end(), symmetry) == symmetries.end())
-    lines.fail("the symmetry is \"" + symmetry + "\"; it must be " + symmetries[0] +
-               (symmetries.size() > 1 ? " or " + symmetries[1] : ""));
-  return symmetry;
+    lines.fail("the header must be \"%%MatrixMarket matrix coordinate real general\" or a variant of it");
+  const auto choice = [&](std::size_t word, const char* what, const char* first, const char* second) {
+    const std::string found = lower(words[word]);
+    if (found != first && found != second)
+      lines.fail(std::string("the ") + what + " is \"" + found + "\"; it must be " + first + " or " + second);
+    return found == second;
+  };
+  const bool array = choice(2, "format", "coordinate", "array");
+  choice(3, "field", "real", "integer");
+  return {array, choice(4, "symmetry", "general", "symmetric")};
 }
 
-// A line of sizes alone must not take memory that no file of that length can need.
+// Bounds the memory that a line of sizes alone can claim.
 constexpr int largest_side = 100'000'000;
 
 int read_size(const Lines& lines, std::size_t word, const char* what) {
@@ -119,33 +124,41 @@ int read_side(const Lines& lines, std::size_t word, const char* what) {
   return size;
 }
 
-void require_data(Lines& lines, int found, int expected) {
+void require_data(Lines& lines, long long found, long long expected) {
   if (!lines.next_with_data())
     lines.fail("the file ends after " + std::to_string(found) + " of " + std::to_string(expected) +
                " entries");
 }
 
-void require_end(Lines& lines, int expected) {
+void require_end(Lines& lines, long long expected) {
   if (lines.next_with_data())
     lines.fail("there is more than the " + std::to_string(expected) + " entries announced");
 }
 
-struct CoordinateSizes {
-  int rows, columns, entries;
+struct Sizes {
+  int rows, columns;
+  long long entries;
 };
 
-CoordinateSizes read_coordinate_sizes(Lines& lines, bool symmetric) {
+// columns: how many the matrix must have, 0 for any number.
+Sizes read_sizes(Lines& lines, const Header& header, int columns) {
   if (!lines.next_with_data()) lines.fail("the line of sizes is missing");
-  lines.require_words(3, "rows, columns and entries");
-  const CoordinateSizes sizes{read_side(lines, 0, "the count of rows"),
-                              read_side(lines, 1, "the count of columns"),
-                              read_size(lines, 2, "the count of entries")};
-  if (symmetric && sizes.rows != sizes.columns)
+  lines.require_words(header.array ? 2 : 3, header.array ? "rows and columns" : "rows, columns and entries");
+  Sizes sizes{read_side(lines, 0, "the count of rows"), read_side(lines, 1, "the count of columns"), 0};
+  const long long rows = sizes.rows, room = rows * sizes.columns;
+  if (columns > 0 && sizes.columns != columns)
+    lines.fail("the count of columns is " + std::to_string(sizes.columns) + "; it must be " +
+               std::to_string(columns));
+  if (header.symmetric && sizes.rows != sizes.columns)
     lines.fail("a symmetric matrix must be square; this one is " + std::to_string(sizes.rows) + " x " +
                std::to_string(sizes.columns));
-  if (sizes.entries > static_cast<double>(sizes.rows) * sizes.columns)
+  if (header.array)
+    sizes.entries = header.symmetric ? rows * (rows + 1) / 2 : room;
+  else
+    sizes.entries = read_size(lines, 2, "the count of entries");
+  if (sizes.entries > room)
     lines.fail("the count of entries is " + std::to_string(sizes.entries) + "; the matrix has room for " +
-               std::to_string(static_cast<long long>(sizes.rows) * sizes.columns));
+               std::to_string(room));
   return sizes;
 }
 
@@ -161,9 +174,63 @@ void reject_repeats(const std::vector<Triplet>& entries, const std::string& name
 }
 
 std::ifstream open(const std::filesystem::path& file) {
+  std::error_code failure;
+  const auto status = std::filesystem::status(file, failure);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw MatrixMarketError(file.string() + " is not a regular file");
+  const std::uintmax_t size = std::filesystem::file_size(file, failure);
   std::ifstream input(file);
-  if (!input) throw MatrixMarketError(file.string() + ": the file cannot be opened for reading");
+  if (failure || !input) throw MatrixMarketError(file.string() + ": the file cannot be opened for reading");
+  if (size > largest_matrix_market_file)
+    throw MatrixMarketError(file.string() + ": the size of the file is " + std::to_string(size) +
+                            " bytes; it must be at most " + std::to_string(largest_matrix_market_file));
   return input;
+}
+
+std::vector<Triplet> read_coordinates(Lines& lines, const Sizes& sizes, bool symmetric) {
+  std::vector<Triplet> entries;
+  for (long long found = 0; found < sizes.entries; ++found) {
+    require_data(lines, found, sizes.entries);
+    lines.require_words(3, "row, column and value");
+    const int row = lines.index(0, "the row", sizes.rows);
+    const int column = lines.index(1, "the column", sizes.columns);
+    if (symmetric && row < column)
+      lines.fail("the entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) +
+                 ") is above the diagonal; a symmetric file holds the lower triangle");
+    entries.emplace_back(row, column, lines.finite(2));
+  }
+  return entries;
+}
+
+// The values column by column; of a symmetric matrix, the lower triangle. Zeros are left out.
+std::vector<Triplet> read_array(Lines& lines, const Sizes& sizes, bool symmetric) {
+  std::vector<Triplet> entries;
+  long long found = 0;
+  for (int column = 0; column < sizes.columns; ++column)
+    for (int row = symmetric ? column : 0; row < sizes.rows; ++row) {
+      require_data(lines, found++, sizes.entries);
+      lines.require_words(1, "one value");
+      const double value = lines.finite(0);
+      if (value != 0.0) entries.emplace_back(row, column, value);
+    }
+  return entries;
+}
+
+Sparse read_with_columns(std::istream& input, const std::string& name, int columns) {
+  Lines lines(input, name);
+  const Header header = read_header(lines);
+  const Sizes sizes = read_sizes(lines, header, columns);
+  std::vector<Triplet> entries = header.array ? read_array(lines, sizes, header.symmetric)
+                                              : read_coordinates(lines, sizes, header.symmetric);
+  require_end(lines, sizes.entries);
+  reject_repeats(entries, name);
+  if (header.symmetric)
+    for (std::size_t i = 0, stored = entries.size(); i < stored; ++i)
+      if (entries[i].row() != entries[i].col())
+        entries.emplace_back(entries[i].col(), entries[i].row(), entries[i].value());
+  Sparse matrix(sizes.rows, sizes.columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {
@@ -183,30 +250,7 @@ void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {
 }  // namespace
 
 Sparse read_matrix_market(std::istream& input, const std::string& name) {
-  Lines lines(input, name);
-  const bool symmetric = read_header(lines, "coordinate", {"general", "symmetric"}) == "symmetric";
-  const CoordinateSizes sizes = read_coordinate_sizes(lines, symmetric);
-  std::vector<Triplet> entries;
-  for (int found = 0; found < sizes.entries; ++found) {
-    require_data(lines, found, sizes.entries);
-    lines.require_words(3, "row, column and value");
-    const int row = lines.index(0, "the row", sizes.rows);
-    const int column = lines.index(1, "the column", sizes.columns);
-    if (symmetric && row < column)
-      lines.fail("the entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) +
-                 ") is above the diagonal; a symmetric file holds the lower triangle");
-    const double value = lines.finite(2);
-    entries.emplace_back(row, column, value);
-  }
-  require_end(lines, sizes.entries);
-  reject_repeats(entries, name);
-  if (symmetric)
-    for (std::size_t i = 0, stored = entries.size(); i < stored; ++i)
-      if (entries[i].row() != entries[i].col())
-        entries.emplace_back(entries[i].col(), entries[i].row(), entries[i].value());
-  Sparse matrix(sizes.rows, sizes.columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return read_with_columns(input, name, 0);
 }
 
 Sparse read_matrix_market(const std::filesystem::path& file) {
@@ -215,21 +259,7 @@ Sparse read_matrix_market(const std::filesystem::path& file) {
 }
 
 Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string& name) {
-  Lines lines(input, name);
-  read_header(lines, "array", {"general"});
-  if (!lines.next_with_data()) lines.fail("the line of sizes is missing");
-  lines.require_words(2, "rows and columns");
-  const int rows = read_size(lines, 0, "the count of rows");
-  const int columns = read_size(lines, 1, "the count of columns");
-  if (columns != 1) lines.fail("the count of columns is " + std::to_string(columns) + "; it must be 1");
-  std::vector<double> values;
-  for (int found = 0; found < rows; ++found) {
-    require_data(lines, found, rows);
-    lines.require_words(1, "one value");
-    values.push_back(lines.finite(0));
-  }
-  require_end(lines, rows);
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), rows);
+  return Eigen::VectorXd(read_with_columns(input, name, 1).col(0));
 }
 
 Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file) {
@@ -262,6 +292,21 @@ void write_matrix_market(const std::filesystem::path& file, const Sparse& matrix
   write_matrix_market(output, matrix, symmetry);
   output.close();
   if (!output) throw MatrixMarketError(file.string() + ": writing failed");
+}
+
+void write_matrix_market_array(std::ostream& output, const Eigen::MatrixXd& matrix,
+                               const std::string& comment) {
+  std::string text = "%%MatrixMarket matrix array real general\n";
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);) text += "% " + line + "\n";
+  text += std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + "\n";
+  std::array<char, 32> digits;
+  for (const double value : matrix.reshaped()) {
+    text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+    text += '\n';
+  }
+  output << text;
+  if (!output) throw MatrixMarketError("write_matrix_market_array: writing failed");
 }
 
 }  // namespace wavebalance::fem

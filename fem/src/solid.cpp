@@ -1,36 +1,21 @@
 #include "wavebalance/fem/solid.hpp"
 
-#include <Eigen/Cholesky>
-
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "dense.hpp"
 #include "hexahedron.hpp"
+#include "require.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
-void require(bool valid, const std::string& message) {
-  if (!valid) throw std::invalid_argument(message);
+void require_count(const char* where, const char* name, Eigen::Index found, Eigen::Index expected) {
+  detail::require_value(found == expected, where, name, static_cast<double>(found), std::to_string(expected));
 }
 
-void require_member(bool valid, const char* member, double value, const char* allowed) {
-  if (valid) return;
-  std::ostringstream message;
-  message.precision(17);
-  message << "SolidMaterial: " << member << " is " << value << "; it must be " << allowed;
-  throw std::invalid_argument(message.str());
-}
-
-void require_displacements(Eigen::Index found, Eigen::Index expected) {
-  require(found == expected, "solid: displacements has " + std::to_string(found) +
-                                 " columns; it must have one for each of the " + std::to_string(expected) +
-                                 " nodes");
-}
-
-// Runs a computation on one element and says which one it was that failed.
+// Calls a function that computes something for one element; its errors get the number of the element.
 template <typename Function>
 auto on_element(int index, Function&& function) {
   try {
@@ -56,11 +41,12 @@ Eigen::MatrixXd extension_to_nodes(SolidElement element) {
 int nodes_per_element(SolidElement element) { return element == SolidElement::hexahedron8 ? 8 : 20; }
 
 void SolidMaterial::validate() const {
-  require_member(youngs_modulus > 0.0 && std::isfinite(youngs_modulus), "youngs_modulus", youngs_modulus,
-                 "positive and finite");
-  require_member(poissons_ratio > -1.0 && poissons_ratio < 0.5, "poissons_ratio", poissons_ratio,
-                 "in (-1, 1/2)");
-  require_member(density > 0.0 && std::isfinite(density), "density", density, "positive and finite");
+  detail::require_value(youngs_modulus > 0.0 && std::isfinite(youngs_modulus), "SolidMaterial",
+                        "youngs_modulus", youngs_modulus, "positive and finite");
+  detail::require_value(poissons_ratio > -1.0 && poissons_ratio < 0.5, "SolidMaterial", "poissons_ratio",
+                        poissons_ratio, "in (-1, 1/2)");
+  detail::require_value(density > 0.0 && std::isfinite(density), "SolidMaterial", "density", density,
+                        "positive and finite");
 }
 
 Eigen::Matrix3Xd SolidMesh::coordinates(int index) const {
@@ -71,16 +57,14 @@ Eigen::Matrix3Xd SolidMesh::coordinates(int index) const {
 }
 
 void SolidMesh::validate() const {
-  require(elements.cols() >= 1, "SolidMesh: there are no elements");
-  require(elements.rows() == nodes_per_element(element),
-          "SolidMesh: elements has " + std::to_string(elements.rows()) + " rows; it must have " +
-              std::to_string(nodes_per_element(element)));
-  require(nodes.allFinite(), "SolidMesh: nodes has a coordinate that is not finite");
+  detail::require_value(elements.cols() >= 1, "SolidMesh", "the number of elements", 0, "at least 1");
+  require_count("SolidMesh", "the number of rows of elements", elements.rows(), nodes_per_element(element));
+  detail::require(nodes.allFinite(), "SolidMesh", "nodes has a coordinate that is not finite");
   for (Eigen::Index index = 0; index < elements.cols(); ++index)
     for (int node : elements.col(index))
-      require(node >= 0 && node < nodes.cols(), "SolidMesh: element " + std::to_string(index) + " has node " +
-                                                    std::to_string(node) + "; it must be in 0.." +
-                                                    std::to_string(nodes.cols() - 1));
+      if (node < 0 || node >= nodes.cols())
+        detail::reject_value("SolidMesh", "a node of element " + std::to_string(index), node,
+                             "in 0.." + std::to_string(nodes.cols() - 1));
 }
 
 Eigen::MatrixXd element_stiffness(SolidElement element, const Eigen::Matrix3Xd& coordinates,
@@ -91,7 +75,8 @@ Eigen::MatrixXd element_stiffness(SolidElement element, const Eigen::Matrix3Xd& 
   if (element != SolidElement::hexahedron8) return full;
   const Eigen::MatrixXd coupling = full.bottomLeftCorner(9, 24);
   const Eigen::MatrixXd condensed =
-      full.topLeftCorner(24, 24) - coupling.transpose() * full.bottomRightCorner(9, 9).llt().solve(coupling);
+      full.topLeftCorner(24, 24) -
+      coupling.transpose() * detail::cholesky_solve(full.bottomRightCorner(9, 9), coupling);
   return (condensed + condensed.transpose()) / 2.0;
 }
 
@@ -102,16 +87,6 @@ Eigen::MatrixXd element_mass(SolidElement element, const Eigen::Matrix3Xd& coord
                                  Eigen::Matrix3d::Identity());
 }
 
-Stress element_stress(SolidElement element, const Eigen::Matrix3Xd& coordinates,
-                      const SolidMaterial& material, const Eigen::Matrix3Xd& displacements,
-                      const Eigen::Vector3d& point) {
-  material.validate();
-  require_displacements(displacements.cols(), nodes_per_element(element));
-  const detail::Samples samples = detail::sample(element, coordinates, {point, Eigen::VectorXd::Ones(1)});
-  return detail::stress_at(samples, material,
-                           detail::with_incompatible_modes(element, coordinates, material, displacements));
-}
-
 Eigen::Matrix3Xd SolidModel::displacements(const Eigen::VectorXd& unknowns) const {
   return dofs.expand(unknowns).reshaped(3, mesh.nodes.cols());
 }
@@ -119,8 +94,7 @@ Eigen::Matrix3Xd SolidModel::displacements(const Eigen::VectorXd& unknowns) cons
 Assembly SolidModel::assembly() const {
   mesh.validate();
   material.validate();
-  require(dofs.dofs() == 3 * mesh.nodes.cols(), "SolidModel: dofs counts " + std::to_string(dofs.dofs()) +
-                                                    "; it must be 3 x " + std::to_string(mesh.nodes.cols()));
+  require_count("SolidModel", "the number of dofs", dofs.dofs(), 3 * mesh.nodes.cols());
   Connectivity unknowns(3 * mesh.elements.rows(), mesh.elements.cols());
   for (Eigen::Index index = 0; index < mesh.elements.cols(); ++index)
     for (Eigen::Index i = 0; i < unknowns.rows(); ++i)
@@ -133,9 +107,8 @@ SolidModel hold_nodes(SolidMesh mesh, const SolidMaterial& material, const std::
   material.validate();
   std::vector<int> held;
   for (int node : nodes) {
-    require(node >= 0 && node < mesh.nodes.cols(), "hold_nodes: nodes has " + std::to_string(node) +
-                                                       "; it must be in 0.." +
-                                                       std::to_string(mesh.nodes.cols() - 1));
+    detail::require_value(node >= 0 && node < mesh.nodes.cols(), "hold_nodes", "an entry of nodes", node,
+                          "in 0.." + std::to_string(mesh.nodes.cols() - 1));
     for (int axis = 0; axis < 3; ++axis) held.push_back(3 * node + axis);
   }
   const FreeDofs dofs(3 * static_cast<int>(mesh.nodes.cols()), held);
@@ -143,9 +116,8 @@ SolidModel hold_nodes(SolidMesh mesh, const SolidMaterial& material, const std::
 }
 
 Matrices solid_matrices(const SolidModel& model, double stiffness_damping) {
-  require(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping),
-          "solid_matrices: stiffness_damping is " + std::to_string(stiffness_damping) +
-              "; it must be finite and not negative");
+  detail::require_value(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping), "solid_matrices",
+                        "stiffness_damping", stiffness_damping, "finite and at least 0");
   const Assembly assembly = model.assembly();
   const SolidMesh& mesh = model.mesh;
   Matrices matrices;
@@ -168,7 +140,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> nodal_stress(const SolidModel& model,
   const SolidMesh& mesh = model.mesh;
   mesh.validate();
   model.material.validate();
-  require_displacements(displacements.cols(), mesh.nodes.cols());
+  require_count("nodal_stress", "the number of columns of displacements", displacements.cols(),
+                mesh.nodes.cols());
   const Eigen::MatrixXd extension = extension_to_nodes(mesh.element);
   Eigen::Matrix<double, 6, Eigen::Dynamic> sum =
       Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, mesh.nodes.cols());

@@ -1,8 +1,8 @@
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include "hexahedron.hpp"
+#include "require.hpp"
 
 namespace wavebalance::fem {
 namespace {
@@ -13,13 +13,12 @@ class Lattice {
   Lattice(const std::array<int, 3>& cells, bool midpoints) : cells_(cells), midpoints_(midpoints) {
     double places = 1.0;
     for (int count : cells) {
-      if (count < 1)
-        throw std::invalid_argument("structured_mesh: cells has " + std::to_string(count) +
-                                    "; each must be at least 1");
+      if (count < 1) detail::reject_value("structured_mesh", "an entry of cells", count, "at least 1");
       places *= 2.0 * count + 1.0;
     }
-    if (places > std::numeric_limits<int>::max() / 4.0)
-      throw std::invalid_argument("structured_mesh: cells asks for too many nodes");
+    const double most = std::numeric_limits<int>::max() / 4;
+    detail::require_value(places <= most, "structured_mesh", "the product of 2 cells + 1", places,
+                          "at most " + detail::text(most));
     numbers_.assign(static_cast<std::size_t>(places), -1);
     for (int k = 0; k <= 2 * cells[2]; ++k)
       for (int j = 0; j <= 2 * cells[1]; ++j)

@@ -9,16 +9,15 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "require.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 constexpr int quadratic_hexahedron = 25;
 constexpr int linear_hexahedron = 12;
-
-void require(bool valid, const std::string& message) {
-  if (!valid) throw std::invalid_argument(message);
-}
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -55,7 +54,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-// The data arrays of a file: as text where they stand, or collected behind the tree.
+// The data arrays of a file: written as text in place, or collected and appended after the XML tree.
 class Arrays {
  public:
   Arrays(std::ostream& output, VtuFormat format) : output_(output), format_(format) {}
@@ -94,14 +93,16 @@ class Arrays {
 void validate(const SolidMesh& mesh, std::span<const PointField> fields) {
   mesh.validate();
   for (const PointField& field : fields) {
-    require(!field.name.empty(), "write_vtu: a field has no name");
-    const std::string start = "write_vtu: the field " + field.name;
-    require(field.values.cols() == mesh.nodes.cols(), start + " has " + std::to_string(field.values.cols()) +
-                                                          " columns; the mesh has " +
-                                                          std::to_string(mesh.nodes.cols()) + " nodes");
-    require(field.values.rows() >= 1 && field.values.rows() <= 9,
-            start + " has " + std::to_string(field.values.rows()) + " rows; it must have 1 to 9");
-    require(field.values.allFinite(), start + " has an entry that is not finite");
+    detail::require(!field.name.empty(), "write_vtu", "a field has no name");
+    const Eigen::Index rows = field.values.rows(), columns = field.values.cols(), nodes = mesh.nodes.cols();
+    if (columns != nodes)
+      detail::reject_value("write_vtu", "the number of columns of the field " + field.name,
+                           static_cast<double>(columns), "that of the nodes, " + std::to_string(nodes));
+    if (rows < 1 || rows > 9)
+      detail::reject_value("write_vtu", "the number of rows of the field " + field.name,
+                           static_cast<double>(rows), "in 1..9");
+    detail::require(field.values.allFinite(), "write_vtu",
+                    "the field " + field.name + " has an entry that is not finite");
   }
 }
 
@@ -169,32 +170,13 @@ void write_pvd(std::ostream& output, std::span<const PvdEntry> entries) {
   std::ostringstream text;
   text << std::setprecision(17) << file_open_tag("Collection") << "<Collection>\n";
   for (const PvdEntry& entry : entries) {
-    require(std::isfinite(entry.time), "write_pvd: the time of " + entry.file + " is not finite");
+    detail::require_value(std::isfinite(entry.time), "write_pvd", ("the time of " + entry.file).c_str(),
+                          entry.time, "finite");
     text << "<DataSet timestep=\"" << entry.time << "\" part=\"0\" file=\"" << escaped(entry.file)
          << "\"/>\n";
   }
   output << text.str() << "</Collection>\n</VTKFile>\n";
   if (!output) throw std::runtime_error("write_pvd: writing failed");
-}
-
-void write_vtu_series(const std::filesystem::path& folder, const std::string& stem, const SolidMesh& mesh,
-                      std::span<const double> times, std::span<const Eigen::Matrix3Xd> displacements,
-                      VtuFormat format) {
-  require(times.size() == displacements.size(),
-          "write_vtu_series: there are " + std::to_string(times.size()) + " times and " +
-              std::to_string(displacements.size()) + " displacements; there must be as many");
-  std::vector<PvdEntry> entries;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    std::ostringstream name;
-    name << stem << '_' << std::setfill('0') << std::setw(4) << i << ".vtu";
-    entries.push_back({times[i], name.str()});
-    const PointField field{"displacement", displacements[i]};
-    write_vtu(folder / name.str(), mesh, {&field, 1}, format);
-  }
-  const std::filesystem::path file = folder / (stem + ".pvd");
-  std::ofstream output = open(file);
-  write_pvd(output, entries);
-  close(output, file);
 }
 
 }  // namespace wavebalance::fem

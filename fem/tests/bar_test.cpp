@@ -123,7 +123,7 @@ TEST(Bar, NamesTheOptionThatIsWrong) {
   EXPECT_EQ(message_of(options), "BarOptions: elements is 0; it must be in 1..500000000");
   options = {};
   options.stiffness_damping = -1;
-  EXPECT_EQ(message_of(options), "BarOptions: stiffness_damping is -1; it must be finite and not negative");
+  EXPECT_EQ(message_of(options), "BarOptions: stiffness_damping is -1; it must be finite and at least 0");
   options = {};
   options.lumped_fraction = 1.5;
   EXPECT_EQ(message_of(options), "BarOptions: lumped_fraction is 1.5; it must be in [0, 1]");

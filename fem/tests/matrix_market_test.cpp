@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "wavebalance/fem/bar.hpp"
-#include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {
 namespace {
@@ -64,8 +65,11 @@ TEST(MatrixMarket, NamesWhatIsWrongAndWhere) {
   const std::pair<std::string, std::string> cases[] = {
       {"", "the file is empty"},
       {"1 1 1\n1 1 1\n", "given.mtx:1: the header must be"},
-      {"%%MatrixMarket matrix array real general\n1 1\n1\n",
-       "the format is \"array\"; it must be coordinate"},
+      {"%%MatrixMarket matrix elemental real general\n1 1\n1\n",
+       "the format is \"elemental\"; it must be coordinate or array"},
+      {"%%MatrixMarket matrix array real general\n2 2\n1\n2\n3\n", "ends after 3 of 4 entries"},
+      {"%%MatrixMarket matrix array real symmetric\n2 2\n1\n2\n3\n4\n", "more than the 3 entries"},
+      {"%%MatrixMarket matrix array real symmetric\n2 3\n", "must be square; this one is 2 x 3"},
       {"%%MatrixMarket matrix coordinate complex general\n", "the field is \"complex\""},
       {"%%MatrixMarket matrix coordinate pattern general\n", "the field is \"pattern\""},
       {"%%MatrixMarket matrix coordinate real hermitian\n", "the symmetry is \"hermitian\""},
@@ -106,7 +110,50 @@ TEST(MatrixMarket, ReadsLoadVectors) {
   expect_error([&] { vector(header + "3 2\n"); }, "the count of columns is 2; it must be 1");
   expect_error([&] { vector(header + "3 1\n1\n2\n"); }, "ends after 2 of 3");
   expect_error([&] { vector(header + "1 1\n1\n2\n"); }, "more than the 1");
-  expect_error([&] { vector(general + "1 1 1\n"); }, "must be array");
+}
+
+TEST(MatrixMarket, ReadsLoadsInTheCoordinateFormat) {
+  std::istringstream input(general + "4 1 2\n3 1 -2.5\n1 1 1\n");
+  EXPECT_EQ(read_matrix_market_vector(input, "load.mtx"), Eigen::Vector4d(1, 0, -2.5, 0));
+}
+
+TEST(MatrixMarket, ReadsDenseMatrices) {
+  Eigen::Matrix<double, 2, 3> expected;
+  expected << 1, 0, 5, 2, 4, 6;
+  const auto found = read("%%MatrixMarket matrix array real general\n2 3\n1\n2\n0\n4\n5\n6\n");
+  EXPECT_EQ(Eigen::MatrixXd(found), expected);
+  EXPECT_EQ(found.nonZeros(), 5);
+  EXPECT_EQ(Eigen::MatrixXd(read("%%MatrixMarket matrix array integer symmetric\n2 2\n1\n2\n3\n")),
+            (Eigen::Matrix2d() << 1, 2, 2, 3).finished());
+}
+
+TEST(MatrixMarket, GivesBackDenseMatricesToTheLastBit) {
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(5, 3) / 3.0;
+  std::stringstream file;
+  write_matrix_market_array(file, matrix, "displacement, m\nby columns");
+  EXPECT_EQ(file.str().substr(0, file.str().find("5 3")),
+            "%%MatrixMarket matrix array real general\n% displacement, m\n% by columns\n");
+  EXPECT_EQ(Eigen::MatrixXd(read_matrix_market(file, "written")), matrix);
+}
+
+TEST(MatrixMarket, RefusesDevicesPipesAndFoldersAtOnce) {
+  const auto folder = std::filesystem::path(testing::TempDir());
+  const auto pipe = folder / "wavebalance_fem_pipe.mtx";
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& file : {std::filesystem::path("/dev/zero"), pipe, folder}) {
+    expect_error([&] { read_matrix_market(file); }, file.string() + " is not a regular file");
+    expect_error([&] { read_matrix_market_vector(file); }, file.string() + " is not a regular file");
+  }
+  std::filesystem::remove(pipe);
+}
+
+TEST(MatrixMarket, RefusesFilesAboveTheSizeLimit) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "wavebalance_fem_large.mtx";
+  std::ofstream(file) << general;
+  std::filesystem::resize_file(file, largest_matrix_market_file + 1);  // a hole: takes no space
+  expect_error([&] { read_matrix_market(file); }, "is 8000000001 bytes; it must be at most 8000000000");
+  std::filesystem::remove(file);
 }
 
 TEST(MatrixMarket, RefusesToWriteWhatCouldNotBeRead) {
@@ -117,54 +164,6 @@ TEST(MatrixMarket, RefusesToWriteWhatCouldNotBeRead) {
   matrix.coeffRef(1, 0) = std::nan("");
   EXPECT_THROW(write_matrix_market(output, matrix), std::invalid_argument);
   EXPECT_THROW(write_matrix_market("no/such/folder/file.mtx", bar({}).mass), MatrixMarketError);
-}
-
-TEST(StructureCheck, AcceptsABarWithOrWithoutDamping) {
-  Matrices matrices = bar({});
-  EXPECT_NO_THROW(check_structure(matrices));
-  matrices.damping.resize(0, 0);
-  EXPECT_NO_THROW(check_structure(matrices));
-}
-
-TEST(StructureCheck, TellsAFreeSolidFromAClampedOne) {
-  const Blade clamped = blade();
-  EXPECT_NO_THROW(check_structure(solid_matrices(clamped.model)));
-  BladeOptions options;
-  options.chord_elements = 4;
-  options.span_elements = 5;
-  const Matrices free = solid_matrices(hold_nodes(blade(options).model.mesh, options.material, {}));
-  expect_error([&] { check_structure(free); }, "stiffness is not positive definite");
-  EXPECT_NO_THROW(check_structure(free, {.allow_free = true}));
-}
-
-TEST(StructureCheck, NamesTheMatrixThatIsWrong) {
-  const Matrices right = bar({});
-  const auto expect_rejected = [&](auto change, const std::string& part) {
-    Matrices wrong = right;
-    change(wrong);
-    expect_error([&] { check_structure(wrong); }, part);
-  };
-  expect_rejected([](Matrices& m) { m.mass.conservativeResize(24, 24); }, "mass is 24 x 24");
-  expect_rejected([](Matrices& m) { m.damping.conservativeResize(25, 26); }, "damping is 25 x 26");
-  expect_rejected([](Matrices& m) { m = {}; }, "stiffness is 0 x 0");
-  expect_rejected([](Matrices& m) { m.stiffness.coeffRef(2, 1) *= 1.1; }, "stiffness is not symmetric");
-  expect_rejected([](Matrices& m) { m.damping.coeffRef(2, 1) += 1.0; }, "damping is not symmetric");
-  expect_rejected([](Matrices& m) { m.mass.coeffRef(3, 3) = std::nan(""); }, "row 3, column 3");
-  expect_rejected([](Matrices& m) { m.mass.coeffRef(3, 3) = -1; }, "mass is not positive definite");
-  expect_rejected([](Matrices& m) { m.mass.coeffRef(3, 3) /= 20; }, "mass is not positive definite");
-  const auto set_free = [](Matrices& m) { m.stiffness.coeffRef(0, 0) /= 2; };
-  expect_rejected(set_free, "stiffness is not positive definite");
-  Matrices floating = right;
-  set_free(floating);
-  EXPECT_NO_THROW(check_structure(floating, {.allow_free = true}));
-}
-
-TEST(StructureCheck, NamesUnknownsThatAreOutOfRangeOrRepeated) {
-  const std::vector<int> list = {4, 2, 7};
-  EXPECT_NO_THROW(check_unknowns(list, 8, "contact.dofs"));
-  expect_error([&] { check_unknowns(list, 7, "contact.dofs"); }, "contact.dofs has 7; it must be in 0..6");
-  const std::vector<int> twice = {4, 2, 4};
-  expect_error([&] { check_unknowns(twice, 8, "contact.dofs"); }, "contact.dofs has 4 twice");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "fuzz.hpp"
+#include "wavebalance/fem/check_structure.hpp"
 
 namespace {
 

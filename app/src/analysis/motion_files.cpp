@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "files/number_text.hpp"
+#include "wavebalance/fem/matrix_market.hpp"
 #include "wavebalance/fem/vtu.hpp"
 
 namespace wavebalance::app {
@@ -39,12 +39,11 @@ std::vector<RecordFile> mesh_files(const fem::SolidModel& solid, const Eigen::Ma
 }
 
 std::string array_text(const Eigen::MatrixXd& whole) {
-  std::string text =
-      "%%MatrixMarket matrix array real general\n% displacement of every degree of freedom (row) " +
-      std::string("at uniform instants of the period (column), m\n") + std::to_string(whole.rows()) + " " +
-      std::to_string(whole.cols()) + "\n";
-  for (const double value : whole.reshaped()) text += number_text(value) + "\n";
-  return text;
+  std::ostringstream text;
+  fem::write_matrix_market_array(
+      text, whole,
+      "displacement of every degree of freedom (row) at uniform instants of the period (column), m");
+  return std::move(text).str();
 }
 
 }  // namespace

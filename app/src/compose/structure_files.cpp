@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::app {
@@ -35,19 +36,16 @@ void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view ke
                                              ", the size of structure.stiffness");
 }
 
-/// fem's checks, whose errors open with the name of the matrix at fault.
+std::string_view key_of(fem::StructureMatrix matrix) {
+  if (matrix == fem::StructureMatrix::mass) return mass_key;
+  return matrix == fem::StructureMatrix::damping ? damping_key : stiffness_key;
+}
+
 void check_matrices(const fem::Matrices& matrices) {
   try {
     fem::check_structure(matrices, {.first_index = 1});
-  } catch (const std::invalid_argument& error) {
-    std::string reason = error.what();
-    if (const auto colon = reason.find(": "); colon != std::string::npos) reason.erase(0, colon + 2);
-    for (const auto key : {mass_key, stiffness_key, damping_key}) {
-      const std::string_view name = key.substr(key.find('.') + 1);
-      if (reason.starts_with(name))
-        throw StructureFault(std::string(key), "the matrix" + reason.substr(name.size()));
-    }
-    throw;
+  } catch (const fem::StructureFault& fault) {
+    throw StructureFault(std::string(key_of(fault.matrix())), "the matrix " + fault.reason());
   }
 }
 

@@ -69,6 +69,8 @@ TEST_F(ChainScene, UnreadableFilesAreErrorsAtTheirKey) {
   expect_error(with(chain_scene, "k.mtx", "bad.mtx"), 4, "structure.stiffness",
                "bad.mtx:3: the row is 4; it must be in 1..3");
   expect_error(with(chain_scene, "\"m.mtx\"", "3"), 3, "structure.mass", "the name of a Matrix Market file");
+  expect_error(with(chain_scene, "m.mtx", "/dev/zero"), 3, "structure.mass",
+               "/dev/zero is not a regular file");
 }
 
 TEST_F(ChainScene, SizesThatDifferAreErrors) {
@@ -124,7 +126,10 @@ TEST_F(ChainScene, LoadsAreAFileOrAList) {
   EXPECT_EQ(make_model(load(file)).structure.load, make_model(load(chain_scene)).structure.load);
   folder_.write("short.mtx", "%%MatrixMarket matrix array real general\n2 1\n0\n1\n");
   expect_error(with(file, "f.mtx", "short.mtx"), 12, "forcing.load", "2 entries; expected 3");
-  expect_error(with(file, "f.mtx", "k.mtx"), 12, "forcing.load", "it must be array");
+  expect_error(with(file, "f.mtx", "k.mtx"), 12, "forcing.load", "the count of columns is 3; it must be 1");
+  folder_.write("sparse.mtx", "%%MatrixMarket matrix coordinate real general\n3 1 1\n3 1 1\n");
+  EXPECT_EQ(make_model(load(with(file, "f.mtx", "sparse.mtx"))).structure.load,
+            make_model(load(chain_scene)).structure.load);
   expect_error(with(file, "[time]", "load_dofs = [1]\n[time]"), 15, "forcing.load_dofs", "not both");
   expect_error(with(chain_scene, "load_dofs = [3]", ""), 11, "forcing.load", "missing; expected load");
   expect_error(with(chain_scene, "load_dofs = [3]", "load_dofs = [-5]"), 12, "forcing.load_dofs",

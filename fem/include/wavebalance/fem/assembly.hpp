@@ -8,7 +8,7 @@
 
 namespace wavebalance::fem {
 
-/// One column an element: the numbers of its unknowns or nodes.
+/// One column per element: the numbers of its unknowns or nodes.
 using Connectivity = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Numbering of the dofs of a structure that are free to move: dof = 0..dofs()-1 counts all, unknown =
@@ -27,10 +27,9 @@ class FreeDofs {
   int unknown(int dof) const { return unknowns_.at(static_cast<std::size_t>(dof)); }
   /// The dof of each unknown, ascending.
   const std::vector<int>& free() const { return free_; }
-  /// From count() unknowns to dofs() values, zero where held. Throws std::invalid_argument for another size.
+  /// The dofs() values that belong to count() unknowns, zero where held. Throws std::invalid_argument for
+  /// another size.
   Eigen::VectorXd expand(const Eigen::VectorXd& unknowns) const;
-  /// From dofs() values to the count() free ones. Throws std::invalid_argument for another size.
-  Eigen::VectorXd restrict_to_free(const Eigen::VectorXd& values) const;
   /// Every dof replaced by its unknown, -1 for those held. Throws std::out_of_range for a number that is no
   /// dof.
   Connectivity unknowns(const Connectivity& dofs) const;

@@ -3,9 +3,9 @@
 
 namespace wavebalance::fem {
 
-/// A cambered, tapered and twisted blade that stands on the plane z = 0. A pair holds the values at root and
-/// tip; between them s = z/length interpolates linearly. With xi, eta in [-1,1] along chord and thickness
-/// (xi = -1 is the leading edge), the section is
+/// A cambered, tapered and twisted blade that stands on the plane z = 0. Each pair of values holds those at
+/// root and tip, with linear interpolation in s = z/length between them. With xi, eta in [-1,1] along chord
+/// and thickness (xi = -1 is the leading edge), the section is
 ///
 ///     x = xi c/2,   y = k (1 - xi^2) - 2k/3 + eta/2 t (edge + (1 - edge)(1 - xi^2)),
 ///
@@ -17,7 +17,7 @@ struct BladeOptions {
   std::array<double, 2> thickness_ratio = {0.09, 0.031};  ///< > 0
   std::array<double, 2> camber_ratio = {0.098, 0.011};
   std::array<double, 2> angle_degrees = {10.0, 35.0};
-  double edge_thickness = 0.35;  ///< of the edges over that at mid chord, in (0, 1]
+  double edge_thickness = 0.35;  ///< relative to the thickness at mid chord, in (0, 1]
   double length = 0.091;         ///< m, > 0
   SolidMaterial material;
   SolidElement element = SolidElement::hexahedron20;

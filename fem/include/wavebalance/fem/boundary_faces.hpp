@@ -3,9 +3,9 @@
 
 namespace wavebalance::fem {
 
-/// The faces of a mesh that one element only has: its surface, to be drawn or loaded. One column a face,
-/// node numbers anticlockwise seen from outside: the four corners, then for elements of 20 nodes the
-/// midpoints of the edges 1-2, 2-3, 3-4, 4-1. In the order of the elements. O(elements log elements). Throws
+/// The surface of a mesh: the faces that belong to one element only. One column per face, in the order of the
+/// elements, with node numbers anticlockwise as seen from outside. The four corners come first, then for
+/// elements of 20 nodes the midpoints of the edges 1-2, 2-3, 3-4, 4-1. O(elements log elements). Throws
 /// std::invalid_argument as SolidMesh::validate does.
 Connectivity boundary_faces(const SolidMesh& mesh);
 

@@ -6,14 +6,14 @@
 
 namespace wavebalance::fem {
 
-/// The axis that a structure turns about.
+/// The axis of rotation of a structure.
 struct RotationAxis {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< any length but zero
   Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< m, on the axis
 };
 
-/// What rotation at speed Omega (rad/s) adds to a linear structure, for Omega = 1 rad/s; all of it grows with
-/// Omega^2, so that one prestress solve serves every speed of a Campbell diagram.
+/// The matrices that rotation adds to a linear structure, for the speed Omega = 1 rad/s. They grow with
+/// Omega^2, so that one prestress solve serves all speeds of a Campbell diagram.
 struct CentrifugalStiffness {
   Eigen::SparseMatrix<double> geometric;  ///< K_g, N/m: stress of the centrifugal load on the gradients
   Eigen::SparseMatrix<double> softening;  ///< S, kg: mass in the directions across the axis

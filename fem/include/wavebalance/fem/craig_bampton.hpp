@@ -8,8 +8,9 @@
 
 namespace wavebalance::fem {
 
+/// Options of craig_bampton().
 struct CraigBamptonOptions {
-  int modes = 40;            ///< fixed-interface modes to keep, 0..unknowns that are not on the boundary
+  int modes = 40;            ///< fixed-interface modes to keep, 0..number of unknowns not on the boundary
   EigenmodesOptions solver;  ///< of the fixed-interface modes; its shift must be 0
 };
 
@@ -17,7 +18,7 @@ struct CraigBamptonOptions {
 ///
 ///     T = [I 0; Psi Phi],   Psi = -K_ii^-1 K_ib,   K_ii Phi = M_ii Phi diag(omega^2),   Phi^T M_ii Phi = I,
 ///
-/// rows in the order (boundary, interior) there and in that of the structure in `transformation`. The
+/// with rows in the order (boundary, interior); `transformation` has them in the order of the structure. The
 /// boundary displacements are the first b coordinates, in the order given, so that contact on them needs no
 /// recovery.
 struct CraigBampton {

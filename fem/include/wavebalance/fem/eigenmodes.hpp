@@ -4,17 +4,18 @@
 
 namespace wavebalance::fem {
 
+/// Options of eigenmodes().
 struct EigenmodesOptions {
   double tolerance = 1e-14;  ///< of the sparse iteration, relative to 1/(omega^2 - shift), in (0, 1)
   int max_restarts = 1000;   ///< of the sparse iteration, >= 1
-  int dense_up_to = 200;     ///< unknowns up to which a dense solver takes all modes at once, >= 0
+  int dense_up_to = 200;     ///< up to this many unknowns a dense solver is used, >= 0
   double shift = 0.0;        ///< (rad/s)^2, <= 0; below zero where the stiffness is singular (free bodies)
 };
 
 enum class EigenmodesStatus {
   converged,
-  /// The sparse iteration ended early, or a count of the modes below the highest one says that some are
-  /// missing; the result holds what was found.
+  /// The sparse iteration ended early, or the count of the modes below the highest one shows that some are
+  /// missing. The result holds the modes found.
   not_converged
 };
 
@@ -31,18 +32,18 @@ struct EigenmodesResult {
 /// with a negative shift), and symmetric positive semidefinite mass M; both n x n with both triangles stored,
 /// 1 <= count <= rank M.
 ///
-/// Small problems, and those that ask for half of the modes or more, go to a dense solver, O(n^3). The others
-/// go to restarted Lanczos iteration with (K - shift M)^-1 M (Spectra): one sparse factorisation and O(count)
-/// solves, for a bar O(n count^2). The signs of the factors of K - s M with s below the highest mode count
-/// the modes under s (Sylvester's law of inertia), so that a missed copy of a multiple mode is noticed and
-/// sought again.
+/// Small problems, and those with count >= n/2, use a dense solver, O(n^3). The others use restarted Lanczos
+/// iteration with (K - shift M)^-1 M [Ericsson & Ruhe 1980; Spectra], with one sparse factorisation and
+/// O(count) solves, for a bar O(n count^2). By Sylvester's law of inertia the number of negative pivots of
+/// K - s M, with s below the highest mode, is the number of modes below s. If a copy of a multiple mode is
+/// missing, the iteration is repeated for more modes.
 ///
-/// Both work with 1/(omega^2 - shift): rounding is relative to the lowest mode, for omega^2 of the others
-/// about eps times its ratio to the lowest.
+/// Both work with 1/(omega^2 - shift). The relative rounding error of omega^2 is about eps times its ratio to
+/// the lowest one.
 ///
 /// Throws std::invalid_argument if sizes, count or options do not fit, an entry is not finite or a matrix is
 /// not symmetric, std::domain_error if K - shift M is not positive definite or M has too low a rank or is
-/// indefinite (the latter is noticed by the dense solver only).
+/// indefinite (the latter is detected by the dense solver only).
 EigenmodesResult eigenmodes(const Eigen::SparseMatrix<double>& stiffness,
                             const Eigen::SparseMatrix<double>& mass, int count,
                             const EigenmodesOptions& options = {});

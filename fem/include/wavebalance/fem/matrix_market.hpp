@@ -1,13 +1,11 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
-#include <span>
 #include <stdexcept>
 #include <string>
-
-#include "wavebalance/fem/matrices.hpp"
 
 namespace wavebalance::fem {
 
@@ -17,17 +15,22 @@ class MatrixMarketError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads `matrix coordinate real|integer general|symmetric` [BPR96]; indices count from 1, a symmetric file
-/// holds one triangle, on or below the diagonal. The result is compressed, with both triangles. Zeros are
-/// kept. O(nnz). Throws MatrixMarketError for: a file that cannot be opened, another header, sizes that are
-/// not whole numbers, above 10^8 or not square where they must be, an index out of range, an entry above the
-/// diagonal of a symmetric file, an entry given twice, a value that is no finite number, too few entries,
-/// text behind the last one.
+/// Largest file that is read, in bytes.
+constexpr std::uintmax_t largest_matrix_market_file = 8'000'000'000;
+
+/// Reads `matrix coordinate|array real|integer general|symmetric` [BPR96]. In the coordinate format indices
+/// count from 1 and zeros are kept; the array format lists the values column by column and its zeros are left
+/// out. A symmetric file holds one triangle, on or below the diagonal; the result has both. The result is
+/// compressed. O(nnz log nnz). Throws MatrixMarketError for: a path that is not a regular file (a device or a
+/// pipe), a file that cannot be opened or is larger than largest_matrix_market_file, another header, sizes
+/// that are not whole numbers, above 10^8 or not square where they must be, an index out of range, an entry
+/// above the diagonal of a symmetric file, an entry given twice, a value that is not a finite number, too few
+/// entries, text after the last one.
 Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& file);
 /// The same from a stream; errors call it `name`.
 Eigen::SparseMatrix<double> read_matrix_market(std::istream& input, const std::string& name);
 
-/// Reads a vector: `matrix array real|integer general` with one column. Throws MatrixMarketError.
+/// Reads a vector: the same formats with one column. Throws MatrixMarketError as read_matrix_market does.
 Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file);
 Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string& name);
 
@@ -43,20 +46,10 @@ void write_matrix_market(const std::filesystem::path& file, const Eigen::SparseM
 void write_matrix_market(std::ostream& output, const Eigen::SparseMatrix<double>& matrix,
                          MatrixMarketSymmetry symmetry = MatrixMarketSymmetry::general);
 
-struct StructureChecks {
-  bool allow_free = false;            ///< accept a singular stiffness: a structure that can move freely
-  double symmetry_tolerance = 1e-10;  ///< of the largest entry, >= 0
-  int first_index = 0;  ///< what errors call the first row: 1 for a reader of Matrix Market files
-};
-
-/// Throws std::invalid_argument naming the matrix if one is empty, not square or of another size than the
-/// stiffness (damping may be 0 x 0), has an entry that is not finite, is not symmetric, or if the mass is not
-/// positive definite; unless allow_free, also if the stiffness is singular or indefinite. Definite means that
-/// every pivot of the matrix with its diagonal scaled to ones exceeds 1e-13. One or two sparse
-/// factorisations.
-void check_structure(const Matrices& matrices, const StructureChecks& checks = {});
-
-/// Throws std::invalid_argument naming the list if an entry is not in 0..unknowns-1 or occurs twice.
-void check_unknowns(std::span<const int> list, int unknowns, const std::string& name);
+/// Writes a dense matrix as `matrix array real general`, column by column, with the fewest digits that give
+/// the same doubles. Each line of `comment` becomes a comment line. Values that are not finite are written as
+/// nan or inf, which read_matrix_market refuses. Throws MatrixMarketError if writing fails.
+void write_matrix_market_array(std::ostream& output, const Eigen::MatrixXd& matrix,
+                               const std::string& comment = "");
 
 }  // namespace wavebalance::fem

@@ -9,7 +9,7 @@
 
 namespace wavebalance::fem {
 
-/// Hexahedra with three displacements a node. Nodes are in the order of VTK: the corners of the face zeta =
+/// Hexahedra with three displacements per node. Nodes are in the order of VTK: the corners of the face zeta =
 /// -1 anticlockwise from (-1,-1), those of zeta = 1, then the edge midpoints of either face and of the four
 /// edges along zeta.
 enum class SolidElement {
@@ -45,26 +45,18 @@ struct SolidMesh {
 };
 
 /// Stiffness of an element (N/m), 3k x 3k with k nodes at the columns of coordinates, dof 3 i + direction.
-/// Symmetric, six zero eigenvalues; hexahedron20_reduced has six more, which a row of single elements shares
-/// but a sheet or block does not: take two elements across a beam. The incompatible modes are condensed;
-/// their gradients take the Jacobian at the centre, so that
-/// distorted elements too represent constant strain exactly. Throws std::invalid_argument if sizes or
-/// material do not fit or the element is turned inside out at an integration point. O(k^2) products a point.
+/// Symmetric, with six zero eigenvalues. hexahedron20_reduced has six more, the hourglass modes, which
+/// propagate along a row of single elements but not through a sheet or block: use at least two elements
+/// across a beam. The incompatible modes are condensed. Their gradients use the Jacobian at the centre, so
+/// that distorted elements represent constant strain exactly. Throws std::invalid_argument if sizes or
+/// material do not fit or the Jacobian determinant is not positive at an integration point. O(k^2) products
+/// per point.
 Eigen::MatrixXd element_stiffness(SolidElement element, const Eigen::Matrix3Xd& coordinates,
                                   const SolidMaterial& material);
 
 /// Consistent mass (kg), 3k x 3k, with 2 x 2 x 2 (8 nodes) or 3 x 3 x 3 points. Throws as element_stiffness.
 Eigen::MatrixXd element_mass(SolidElement element, const Eigen::Matrix3Xd& coordinates,
                              const SolidMaterial& material);
-
-/// Components in the order of VTK: xx, yy, zz, xy, yz, xz.
-using Stress = Eigen::Matrix<double, 6, 1>;
-
-/// Stress (Pa) that the displacements (3 x k, m) cause at the natural coordinates point in [-1,1]^3, with the
-/// incompatible modes that these displacements excite. Throws as element_stiffness.
-Stress element_stress(SolidElement element, const Eigen::Matrix3Xd& coordinates,
-                      const SolidMaterial& material, const Eigen::Matrix3Xd& displacements,
-                      const Eigen::Vector3d& point);
 
 /// A mesh, its material and the dofs (3 node + direction) that are free.
 struct SolidModel {
@@ -83,11 +75,13 @@ struct SolidModel {
 SolidModel hold_nodes(SolidMesh mesh, const SolidMaterial& material, const std::vector<int>& nodes);
 
 /// Mass and stiffness over the unknowns, and C = stiffness_damping (s) K. O(elements). Throws
-/// std::invalid_argument, naming the element that is turned inside out.
+/// std::invalid_argument, naming the element whose Jacobian determinant is not positive.
 Matrices solid_matrices(const SolidModel& model, double stiffness_damping = 0.0);
 
-/// Stress at all nodes, 6 x n (Pa): the values at 2 x 2 x 2 points, where they are most accurate, extended
-/// trilinearly and averaged over the elements of a node. displacements: 3 x n. O(elements).
+/// Stress at all nodes, 6 x n (Pa), components in the order of VTK: xx, yy, zz, xy, yz, xz. The values at
+/// 2 x 2 x 2 points, where they are most accurate, are extended trilinearly and averaged over the elements of
+/// each node. displacements: 3 x n (m). O(elements). Throws std::invalid_argument if mesh, material or
+/// displacements do not fit.
 Eigen::Matrix<double, 6, Eigen::Dynamic> nodal_stress(const SolidModel& model,
                                                       const Eigen::Matrix3Xd& displacements);
 
