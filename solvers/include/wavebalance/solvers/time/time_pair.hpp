@@ -66,7 +66,6 @@ class TimePair {
   int functions() const { return functions_; }              ///< M
   int points() const { return points_; }                    ///< N
   int spectrum_size() const { return functions_ / 2 + 1; }  ///< stored values of a spectrum over translates
-  int sample_spectrum_size() const { return points_ / 2 + 1; }  ///< stored values of a spectrum over samples
   const AnyTimeBasis& trial() const { return trial_; }
   const AnyTimeBasis& weight() const { return weight_; }
   Formulation formulation() const { return options_.formulation; }
