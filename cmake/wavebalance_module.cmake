@@ -56,6 +56,13 @@ function(wavebalance_precompile_headers target)
   target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>")  # lets ccache keep the objects
 endfunction()
 
+# wavebalance_reuse_headers(target from): the headers that the library `from` precompiles, for a library that is compiled
+# with the same options.
+function(wavebalance_reuse_headers target from)
+  target_precompile_headers(${target} REUSE_FROM ${from})
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>")
+endfunction()
+
 # wavebalance_set_hot(<sources>): loops that -O3 makes faster than the -O2 of all other sources.
 function(wavebalance_set_hot)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)

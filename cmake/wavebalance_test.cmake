@@ -22,14 +22,15 @@ function(wavebalance_set_test_options target)
     "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 endfunction()
 
-# wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>])
+# wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>]
+#                      [PROPERTIES <name> <value> ..])
 # adds GoogleTest files to `program`, which the first call declares. CTest knows their tests by their own names, with
 # the label. CASES of each property are tried, 100 by default. A test suite has one label within a program.
 function(wavebalance_add_test program)
   if(NOT WAVEBALANCE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 T "" "CASES;LABEL" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 T "" "CASES;LABEL" "SOURCES;LINK;PROPERTIES")
   if(NOT TARGET ${program})
     add_executable(${program})
     wavebalance_add_test_headers()
@@ -45,7 +46,7 @@ function(wavebalance_add_test program)
     string(APPEND parameters " max_success=${T_CASES}")
   endif()
   gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}"
-    PROPERTIES LABELS "${T_LABEL}" TIMEOUT 240 ENVIRONMENT "RC_PARAMS=${parameters}")
+    PROPERTIES LABELS "${T_LABEL}" TIMEOUT 240 ENVIRONMENT "RC_PARAMS=${parameters}" ${T_PROPERTIES})
 endfunction()
 
 # wavebalance_test_filter(program result <files>): the GoogleTest filter of the suites that the files declare.

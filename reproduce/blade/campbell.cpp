@@ -3,11 +3,12 @@
 #include <limits>
 #include <numbers>
 
+#include "figures.hpp"
 #include "rotating_blade.hpp"
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::blade {
 using app::Colour;
 
 namespace {
@@ -24,7 +25,7 @@ double rad_per_s(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 std::string column(double energy) { return "energy_" + report::number(energy); }
 
 /// Hz over rotation speed for each energy; missing where the branch was not found.
-app::Table campbell(const blade::RotatingBlade& blade, const app::Scene& scene,
+app::Table campbell(const RotatingBlade& blade, const app::Scene& scene,
                           std::string& interruptions) {
   std::vector<std::string> columns{"rotation_rpm", "linear_Hz"};
   for (const double energy : energies) columns.push_back(column(energy));
@@ -125,33 +126,31 @@ void claims(report::Artefact& artefact, const app::Table& table) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const report::Identity identity{"blade", "Blade: Campbell diagram",
-                                  "frequency over rotation speed at several energies", "campbell"};
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto scene = artefact.scene("campbell.toml");
-    const blade::RotatingBlade blade(scene);
-    std::string interruptions;
-    const auto table = campbell(blade, scene, interruptions);
-    artefact.data(table, "rotation_rpm in 1/min, frequencies in Hz; missing where the branch was not found",
-                  {"energies over that of the linear mode that just touches at the same speed"});
-    artefact.picture(drawn(table));
-    artefact.caption(
-        "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the "
-        "open "
-        "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
-        "that just touches at the same speed; EO are engine orders.");
+void campbell_diagram(report::Artefact& artefact) {
+  const auto scene = artefact.scene("campbell.toml");
+  const RotatingBlade blade(scene);
+  std::string interruptions;
+  const auto table = campbell(blade, scene, interruptions);
+  artefact.data(table, "rotation_rpm in 1/min, frequencies in Hz; missing where the branch was not found",
+                {"energies over that of the linear mode that just touches at the same speed"});
+  artefact.picture(drawn(table));
+  artefact.caption(
+      "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the "
+      "open "
+      "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
+      "that just touches at the same speed; EO are engine orders.");
+  artefact.note(
+      "The gap is that of the turning blade. Its static displacement, up to " +
+      report::number(1e3 * blade.static_displacement(rad_per_s(largest_rpm)), 2) +
+      " mm at the largest speed, stiffens the blade but is not part of the motion; Coriolis forces are not "
+      "included. All speeds take the reduction at rest (" +
+      report::number(blade.at_rest().reduction_seconds, 2) + " s).");
+  if (!interruptions.empty())
     artefact.note(
-        "The gap is that of the turning blade. Its static displacement, up to " +
-        report::number(1e3 * blade.static_displacement(rad_per_s(largest_rpm)), 2) +
-        " mm at the largest speed, stiffens the blade but is not part of the motion; Coriolis forces are not "
-        "included. All speeds take the reduction at rest (" +
-        report::number(blade.at_rest().reduction_seconds, 2) + " s).");
-    if (!interruptions.empty())
-      artefact.note(
-          "Branches interrupted by internal resonances (harmonic : linear mode) or unsolved, at "
-          "frequencies over the linear one: " +
-          interruptions + ".");
-    claims(artefact, table);
-  });
+        "Branches interrupted by internal resonances (harmonic : linear mode) or unsolved, at "
+        "frequencies over the linear one: " +
+        interruptions + ".");
+  claims(artefact, table);
 }
+
+}  // namespace wavebalance::blade

@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "forced_blade.hpp"
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::blade {
 using app::Colour;
 
 namespace {
@@ -23,7 +24,7 @@ constexpr Pair pairs[] = {
     {"DB6", "daubechies6_daubechies6", "daubechies6", "daubechies6", Colour::vermillion},
     {"Haar:Fourier", "haar_fourier", "haar", "fourier", Colour::green}};
 
-using Responses = std::vector<blade::BladeResponse>;
+using Responses = std::vector<BladeResponse>;
 
 /// The responses of forced_response.toml.
 struct Study {
@@ -59,7 +60,7 @@ std::vector<double> frequencies(const Responses& responses) {
 app::Series points_of(const std::string& label, const Responses& responses, double gap, Colour colour,
                             int marker) {
   app::Series series(label, frequencies(responses),
-                           over_gap(blade::largest_displacements(responses), gap),
+                           over_gap(largest_displacements(responses), gap),
                            app::SeriesStyle::points);
   series.colour = colour;
   series.marker = marker;
@@ -76,7 +77,7 @@ void add_curves(app::Figure& figure, const Study& study) {
   panel.y.upper = 6.0;
   panel.legend = app::Legend::top_right;
   app::Series straight("without contact", frequencies(study.linear),
-                             over_gap(blade::largest_displacements(study.linear), study.gap()));
+                             over_gap(largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
   straight.dash = app::Dash::dashed;
   panel.add(straight);
@@ -99,7 +100,7 @@ void add_curves(app::Figure& figure, const Study& study) {
 }
 
 /// Contact force over time and chord, mean of the two faces.
-void add_map(app::Figure& figure, const blade::BladeResponse& response) {
+void add_map(app::Figure& figure, const BladeResponse& response) {
   auto& panel = figure.add_panel("contact force, Fourier, " + report::number(response.frequency, 4) + " Hz");
   panel.x.label = "Time (fraction of a period)";
   panel.y.label = "Chord (leading to trailing edge)";
@@ -127,7 +128,7 @@ void add_history(app::Figure& figure, const std::vector<Responses>& curves, doub
   panel.y.label = force ? "Contact force (N)" : "u_z over the gap";
   panel.legend = app::Legend::none;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const auto& response = blade::at(curves[i], frequency);
+    const auto& response = at(curves[i], frequency);
     const Eigen::MatrixXd& samples = force ? response.force : response.displacement;
     const Eigen::VectorXd row = samples.row(leading ? 0 : samples.rows() - 1) / (force ? 1.0 : gap);
     app::Series series(pairs[i].label, app::time_fractions(static_cast<int>(row.size())), row);
@@ -139,11 +140,11 @@ void add_history(app::Figure& figure, const std::vector<Responses>& curves, doub
 }
 
 app::Table histories(const std::vector<Responses>& curves, double frequency) {
-  const auto& first = blade::at(curves[0], frequency);
+  const auto& first = at(curves[0], frequency);
   app::Table table;
   table.add_column("time_fraction", app::time_fractions(static_cast<int>(first.displacement.cols())));
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const auto& response = blade::at(curves[i], frequency);
+    const auto& response = at(curves[i], frequency);
     const Eigen::Index last = response.force.rows() - 1;
     const std::string name = pairs[i].column;
     table.add_column(name + "_leading_u_z_m", Eigen::VectorXd(response.displacement.row(0)))
@@ -155,7 +156,7 @@ app::Table histories(const std::vector<Responses>& curves, double frequency) {
 }
 
 std::size_t peak_of(const Responses& responses) {
-  const auto values = blade::largest_displacements(responses);
+  const auto values = largest_displacements(responses);
   std::size_t best = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[best] >= values[i]) && !std::isnan(values[i])) best = i;
@@ -177,8 +178,8 @@ void claims(report::Artefact& artefact, const Study& study) {
     peaks += (i == 0 ? "" : ", ") + std::string(pairs[i].label) + " " + report::number(peak.frequency, 4) +
              " Hz and " + report::number(height, 3);
     if (i == 0) continue;
-    const double difference = blade::rms_difference(blade::at(curves[i], frequency).displacement,
-                                                    blade::at(curves[0], frequency).displacement);
+    const double difference = rms_difference(at(curves[i], frequency).displacement,
+                                                    at(curves[0], frequency).displacement);
     largest = std::max(largest, difference);
     differences += (i == 1 ? "" : ", ") + std::string(pairs[i].label) + " " + report::percent(difference, 2);
   }
@@ -218,15 +219,15 @@ Study solved(report::Artefact& artefact) {
   study.scene = artefact.scene(file);
   const auto model = app::make_model(study.scene);
   // A gap of 1 m is never closed; without contact eight functions are as good as any.
-  study.linear = blade::stepped(
+  study.linear = stepped(
       artefact.scene(file, {"contact.gap=1.0", "time.functions=8", "analysis.largest_step=1.0"}), model);
   study.traced = app::frequency_sweep(
       artefact.scene(file, {"time.functions=31", "time.quadrature_points=64", "analysis.first_step=0.2",
                             "analysis.largest_step=2.5", "analysis.output_points=256"}),
       model);
   for (const Pair& pair : pairs)
-    study.curves.push_back(blade::stepped(artefact.scene(file, of_pair(pair)), model));
-  study.down = blade::stepped(blade::reversed(study.scene), model);
+    study.curves.push_back(stepped(artefact.scene(file, of_pair(pair)), model));
+  study.down = stepped(reversed(study.scene), model);
   return study;
 }
 
@@ -234,14 +235,14 @@ void write_data(report::Artefact& artefact, const Study& study) {
   app::Table table;
   table.add_column("frequency_Hz", frequencies(study.curves[0]));
   for (std::size_t i = 0; i < study.curves.size(); ++i)
-    table.add_column(pairs[i].column, blade::largest_displacements(study.curves[i]));
-  auto falling = blade::largest_displacements(study.down);
+    table.add_column(pairs[i].column, largest_displacements(study.curves[i]));
+  auto falling = largest_displacements(study.down);
   std::reverse(falling.begin(), falling.end());
   table.add_column("fourier_fourier_downwards", falling);
   artefact.data(table, "Hz; largest radial displacement of a contact node in m; missing where not converged");
   app::Table free;
   free.add_column("frequency_Hz", frequencies(study.linear))
-      .add_column("max_displacement_m", blade::largest_displacements(study.linear));
+      .add_column("max_displacement_m", largest_displacements(study.linear));
   artefact.more_data("without_contact", free, "Hz; largest radial displacement of a contact node in m");
   artefact.more_data("curve", app::sweep_table(study.traced.curve),
                      "Hz, m; Fourier by arc length, points in their order along the curve");
@@ -257,7 +258,7 @@ app::Figure drawn(const Study& study) {
   figure.panel_width = 520;
   figure.panel_height = 300;
   add_curves(figure, study);
-  add_map(figure, blade::at(study.curves[0], study.frequency()));
+  add_map(figure, at(study.curves[0], study.frequency()));
   for (const bool force : {false, true})
     for (const bool leading : {true, false})
       add_history(figure, study.curves, study.gap(), study.frequency(), force, leading);
@@ -266,22 +267,20 @@ app::Figure drawn(const Study& study) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const report::Identity identity{"blade", "Blade: forced response",
-                                  "near the first mode, in three pairs of bases", "forced_response"};
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const Study study = solved(artefact);
-    write_data(artefact, study);
-    artefact.picture(drawn(study));
-    artefact.caption(
-        "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
-        "functions and 64 points, and each pair in steps of the frequency with " +
-        std::to_string(study.scene.time.functions) + " functions and " +
-        std::to_string(study.scene.time.quadrature_points) +
-        " points a period: what JL14 names as its next step. Steps go up, each response from the one before, "
-        "and down again; dotted lines mark the gap and the frequency of the histories, whose colours are "
-        "those of (a).");
-    claims(artefact, study);
-    notes(artefact, study);
-  });
+void forced_response(report::Artefact& artefact) {
+  const Study study = solved(artefact);
+  write_data(artefact, study);
+  artefact.picture(drawn(study));
+  artefact.caption(
+      "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
+      "functions and 64 points, and each pair in steps of the frequency with " +
+      std::to_string(study.scene.time.functions) + " functions and " +
+      std::to_string(study.scene.time.quadrature_points) +
+      " points a period: what JL14 names as its next step. Steps go up, each response from the one before, "
+      "and down again; dotted lines mark the gap and the frequency of the histories, whose colours are "
+      "those of (a).");
+  claims(artefact, study);
+  notes(artefact, study);
 }
+
+}  // namespace wavebalance::blade

@@ -1,8 +1,9 @@
 #include <array>
 
+#include "figures.hpp"
 #include "jl14.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::jl14 {
 using app::Colour;
 
 namespace {
@@ -32,8 +33,8 @@ std::vector<Polyline> outline() {
   return lines;
 }
 
-jl14::Table points_table(const std::vector<Polyline>& lines) {
-  jl14::Table table({"line", "part", "x", "y"});
+Table points_table(const std::vector<Polyline>& lines) {
+  Table table({"line", "part", "x", "y"});
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].name, x, y});
   return table;
@@ -58,32 +59,30 @@ void annotate(app::Panel& panel) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Fig. 1", "Bar with unilateral contact at its tip", "fig01_system_sketch");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto lines = outline();
-    app::Figure figure;
-    figure.panel_width = 760;
-    figure.panel_height = 270;
-    app::Panel& panel = figure.add_panel();
-    panel.frame = false;
-    panel.x = jl14::axis("", -0.1, 1.52);
-    panel.y = jl14::axis("", -0.26, 0.27);
-    panel.legend = app::Legend::none;
-    for (const Polyline& line : lines) {
-      Eigen::VectorXd x(line.points.size()), y(line.points.size());
-      for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = line.points[i][0], y[i] = line.points[i][1];
-      jl14::Series series("", x, y);
-      series.colour = Colour::black;
-      series.width = line.name == "hatching" ? 0.8 : 1.6;
-      panel.add(std::move(series));
-    }
-    annotate(panel);
-    artefact.data(points_table(lines), "units of the bar's length");
-    artefact.picture(figure);
-    artefact.caption(
-        "The bar clamped at x = 0, the gap g and the exponential spring K_p of eq. (5), with the force at "
-        "the tip (the paper does not say where it acts; the tip gives its displacements without contact).");
-  });
+void fig01(report::Artefact& artefact) {
+  const auto lines = outline();
+  app::Figure figure;
+  figure.panel_width = 760;
+  figure.panel_height = 270;
+  app::Panel& panel = figure.add_panel();
+  panel.frame = false;
+  panel.x = axis("", -0.1, 1.52);
+  panel.y = axis("", -0.26, 0.27);
+  panel.legend = app::Legend::none;
+  for (const Polyline& line : lines) {
+    Eigen::VectorXd x(line.points.size()), y(line.points.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = line.points[i][0], y[i] = line.points[i][1];
+    Series series("", x, y);
+    series.colour = Colour::black;
+    series.width = line.name == "hatching" ? 0.8 : 1.6;
+    panel.add(std::move(series));
+  }
+  annotate(panel);
+  artefact.data(points_table(lines), "units of the bar's length");
+  artefact.picture(figure);
+  artefact.caption(
+      "The bar clamped at x = 0, the gap g and the exponential spring K_p of eq. (5), with the force at "
+      "the tip (the paper does not say where it acts; the tip gives its displacements without contact).");
 }
+
+}  // namespace wavebalance::jl14

@@ -1,9 +1,9 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 const std::vector<std::string> names{"1", "cos 2πt", "sin 2πt", "cos 4πt", "sin 4πt", "cos 6πt"};
@@ -20,16 +20,16 @@ Eigen::VectorXd samples(std::size_t i, int points) {
   return values;
 }
 
-jl14::Table functions_table() {
+Table functions_table() {
   constexpr int points = 1024;
-  jl14::Table table;
+  Table table;
   table.add_column("time_fraction", app::time_fractions(points));
   for (std::size_t i = 0; i < names.size(); ++i)
     table.add_column("function_" + std::to_string(i + 1), samples(i, points));
   return table;
 }
 
-app::Figure functions_figure(const jl14::Table& table) {
+app::Figure functions_figure(const Table& table) {
   app::Figure figure;
   figure.columns = 3;
   figure.panel_width = 340;
@@ -37,9 +37,9 @@ app::Figure functions_figure(const jl14::Table& table) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto values = table.numbers("function_" + std::to_string(i + 1));
     auto& panel = figure.add_panel(names[i]);
-    panel.add(jl14::periodic_series("", Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())));
-    panel.x = jl14::axis("Normalised time t", 0.0, 1.0);
-    panel.y = jl14::axis("Amplitude (-)", -1.2, 1.2);
+    panel.add(periodic_series("", Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())));
+    panel.x = axis("Normalised time t", 0.0, 1.0);
+    panel.y = axis("Amplitude (-)", -1.2, 1.2);
   }
   return figure;
 }
@@ -57,22 +57,20 @@ double formulation_spread(report::Artefact& artefact) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Fig. 2", "First six functions of the Fourier basis", "fig02_fourier_functions");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto table = functions_table();
-    artefact.data(table, "time in periods, functions without unit",
-                  {"functions 1 to 6: 1, cos 2 pi t, sin 2 pi t, cos 4 pi t, sin 4 pi t, cos 6 pi t"});
-    artefact.picture(functions_figure(table));
-    artefact.caption(
-        "The Fourier basis of L^2 on the circle, in the order in which it is cut after M functions.");
-    const double spread = formulation_spread(artefact);
-    artefact.claim(
-        {"section 3.1",
-         "It is worthy to note that the HBM formulations of Eqs. (14), (15), and (16) are identical.",
-         "case 1 with 64 functions: strong, weak and distributional responses differ by less than 1e-9 "
-         "(relative rms)",
-         "largest difference " + report::number(spread), spread < 1e-9});
-  });
+void fig02(report::Artefact& artefact) {
+  const auto table = functions_table();
+  artefact.data(table, "time in periods, functions without unit",
+                {"functions 1 to 6: 1, cos 2 pi t, sin 2 pi t, cos 4 pi t, sin 4 pi t, cos 6 pi t"});
+  artefact.picture(functions_figure(table));
+  artefact.caption(
+      "The Fourier basis of L^2 on the circle, in the order in which it is cut after M functions.");
+  const double spread = formulation_spread(artefact);
+  artefact.claim(
+      {"section 3.1",
+       "It is worthy to note that the HBM formulations of Eqs. (14), (15), and (16) are identical.",
+       "case 1 with 64 functions: strong, weak and distributional responses differ by less than 1e-9 "
+       "(relative rms)",
+       "largest difference " + report::number(spread), spread < 1e-9});
 }
+
+}  // namespace wavebalance::jl14

@@ -1,30 +1,28 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/wavelets/bspline.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::jl14 {
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Fig. 3", "Periodized orthogonal cubic B-spline scaling functions, levels 0 to 5",
-                     "fig03_bspline_levels");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto table = jl14::levels_table("bspline", true);
-    artefact.data(table, "time in periods, functions normalised to integral 1",
-                  {"the translate whose maximum lies at t = 1/2"});
-    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
-    artefact.caption("Of the 2^J translates the one whose maximum lies at t = 1/2 is drawn.");
+void fig03(report::Artefact& artefact) {
+  const auto table = levels_table("bspline", true);
+  artefact.data(table, "time in periods, functions normalised to integral 1",
+                {"the translate whose maximum lies at t = 1/2"});
+  artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
+  artefact.caption("Of the 2^J translates the one whose maximum lies at t = 1/2 is drawn.");
 
-    const double integral = jl14::largest_integral_error(table);
-    artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
-                    "mean of the samples within 1e-12 of 1 at every level",
-                    "largest deviation " + report::number(integral), integral < 1e-12});
-    const Eigen::VectorXd c = wavelets::orthonormal_cubic_coefficients(100);
-    const double left_out = 2.0 * c.tail(50).cwiseAbs().sum() / c.cwiseAbs().maxCoeff();
-    artefact.claim(
-        {"section 3.3",
-         "Numerical simulations showed that truncating the summation in Eq. (28) at −50 ≤ k ≤ 50 is "
-         "sufficient; larger k terms add negligibly to the summation.",
-         "the sum of |c_k| for 50 < |k| <= 100 is below 1e-12 of c_0", "sum " + report::number(left_out),
-         left_out < 1e-12});
-  });
+  const double integral = largest_integral_error(table);
+  artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
+                  "mean of the samples within 1e-12 of 1 at every level",
+                  "largest deviation " + report::number(integral), integral < 1e-12});
+  const Eigen::VectorXd c = wavelets::orthonormal_cubic_coefficients(100);
+  const double left_out = 2.0 * c.tail(50).cwiseAbs().sum() / c.cwiseAbs().maxCoeff();
+  artefact.claim(
+      {"section 3.3",
+       "Numerical simulations showed that truncating the summation in Eq. (28) at −50 ≤ k ≤ 50 is "
+       "sufficient; larger k terms add negligibly to the summation.",
+       "the sum of |c_k| for 50 < |k| <= 100 is below 1e-12 of c_0", "sum " + report::number(left_out),
+       left_out < 1e-12});
 }
+
+}  // namespace wavebalance::jl14

@@ -1,10 +1,10 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/curve_measures.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 /// max |g_{J+1}(t/2) - g_J(t)| over the circle: zero when level J + 1 is a pure dilation of level J.
@@ -51,20 +51,17 @@ void claim_shape(report::Artefact& artefact) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Fig. 4", "Periodized 6 coefficient Daubechies scaling functions, levels 0 to 5",
-                     "fig04_daubechies6_levels");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto table = jl14::levels_table("daubechies6");
-    artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
-    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
-    artefact.caption("The translate k = 0; its support is 5/2^J of the period and wraps up to J = 2.");
-    const double integral = jl14::largest_integral_error(table);
-    artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
-                    "mean of the samples within 1e-12 of 1 at every level",
-                    "largest deviation " + report::number(integral), integral < 1e-12});
-    claim_levels(artefact);
-    claim_shape(artefact);
-  });
+void fig04(report::Artefact& artefact) {
+  const auto table = levels_table("daubechies6");
+  artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
+  artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
+  artefact.caption("The translate k = 0; its support is 5/2^J of the period and wraps up to J = 2.");
+  const double integral = largest_integral_error(table);
+  artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
+                  "mean of the samples within 1e-12 of 1 at every level",
+                  "largest deviation " + report::number(integral), integral < 1e-12});
+  claim_levels(artefact);
+  claim_shape(artefact);
 }
+
+}  // namespace wavebalance::jl14

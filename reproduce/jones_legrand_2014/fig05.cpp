@@ -1,7 +1,7 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 /// Whether level J is 2^J on the first 2^-J of the period and zero on the rest.
@@ -14,21 +14,19 @@ bool is_box(const std::vector<double>& values, int level) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Fig. 5", "Periodized Haar scaling functions, levels 0 to 5", "fig05_haar_levels");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto table = jl14::levels_table("haar");
-    artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
-    artefact.picture(jl14::levels_figure(table, "Scaling function (-)", app::SeriesStyle::steps));
-    artefact.caption("The translate k = 0, closed on the left.");
-    int boxes = 0;
-    for (int level = 0; level <= 5; ++level)
-      boxes += is_box(table.numbers("level_" + std::to_string(level)), level) ? 1 : 0;
-    artefact.claim({"section 3.5",
-                    "Since the compact support of the father scaling function is S1, the periodized function "
-                    "is equivalent.",
-                    "every level is exactly the dilated box 2^J on [0, 2^-J)",
-                    std::to_string(boxes) + " of 6 levels are", boxes == 6});
-  });
+void fig05(report::Artefact& artefact) {
+  const auto table = levels_table("haar");
+  artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
+  artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::steps));
+  artefact.caption("The translate k = 0, closed on the left.");
+  int boxes = 0;
+  for (int level = 0; level <= 5; ++level)
+    boxes += is_box(table.numbers("level_" + std::to_string(level)), level) ? 1 : 0;
+  artefact.claim({"section 3.5",
+                  "Since the compact support of the father scaling function is S1, the periodized function "
+                  "is equivalent.",
+                  "every level is exactly the dilated box 2^J on [0, 2^-J)",
+                  std::to_string(boxes) + " of 6 levels are", boxes == 6});
 }
+
+}  // namespace wavebalance::jl14

@@ -1,19 +1,19 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/curve_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 constexpr double millimetres = 1e3;
 
-Eigen::VectorXd on_plateau(const jl14::Case& study, const Eigen::VectorXd& values, bool inside = true) {
-  const Eigen::VectorXd force = jl14::half_turn(study.reference().contact_force);
-  return app::select(jl14::half_turn(values), (force.array() > 0.0) == inside);
+Eigen::VectorXd on_plateau(const Case& study, const Eigen::VectorXd& values, bool inside = true) {
+  const Eigen::VectorXd force = half_turn(study.reference().contact_force);
+  return app::select(half_turn(values), (force.array() > 0.0) == inside);
 }
 
-void claim_hbm(report::Artefact& artefact, const jl14::Case& study, const solvers::PeriodSamples& hbm) {
+void claim_hbm(report::Artefact& artefact, const Case& study, const solvers::PeriodSamples& hbm) {
   const auto& reference = study.reference();
   const Eigen::VectorXd difference = on_plateau(study, hbm.displacement - reference.displacement);
   const int changes = app::sign_changes(difference);
@@ -36,12 +36,12 @@ void claim_hbm(report::Artefact& artefact, const jl14::Case& study, const solver
 }
 
 /// Share of the plateau on which a response is within 2 % of the gap of time stepping.
-double share_on_plateau(const jl14::Case& study, const Eigen::VectorXd& displacement) {
+double share_on_plateau(const Case& study, const Eigen::VectorXd& displacement) {
   const Eigen::ArrayXd distance = on_plateau(study, displacement - study.reference().displacement).cwiseAbs();
   return (distance < 0.02 * study.gap()).cast<double>().mean();
 }
 
-void claim_haar(report::Artefact& artefact, jl14::Case& study, const Eigen::VectorXd& haar,
+void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& haar,
                 const Eigen::VectorXd& hbm) {
   const auto outside = [&](const Eigen::VectorXd& u) {
     return millimetres * app::rms(on_plateau(study, u - study.reference().displacement, false));
@@ -55,7 +55,7 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study, const Eigen::Vect
        outside(haar) > outside(hbm)});
   const double share = share_on_plateau(study, haar);
   const double exact =
-      share_on_plateau(study, study.solve_exactly(jl14::pair("haar_fourier"), 64).samples.displacement);
+      share_on_plateau(study, study.solve_exactly(pair("haar_fourier"), 64).samples.displacement);
   artefact.claim({"section 5.1",
                   "However, the contact plateau is well represented by the constant Haar scaling functions.",
                   "Haar:Fourier is within 2 % of the gap of time stepping on at least 90 % of the plateau",
@@ -65,7 +65,7 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study, const Eigen::Vect
                   share >= 0.9});
 }
 
-void claim_bspline(report::Artefact& artefact, const jl14::Case& study, const Eigen::VectorXd& spline) {
+void claim_bspline(report::Artefact& artefact, const Case& study, const Eigen::VectorXd& spline) {
   const Eigen::VectorXd difference = on_plateau(study, spline - study.reference().displacement).cwiseAbs();
   const Eigen::Index cells = difference.size() / 4;
   const double start = millimetres * difference.head(cells).maxCoeff(),
@@ -82,30 +82,29 @@ void claim_bspline(report::Artefact& artefact, const jl14::Case& study, const Ei
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity = jl14::identity("Fig. 6", "Tip displacement, case 1", "fig06_tip_displacement_case1");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    jl14::Case study(artefact, 1);
-    const auto responses = study.solve_all(jl14::pairs());
-    const auto u = jl14::drawn(responses, &solvers::PeriodSamples::displacement);
-    const Eigen::VectorXd& reference = study.reference().displacement;
-    artefact.data(jl14::comparison_table(study.time(), reference, u), "time in periods, displacements in m",
-                  {"64 functions; reference: time stepping"});
-    artefact.picture(jl14::pair_figure({"Tip displacement at 150 Hz, 64 functions",
-                                        jl14::axis("Displacement (mm)", -1.6, 1.2), -0.5, millimetres,
-                                        reference, u, study.gap(), jl14::Zoom{-0.17, 0.17, 0.97, 1.03, {}}}));
-    artefact.caption(
-        "64 functions at 150 Hz; dashed: time stepping; dotted: the gap. The force F cos 2πft puts the "
-        "contact about t = 0, which stands in the middle. The panels follow the letters that the text "
-        "gives.");
-    const double error = app::relative_rms_error(u[0], reference);
-    artefact.claim(
-        {"section 5.1",
-         "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "
-         "at both 150 Hz and 1275 Hz compared to the time-stepping solution.",
-         "at 150 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
-    claim_hbm(artefact, study, responses[0].samples);
-    claim_haar(artefact, study, u[3], u[0]);
-    claim_bspline(artefact, study, u[1]);
-  });
+void fig06(report::Artefact& artefact) {
+  Case study(artefact, 1);
+  const auto responses = study.solve_all(pairs());
+  const auto u = drawn(responses, &solvers::PeriodSamples::displacement);
+  const Eigen::VectorXd& reference = study.reference().displacement;
+  artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
+                {"64 functions; reference: time stepping"});
+  artefact.picture(pair_figure({"Tip displacement at 150 Hz, 64 functions",
+                                      axis("Displacement (mm)", -1.6, 1.2), -0.5, millimetres,
+                                      reference, u, study.gap(), Zoom{-0.17, 0.17, 0.97, 1.03, {}}}));
+  artefact.caption(
+      "64 functions at 150 Hz; dashed: time stepping; dotted: the gap. The force F cos 2πft puts the "
+      "contact about t = 0, which stands in the middle. The panels follow the letters that the text "
+      "gives.");
+  const double error = app::relative_rms_error(u[0], reference);
+  artefact.claim(
+      {"section 5.1",
+       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "
+       "at both 150 Hz and 1275 Hz compared to the time-stepping solution.",
+       "at 150 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
+  claim_hbm(artefact, study, responses[0].samples);
+  claim_haar(artefact, study, u[3], u[0]);
+  claim_bspline(artefact, study, u[1]);
 }
+
+}  // namespace wavebalance::jl14

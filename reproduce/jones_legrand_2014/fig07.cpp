@@ -1,23 +1,23 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 constexpr double millimetres = 1e3;
 
-double haar_error(jl14::Case& study) {
-  const auto response = study.solve(jl14::pair("haar_fourier"), 64);
+double haar_error(Case& study) {
+  const auto response = study.solve(pair("haar_fourier"), 64);
   return app::relative_rms_error(response.samples.displacement, study.reference().displacement);
 }
 
-double penetration(const jl14::Case& study) {
+double penetration(const Case& study) {
   return study.reference().displacement.maxCoeff() / study.gap() - 1.0;
 }
 
-void claim_haar(report::Artefact& artefact, jl14::Case& study) {
-  jl14::Case other(artefact, 1);
+void claim_haar(report::Artefact& artefact, Case& study) {
+  Case other(artefact, 1);
   const double here = haar_error(study), there = haar_error(other);
   artefact.claim({"section 5.1", "The Haar basis appears to be less suited for the response at 1275 Hz",
                   "the relative rms error of Haar:Fourier is higher than at 150 Hz",
@@ -35,26 +35,25 @@ void claim_haar(report::Artefact& artefact, jl14::Case& study) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity = jl14::identity("Fig. 7", "Tip displacement, case 2", "fig07_tip_displacement_case2");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    jl14::Case study(artefact, 2);
-    const auto responses = study.solve_all(jl14::pairs());
-    const auto u = jl14::drawn(responses, &solvers::PeriodSamples::displacement);
-    const Eigen::VectorXd& reference = study.reference().displacement;
-    artefact.data(jl14::comparison_table(study.time(), reference, u), "time in periods, displacements in m",
-                  {"64 functions; reference: time stepping"});
-    artefact.picture(
-        jl14::pair_figure({"Tip displacement at 1275 Hz, 64 functions",
-                           jl14::axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
-                           study.gap(), jl14::Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
-    artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
-    const double error = app::relative_rms_error(u[0], reference);
-    artefact.claim(
-        {"section 5.1",
-         "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "
-         "at both 150 Hz and 1275 Hz compared to the time-stepping solution.",
-         "at 1275 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
-    claim_haar(artefact, study);
-  });
+void fig07(report::Artefact& artefact) {
+  Case study(artefact, 2);
+  const auto responses = study.solve_all(pairs());
+  const auto u = drawn(responses, &solvers::PeriodSamples::displacement);
+  const Eigen::VectorXd& reference = study.reference().displacement;
+  artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
+                {"64 functions; reference: time stepping"});
+  artefact.picture(
+      pair_figure({"Tip displacement at 1275 Hz, 64 functions",
+                         axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
+                         study.gap(), Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
+  artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
+  const double error = app::relative_rms_error(u[0], reference);
+  artefact.claim(
+      {"section 5.1",
+       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "
+       "at both 150 Hz and 1275 Hz compared to the time-stepping solution.",
+       "at 1275 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
+  claim_haar(artefact, study);
 }
+
+}  // namespace wavebalance::jl14

@@ -1,13 +1,12 @@
+#include "figures.hpp"
 #include "convergence.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
-using namespace wavebalance;
-using jl14::Convergence;
-
+namespace wavebalance::jl14 {
 namespace {
 
 void claim_convergence(report::Artefact& artefact, const Convergence& off) {
-  const auto all = jl14::pairs();
+  const auto all = pairs();
   const auto compared = [&](int functions) {
     return "largest deviation " + report::percent(off.largest(1, all, functions)) + " at 150 Hz, " +
            report::percent(off.largest(2, all, functions)) + " at 1275 Hz";
@@ -27,11 +26,11 @@ void claim_convergence(report::Artefact& artefact, const Convergence& off) {
 }
 
 void claim_smooth_pairs(report::Artefact& artefact, const Convergence& off) {
-  const auto smooth = jl14::pairs_named({"fourier_fourier", "bspline_bspline"});
+  const auto smooth = pairs_named({"fourier_fourier", "bspline_bspline"});
   const auto claim = [&](int number, const std::string& quote) {
     artefact.claim({"section 5.4", quote, "with 8 and with 16 functions both ratios are within 5 % of 1",
-                    "deviation with 8: " + jl14::listed(smooth, off.at(number, smooth, 8)) +
-                        "; with 16: " + jl14::listed(smooth, off.at(number, smooth, 16)),
+                    "deviation with 8: " + listed(smooth, off.at(number, smooth, 8)) +
+                        "; with 16: " + listed(smooth, off.at(number, smooth, 16)),
                     std::max(off.largest(number, smooth, 8), off.largest(number, smooth, 16)) < 0.05});
   };
   claim(1,
@@ -44,16 +43,16 @@ void claim_smooth_pairs(report::Artefact& artefact, const Convergence& off) {
 }
 
 void claim_haar(report::Artefact& artefact, const Convergence& ratio, const Convergence& off) {
-  const auto haar = jl14::pairs_named({"haar_fourier", "haar_bspline"});
+  const auto haar = pairs_named({"haar_fourier", "haar_bspline"});
   const auto at_8 = ratio.at(1, haar, 8), at_16 = ratio.at(1, haar, 16);
   artefact.claim(
       {"section 5.4",
        "The Petrov-Galerkin combinations utilizing Haar trial functions over-predict the system energy when "
        "few trial functions are used.",
        "at 150 Hz the ratios of both Haar pairs are above 1 with 8 and with 16 functions",
-       "ratio with 8: " + jl14::listed(haar, at_8) + "; with 16: " + jl14::listed(haar, at_16),
+       "ratio with 8: " + listed(haar, at_8) + "; with 16: " + listed(haar, at_16),
        std::min({at_8[0], at_8[1], at_16[0], at_16[1]}) > 1.0});
-  const double low = off.mean(1, haar, jl14::sizes()), high = off.mean(2, haar, jl14::sizes());
+  const double low = off.mean(1, haar, sizes()), high = off.mean(2, haar, sizes());
   artefact.claim(
       {"section 5.4",
        "The cases with Haar trial functions show larger difference with respect to the normalizing solution "
@@ -64,7 +63,7 @@ void claim_haar(report::Artefact& artefact, const Convergence& ratio, const Conv
 
 void claim_daubechies(report::Artefact& artefact, const Convergence& off) {
   const auto deviation = [&](int number, const std::string& name) {
-    return off.mean(number, jl14::pairs_named({name}), {8, 16, 32});
+    return off.mean(number, pairs_named({name}), {8, 16, 32});
   };
   const double galerkin = deviation(1, "daubechies6_daubechies6"),
                fourier = deviation(1, "daubechies6_fourier");
@@ -92,30 +91,29 @@ void claim_daubechies(report::Artefact& artefact, const Convergence& off) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity = jl14::identity("Fig. 10", "Convergence of the energy norm", "fig10_energy_norm");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const Convergence ratio(artefact, "energy_norm_ratio", true,
-                            [](jl14::Case& study, const app::Response& response) {
-                              return app::energy_norm(study.scene(), response.samples) /
-                                     app::rms(study.reference_energy());
-                            });
-    const Convergence off = ratio.mapped([](double value) { return std::abs(value - 1.0); });
-    artefact.data(
-        ratio.table(), "ratio without unit",
-        {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of time stepping"});
-    auto figure = ratio.figure("Energy norm ratio (-)", false);
-    for (auto& panel : off.figure("|ratio − 1| (-)", true).panels) {
-      panel.legend = app::Legend::none;
-      figure.panels.push_back(panel);
-    }
-    artefact.picture(figure);
-    artefact.caption(
-        "Top: as the paper draws it; bottom: distance from 1. Kinetic, elastic and contact energy of all 25 "
-        "degrees of freedom; the contact energy is the potential of the exponential spring.");
-    claim_convergence(artefact, off);
-    claim_smooth_pairs(artefact, off);
-    claim_haar(artefact, ratio, off);
-    claim_daubechies(artefact, off);
-  });
+void fig10(report::Artefact& artefact) {
+  const Convergence ratio(artefact, "energy_norm_ratio", true,
+                          [](Case& study, const app::Response& response) {
+                            return app::energy_norm(study.scene(), response.samples) /
+                                   app::rms(study.reference_energy());
+                          });
+  const Convergence off = ratio.mapped([](double value) { return std::abs(value - 1.0); });
+  artefact.data(
+      ratio.table(), "ratio without unit",
+      {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of time stepping"});
+  auto figure = ratio.figure("Energy norm ratio (-)", false);
+  for (auto& panel : off.figure("|ratio − 1| (-)", true).panels) {
+    panel.legend = app::Legend::none;
+    figure.panels.push_back(panel);
+  }
+  artefact.picture(figure);
+  artefact.caption(
+      "Top: as the paper draws it; bottom: distance from 1. Kinetic, elastic and contact energy of all 25 "
+      "degrees of freedom; the contact energy is the potential of the exponential spring.");
+  claim_convergence(artefact, off);
+  claim_smooth_pairs(artefact, off);
+  claim_haar(artefact, ratio, off);
+  claim_daubechies(artefact, off);
 }
+
+}  // namespace wavebalance::jl14

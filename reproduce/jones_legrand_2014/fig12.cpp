@@ -1,8 +1,7 @@
+#include "figures.hpp"
 #include "sweeps.hpp"
 
-using namespace wavebalance;
-using jl14::Resonance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 const char* units = "SI; a column's name ends in its unit; points in their order along the curve";
@@ -14,17 +13,17 @@ app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonanc
   figure.panel_width = 560;
   figure.panel_height = 380;
   figure.panels.push_back(
-      jl14::sweep_panel("first resonance, gap " + report::number(1e3 * first.gap) + " mm", first));
-  figure.panels.push_back(jl14::sweep_panel("the same, enlarged", first));
-  auto series = jl14::sweep_series("", full);
+      sweep_panel("first resonance, gap " + report::number(1e3 * first.gap) + " mm", first));
+  figure.panels.push_back(sweep_panel("the same, enlarged", first));
+  auto series = sweep_series("", full);
   series.colour = app::Colour::black;
   series.width = 0.9;
   figure.panels[1].add(series);
   figure.panels[1].texts.push_back({1272.0, 14.0, "thin black: Fourier:Fourier, 63 functions"});
-  figure.panels[1].x = jl14::axis("Forcing frequency (Hz)", 1215.0, 1355.0);
-  figure.panels[1].y = jl14::axis("Largest tip displacement (mm)", 13.5, 16.0);
+  figure.panels[1].x = axis("Forcing frequency (Hz)", 1215.0, 1355.0);
+  figure.panels[1].y = axis("Largest tip displacement (mm)", 13.5, 16.0);
   for (const auto* resonance : {&second, &near}) {
-    auto panel = jl14::sweep_panel("second resonance, gap " + report::number(1e3 * resonance->gap) + " mm",
+    auto panel = sweep_panel("second resonance, gap " + report::number(1e3 * resonance->gap) + " mm",
                                    *resonance);
     panel.y.upper = 1.3;
     figure.panels.push_back(panel);
@@ -34,7 +33,7 @@ app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonanc
 }
 
 void claim_stiffening(report::Artefact& artefact, const Resonance& first) {
-  const double with = jl14::peak(first.sweeps[0]).frequency, without = jl14::peak(first.free).frequency;
+  const double with = peak(first.sweeps[0]).frequency, without = peak(first.free).frequency;
   artefact.claim(
       {"section 5.6",
        "the resonant peaks for the system are expected to increase in frequency relative to the no-contact "
@@ -50,25 +49,25 @@ void claim_agreement(report::Artefact& artefact, const Resonance& first, const R
        "the stiffening behaviour of the unilateral contact condition is captured by both trial:weighting "
        "function combinations",
        "the turning points of Haar:Fourier are within 1 Hz of those of Fourier:Fourier",
-       "Fourier:Fourier " + jl14::turns_text(first.sweeps[0]) + ", Haar:Fourier " +
-           jl14::turns_text(first.sweeps[1]),
-       jl14::turns_spread(first.sweeps) < 1.0});
+       "Fourier:Fourier " + turns_text(first.sweeps[0]) + ", Haar:Fourier " +
+           turns_text(first.sweeps[1]),
+       turns_spread(first.sweeps) < 1.0});
   std::string measured;
   bool all_through = true;
   for (std::size_t i = 0; i < all.sweeps.size(); ++i) {
-    measured += (i == 0 ? "" : ", ") + all.pairs[i].label + " " + jl14::turns_text(all.sweeps[i]);
+    measured += (i == 0 ? "" : ", ") + all.pairs[i].label + " " + turns_text(all.sweeps[i]);
     all_through = all_through && all.sweeps[i].converged();
   }
   artefact.claim(
       {"section 5.6", "other combinations showed similar approximations",
        "the curves of all six pairs pass the interval, their turning points within 1 Hz of Fourier:Fourier's",
-       measured, all_through && jl14::turns_spread(all.sweeps) < 1.0});
+       measured, all_through && turns_spread(all.sweeps) < 1.0});
 }
 
 void note_every_turn(report::Artefact& artefact) {
   std::string text;
-  for (const auto& pair : jl14::pairs_named({"haar_fourier", "haar_bspline", "daubechies6_fourier"}))
-    text += (text.empty() ? "" : ", ") + jl14::every_turn_text(artefact, "case2_sweep.toml", pair);
+  for (const auto& pair : pairs_named({"haar_fourier", "haar_bspline", "daubechies6_fourier"}))
+    text += (text.empty() ? "" : ", ") + every_turn_text(artefact, "case2_sweep.toml", pair);
   artefact.note(
       "Turning points leave out returns of the frequency below a thousandth of the interval. Each of the 256 "
       "points "
@@ -79,7 +78,7 @@ void note_every_turn(report::Artefact& artefact) {
 }
 
 void claim_second(report::Artefact& artefact, const Resonance& second, const Resonance& near) {
-  const auto free = jl14::peak(second.free);
+  const auto free = peak(second.free);
   const std::string frequency = report::number(free.frequency, 5) + " Hz";
   artefact.claim(
       {"caption of Fig. 12",
@@ -97,32 +96,30 @@ void claim_second(report::Artefact& artefact, const Resonance& second, const Res
       report::number(1e3 * near.gap, 4) +
       " mm, the same half of the peak without contact that 14.5 mm is at the first resonance: the peak moves "
       "from " +
-      frequency + " to " + report::number(jl14::peak(near.sweeps[0]).frequency, 5) + " Hz; turning points: " +
-      jl14::turns_text(near.sweeps[0]) + "; the damping ratio grows with the frequency.");
+      frequency + " to " + report::number(peak(near.sweeps[0]).frequency, 5) + " Hz; turning points: " +
+      turns_text(near.sweeps[0]) + "; the damping ratio grows with the frequency.");
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Fig. 12", "Frequency response by arc length", "fig12_frequency_response");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto pairs = jl14::pairs_named({"fourier_fourier", "haar_fourier"});
-    const auto first = jl14::swept(artefact, "case2_sweep.toml", pairs);
-    const auto second = jl14::swept(artefact, "case2_sweep_second.toml", pairs);
-    const auto near = jl14::swept(artefact, "case2_sweep_second_small_gap.toml", pairs);
-    const auto all = jl14::swept(artefact, "case2_sweep.toml", jl14::pairs());
-    const auto full = jl14::swept_with_full_harmonics(artefact, "case2_sweep.toml");
-    artefact.picture(drawn(first, full, second, near));
-    artefact.data(jl14::sweeps_table(first), units, {"first resonance"});
-    artefact.more_data("second", jl14::sweeps_table(second), units);
-    artefact.more_data("second_small_gap", jl14::sweeps_table(near), units);
-    artefact.more_data("without_contact", app::sweep_table(first.free.curve), units);
-    artefact.caption("64 functions, constants of case 2 but for the gap of (d); dotted line: the gap.");
-    jl14::note_nyquist_resonances(artefact, "case2_sweep.toml", full);
-    claim_stiffening(artefact, first);
-    claim_agreement(artefact, first, all);
-    note_every_turn(artefact);
-    claim_second(artefact, second, near);
-  });
+void fig12(report::Artefact& artefact) {
+  const auto two = pairs_named({"fourier_fourier", "haar_fourier"});
+  const auto first = swept(artefact, "case2_sweep.toml", two);
+  const auto second = swept(artefact, "case2_sweep_second.toml", two);
+  const auto near = swept(artefact, "case2_sweep_second_small_gap.toml", two);
+  const auto all = swept(artefact, "case2_sweep.toml", pairs());
+  const auto full = swept_with_full_harmonics(artefact, "case2_sweep.toml");
+  artefact.picture(drawn(first, full, second, near));
+  artefact.data(sweeps_table(first), units, {"first resonance"});
+  artefact.more_data("second", sweeps_table(second), units);
+  artefact.more_data("second_small_gap", sweeps_table(near), units);
+  artefact.more_data("without_contact", app::sweep_table(first.free.curve), units);
+  artefact.caption("64 functions, constants of case 2 but for the gap of (d); dotted line: the gap.");
+  note_nyquist_resonances(artefact, "case2_sweep.toml", full);
+  claim_stiffening(artefact, first);
+  claim_agreement(artefact, first, all);
+  note_every_turn(artefact);
+  claim_second(artefact, second, near);
 }
+
+}  // namespace wavebalance::jl14

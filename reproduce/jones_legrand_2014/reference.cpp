@@ -1,10 +1,10 @@
-// The time-stepping reference of one case, JL14_CASE, that Figs. 6-11 read.
+// The time-stepping reference of one case, which Figs. 6-11 read.
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 app::Response converged(const app::Response& response, const std::string& method) {
@@ -14,33 +14,31 @@ app::Response converged(const app::Response& response, const std::string& method
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const std::string number = std::to_string(JL14_CASE);
-  const auto identity =
-      jl14::identity("reference " + number, "Time stepping, case " + number, "reference_case" + number);
-  return report::run_artefact(argc, argv, identity, [&](report::Artefact& artefact) {
-    const auto scene = artefact.scene("reference_case" + number + ".toml");
-    app::ResponseOptions options;
-    options.full_history = true;
-    const auto stepping = converged(app::time_stepping_response(scene, options), "time stepping");
-    const auto shooting = converged(app::shooting_response(scene), "shooting");
-    auto table = app::response_table(stepping.samples);
-    table.add_column("system_energy_J", app::system_energy(scene, stepping.samples));
-    artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
-    artefact.caption("The last of " + std::to_string(stepping.iterations) +
-                     " periods, computed once and read by Figs. 6-11.");
-    artefact.claim(
-        {"section 4",
-         "the solution is deemed to have converged to its periodic state when the rms of the relative error "
-         "between the tip displacements for the i and i − 1 periods is below 10^{-7}",
-         "reached within " + std::to_string(scene.analysis.max_periods) + " periods",
-         report::number(stepping.residual) + " after " + std::to_string(stepping.iterations) + " periods",
-         stepping.residual < 1e-7});
-    const double difference =
-        app::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
-    artefact.note("An independent shooting solution differs from it by " + report::number(difference) +
-                  " (relative rms of the tip displacement); largest displacement " +
-                  report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) + " mm, in contact for " +
-                  report::percent(app::contact_fraction(stepping.samples), 4) + " of the period.");
-  });
+void reference(report::Artefact& artefact, int case_number) {
+  const std::string number = std::to_string(case_number);
+  const auto scene = artefact.scene("reference_case" + number + ".toml");
+  app::ResponseOptions options;
+  options.full_history = true;
+  const auto stepping = converged(app::time_stepping_response(scene, options), "time stepping");
+  const auto shooting = converged(app::shooting_response(scene), "shooting");
+  auto table = app::response_table(stepping.samples);
+  table.add_column("system_energy_J", app::system_energy(scene, stepping.samples));
+  artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
+  artefact.caption("The last of " + std::to_string(stepping.iterations) +
+                   " periods, computed once and read by Figs. 6-11.");
+  artefact.claim(
+      {"section 4",
+       "the solution is deemed to have converged to its periodic state when the rms of the relative error "
+       "between the tip displacements for the i and i − 1 periods is below 10^{-7}",
+       "reached within " + std::to_string(scene.analysis.max_periods) + " periods",
+       report::number(stepping.residual) + " after " + std::to_string(stepping.iterations) + " periods",
+       stepping.residual < 1e-7});
+  const double difference =
+      app::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
+  artefact.note("An independent shooting solution differs from it by " + report::number(difference) +
+                " (relative rms of the tip displacement); largest displacement " +
+                report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) + " mm, in contact for " +
+                report::percent(app::contact_fraction(stepping.samples), 4) + " of the period.");
 }
+
+}  // namespace wavebalance::jl14

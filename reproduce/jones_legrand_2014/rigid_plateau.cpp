@@ -1,10 +1,11 @@
 // The step that JL14 names as its next one: the same bar against a rigid obstacle, beside the penalty law.
 #include <cmath>
 
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::jl14 {
 using app::Colour;
 
 namespace {
@@ -14,7 +15,7 @@ constexpr double millimetres = 1e3;
 struct Study {
   int number;
   app::Scene scene;
-  std::vector<app::Response> rigid;  ///< in the order of jl14::pairs()
+  std::vector<app::Response> rigid;  ///< in the order of pairs()
   app::Response penalty;             ///< Fourier:Fourier, exponential law
 };
 
@@ -22,7 +23,7 @@ Study studied(report::Artefact& artefact, int number) {
   const std::string name = "case" + std::to_string(number);
   Study study{number, artefact.scene(name + "_rigid.toml"), {}, {}};
   study.penalty = app::weighted_residual_response(artefact.scene(name + ".toml"));
-  for (const auto& pair : jl14::pairs()) {
+  for (const auto& pair : pairs()) {
     study.rigid.push_back(app::weighted_residual_response(
         artefact.scene(name + "_rigid.toml", {"time.trial=" + pair.trial, "time.weight=" + pair.weight})));
     if (!study.rigid.back().converged)
@@ -32,8 +33,8 @@ Study studied(report::Artefact& artefact, int number) {
   return study;
 }
 
-jl14::Series centred(const std::string& label, const Eigen::VectorXd& values, Colour colour) {
-  auto series = jl14::periodic_series(label, values, -0.5);
+Series centred(const std::string& label, const Eigen::VectorXd& values, Colour colour) {
+  auto series = periodic_series(label, values, -0.5);
   series.colour = colour;
   return series;
 }
@@ -47,10 +48,10 @@ void add_panels(app::Figure& figure, const Study& study) {
   auto& force = figure.panels[place + 1];
   motion.title = "case " + std::to_string(study.number) + ", tip displacement";
   force.title = "case " + std::to_string(study.number) + ", contact force";
-  motion.x = force.x = first ? jl14::axis("Time (fraction of a period)", -0.16, 0.16)
-                             : jl14::axis("Time (fraction of a period)", 0.01, 0.15);
-  motion.y = jl14::axis("Displacement (mm)", (first ? 0.97 : 0.93) * gap, (first ? 1.022 : 1.055) * gap);
-  force.y = jl14::axis("Force over amplitude", 0.0, first ? 0.4 : 20.0);
+  motion.x = force.x = first ? axis("Time (fraction of a period)", -0.16, 0.16)
+                             : axis("Time (fraction of a period)", 0.01, 0.15);
+  motion.y = axis("Displacement (mm)", (first ? 0.97 : 0.93) * gap, (first ? 1.022 : 1.055) * gap);
+  force.y = axis("Force over amplitude", 0.0, first ? 0.4 : 20.0);
   const double scale = 1.0 / study.scene.forcing.amplitude;
   auto penalty = centred("", millimetres * study.penalty.samples.displacement, Colour::black);
   penalty.dash = app::Dash::dashed;
@@ -62,16 +63,16 @@ void add_panels(app::Figure& figure, const Study& study) {
   force.add(penalty_force);
   for (std::size_t i = 0; i < study.rigid.size(); ++i) {
     if (!study.rigid[i].converged) continue;
-    const auto& pair = jl14::pairs()[i];
+    const auto& pair = pairs()[i];
     const auto& samples = study.rigid[i].samples;
     motion.add(centred("", millimetres * samples.displacement, pair.colour));
     force.add(centred("rigid, " + pair.label, scale * samples.contact_force, pair.colour));
   }
 }
 
-void append(jl14::Table& table, const Study& study) {
+void append(Table& table, const Study& study) {
   const double amplitude = study.scene.forcing.amplitude, gap = study.scene.contact.gap;
-  const auto add = [&](const std::string& contact, const jl14::Pair& pair,
+  const auto add = [&](const std::string& contact, const Pair& pair,
                        const app::Response& response) {
     const auto& samples = response.samples;
     const double missing = std::nan("");
@@ -81,43 +82,41 @@ void append(jl14::Table& table, const Study& study) {
                       samples.contact_force.mean() / amplitude, samples.contact_force.maxCoeff() / amplitude,
                       app::contact_fraction(samples)});
   };
-  add("exponential", jl14::pairs()[0], study.penalty);
-  for (std::size_t i = 0; i < study.rigid.size(); ++i) add("rigid", jl14::pairs()[i], study.rigid[i]);
+  add("exponential", pairs()[0], study.penalty);
+  for (std::size_t i = 0; i < study.rigid.size(); ++i) add("rigid", pairs()[i], study.rigid[i]);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Rigid contact", "The contact plateau against a rigid obstacle", "rigid_plateau");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    app::Figure figure;
-    figure.columns = 2;
-    figure.panel_width = 520;
-    figure.panel_height = 360;
-    jl14::Table table({"case", "contact", "trial", "weight", "converged", "largest_penetration_over_gap",
-                       "penetration_at_quadrature_points_over_gap", "mean_force_over_amplitude",
-                       "largest_force_over_amplitude", "contact_fraction"});
-    for (const int number : {1, 2}) {
-      const Study study = studied(artefact, number);
-      add_panels(figure, study);
-      append(table, study);
-      double worst = 0.0;
-      for (const auto& response : study.rigid)
-        worst = std::max(worst, response.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0);
-      artefact.note(
-          "Case " + std::to_string(number) + ": the exponential law lets the tip " +
-          report::percent(study.penalty.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0, 2) +
-          " of the gap beyond it, the rigid obstacle between the quadrature points up to " +
-          report::percent(worst, 2) + ", at them less than 1e-4 %.");
-    }
-    artefact.data(table, "without unit");
-    artefact.picture(figure);
-    artefact.caption(
-        "The paper's next step, rigid (Signorini) contact as complementarity, with the six pairs (64 "
-        "functions, 64 "
-        "points, the tip's mass moved to its neighbour) beside the exponential law of the paper. The force "
-        "is known "
-        "at the points and drawn as held between them.");
-  });
+void rigid_plateau(report::Artefact& artefact) {
+  app::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 520;
+  figure.panel_height = 360;
+  Table table({"case", "contact", "trial", "weight", "converged", "largest_penetration_over_gap",
+                     "penetration_at_quadrature_points_over_gap", "mean_force_over_amplitude",
+                     "largest_force_over_amplitude", "contact_fraction"});
+  for (const int number : {1, 2}) {
+    const Study study = studied(artefact, number);
+    add_panels(figure, study);
+    append(table, study);
+    double worst = 0.0;
+    for (const auto& response : study.rigid)
+      worst = std::max(worst, response.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0);
+    artefact.note(
+        "Case " + std::to_string(number) + ": the exponential law lets the tip " +
+        report::percent(study.penalty.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0, 2) +
+        " of the gap beyond it, the rigid obstacle between the quadrature points up to " +
+        report::percent(worst, 2) + ", at them less than 1e-4 %.");
+  }
+  artefact.data(table, "without unit");
+  artefact.picture(figure);
+  artefact.caption(
+      "The paper's next step, rigid (Signorini) contact as complementarity, with the six pairs (64 "
+      "functions, 64 "
+      "points, the tip's mass moved to its neighbour) beside the exponential law of the paper. The force "
+      "is known "
+      "at the points and drawn as held between them.");
 }
+
+}  // namespace wavebalance::jl14

@@ -1,8 +1,8 @@
+#include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::jl14 {
 namespace {
 
 constexpr int functions = 64;
@@ -23,7 +23,7 @@ double exponent(const std::string& basis) {
 std::string shown(double exponent) { return std::isfinite(exponent) ? report::number(exponent, 5) : "∞"; }
 
 /// A row of the CSV and one of the printed table.
-void append(jl14::Table& data, jl14::Table& printed, const jl14::Pair& pair) {
+void append(Table& data, Table& printed, const Pair& pair) {
   const auto time = time_of(pair.trial, pair.weight);
   const auto pairing = app::pair_admissibility(time);
   const std::string products = app::name_of(app::effective_inner_products(time));
@@ -47,29 +47,27 @@ void note_inadmissible(report::Artefact& artefact) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      jl14::identity("Table 2", "Combinations of trial and weighting functions", "tab02_pairs");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    jl14::Table data({"trial", "weight", "trial_sobolev_exponent", "weight_sobolev_exponent", "sobolev_sum",
-                      "admissible", "inner_products"});
-    jl14::Table printed({"Trial function", "Weighting function", "s_q", "s_p", "s_q + s_p",
-                         "admissible (> 2)", "inner products"});
-    for (const auto& pair : jl14::pairs()) append(data, printed, pair);
-    artefact.data(data, "Sobolev exponents without unit", {"admissible: the exponents sum to more than 2"});
-    artefact.markdown(printed);
-    artefact.caption(
-        "The Sobolev exponents s_q, s_p of trial and weighting functions and whether their pairing with two "
-        "time derivatives exists are computed; the paper lists the first two columns.");
-    int admissible = 0;
-    for (std::size_t i = 0; i < data.rows(); ++i)
-      admissible += std::get<bool>(data.at(i, "admissible")) ? 1 : 0;
-    artefact.claim(
-        {"conclusions",
-         "This allowed piecewise constant Haar scaling functions to be used as a trial basis in the current "
-         "investigation.",
-         "all six pairs are admissible in the distributional form", std::to_string(admissible) + " of 6 are",
-         admissible == 6});
-    note_inadmissible(artefact);
-  });
+void tab02(report::Artefact& artefact) {
+  Table data({"trial", "weight", "trial_sobolev_exponent", "weight_sobolev_exponent", "sobolev_sum",
+                    "admissible", "inner_products"});
+  Table printed({"Trial function", "Weighting function", "s_q", "s_p", "s_q + s_p",
+                       "admissible (> 2)", "inner products"});
+  for (const auto& pair : pairs()) append(data, printed, pair);
+  artefact.data(data, "Sobolev exponents without unit", {"admissible: the exponents sum to more than 2"});
+  artefact.markdown(printed);
+  artefact.caption(
+      "The Sobolev exponents s_q, s_p of trial and weighting functions and whether their pairing with two "
+      "time derivatives exists are computed; the paper lists the first two columns.");
+  int admissible = 0;
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    admissible += std::get<bool>(data.at(i, "admissible")) ? 1 : 0;
+  artefact.claim(
+      {"conclusions",
+       "This allowed piecewise constant Haar scaling functions to be used as a trial basis in the current "
+       "investigation.",
+       "all six pairs are admissible in the distributional form", std::to_string(admissible) + " of 6 are",
+       admissible == 6});
+  note_inadmissible(artefact);
 }
+
+}  // namespace wavebalance::jl14

@@ -1,8 +1,9 @@
 #include <array>
 
+#include "figures.hpp"
 #include "ll10.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::ll10 {
 using app::Colour;
 
 namespace {
@@ -49,8 +50,8 @@ app::Figure drawn(const std::vector<Polyline>& lines) {
   figure.panel_height = 250;
   auto& panel = figure.add_panel();
   panel.frame = false;
-  panel.x = ll10::axis("", -0.08, 1.2);
-  panel.y = ll10::axis("", -0.23, 0.24);
+  panel.x = axis("", -0.08, 1.2);
+  panel.y = axis("", -0.23, 0.24);
   panel.legend = app::Legend::none;
   for (const auto& line : lines) {
     std::vector<double> x, y;
@@ -58,7 +59,7 @@ app::Figure drawn(const std::vector<Polyline>& lines) {
       x.push_back(point[0]);
       y.push_back(point[1]);
     }
-    ll10::Series series("", x, y);
+    Series series("", x, y);
     series.colour = Colour::black;
     series.width = line.part == "hatching" ? 0.8 : 1.6;
     panel.add(std::move(series));
@@ -69,22 +70,20 @@ app::Figure drawn(const std::vector<Polyline>& lines) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      ll10::identity("Fig. 2", "Thin rod in contact against a rigid foundation", "fig02_rod_sketch");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const auto lines = outline();
-    ll10::Table table({"line", "part", "x", "y"});
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].part, x, y});
-    artefact.data(table, "units of the rod's length");
-    artefact.picture(drawn(lines));
-    const auto& rod = artefact.scene("rod.toml").structure;
-    artefact.caption(
-        "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = " +
-        report::number(rod.youngs_modulus) + " Pa, density " + report::number(rod.density, 4) +
-        " kg/m³, area " + report::number(rod.area) + " m², length " + report::number(rod.length) +
-        " m. The displacement towards the obstacle is positive; compression there is -EA u_x, where "
-        "the paper has EA u_x as a stress.");
-  });
+void fig02(report::Artefact& artefact) {
+  const auto lines = outline();
+  Table table({"line", "part", "x", "y"});
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].part, x, y});
+  artefact.data(table, "units of the rod's length");
+  artefact.picture(drawn(lines));
+  const auto& rod = artefact.scene("rod.toml").structure;
+  artefact.caption(
+      "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = " +
+      report::number(rod.youngs_modulus) + " Pa, density " + report::number(rod.density, 4) +
+      " kg/m³, area " + report::number(rod.area) + " m², length " + report::number(rod.length) +
+      " m. The displacement towards the obstacle is positive; compression there is -EA u_x, where "
+      "the paper has EA u_x as a stress.");
 }
+
+}  // namespace wavebalance::ll10

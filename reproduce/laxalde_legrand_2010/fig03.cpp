@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "curves.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::ll10 {
 using app::Colour;
 using app::Dash;
 using app::SeriesStyle;
@@ -14,7 +15,7 @@ constexpr int published_harmonics = 2;
 
 /// A column of one formulation as a curve, from its `first` row on; a step above `gap` in energy interrupts
 /// it.
-app::Series curve(const std::string& label, const ll10::Table& table, const std::string& formulation,
+app::Series curve(const std::string& label, const Table& table, const std::string& formulation,
                         const std::string& column, Colour colour, Dash dash, std::size_t first) {
   const auto rows = table.where("formulation", formulation);
   const auto energy = rows.numbers("energy_ratio"), value = rows.numbers(column);
@@ -27,13 +28,13 @@ app::Series curve(const std::string& label, const ll10::Table& table, const std:
 }
 
 app::Figure drawn(const app::ModeStudy& study, const app::Backbone& backbone,
-                        const ll10::Table& table) {
+                        const Table& table) {
   app::Figure figure;
   figure.panel_width = 760;
   figure.panel_height = 460;
-  auto& panel = figure.add_panel("consistent: " + ll10::discretisation(study.scene()));
-  panel.x = ll10::axis("Energy γ over its value at linear grazing", 0.0, 10.0);
-  panel.y = ll10::axis("Frequency over the linear one", 0.98, 1.28);
+  auto& panel = figure.add_panel("consistent: " + discretisation(study.scene()));
+  panel.x = axis("Energy γ over its value at linear grazing", 0.0, 10.0);
+  panel.y = axis("Frequency over the linear one", 0.98, 1.28);
   panel.legend = app::Legend::bottom_right;
   panel.add(curve("exact, ω", table, "exact", "frequency_ratio", Colour::black, Dash::solid, 2));
   panel.add(curve("exact, √r", table, "exact", "rayleigh_frequency_ratio", Colour::black, Dash::dashed, 2));
@@ -103,7 +104,7 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
                     const app::Backbone& backbone) {
   const auto point = study.at_energy(backbone, 10.0);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
-  const auto exact = ll10::exact_mode(study.scene(), 10.0);
+  const auto exact = exact_mode(study.scene(), 10.0);
   artefact.claim(
       {"section 3.1",
        "Nonlinear eigenvectors are defined as critical points of this Rayleigh quotient and the associated "
@@ -156,10 +157,10 @@ void claim_published(report::Artefact& artefact, const std::vector<solvers::Lagr
 
 void notes(report::Artefact& artefact, const app::ModeStudy& study,
            const app::Backbone& backbone) {
-  const auto distance = ll10::exact_distance(study, backbone);
+  const auto distance = exact_distance(study, backbone);
   std::string errors;
   for (const double energy : {1.2, 1.8, 3.0, 5.0, 10.0}) {
-    const double exact = ll10::exact_mode(study.scene(), energy).frequency_ratio();
+    const double exact = exact_mode(study.scene(), energy).frequency_ratio();
     const double ratio = study.at_energy(backbone, energy).omega / study.mode().linear_omega();
     errors += (errors.empty() ? "" : ", ") + report::percent(ratio / exact - 1.0, 2) + " at " +
               report::number(energy);
@@ -169,7 +170,7 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study,
                 report::percent(distance.median, 2) + ", largest " + report::percent(distance.largest, 2) +
                 ".");
   const auto agreement =
-      ll10::lagrangian_agreement(study, backbone, {1.1, 1.2, 1.5, 1.8, 2.4, 3, 4, 5, 7, 10});
+      lagrangian_agreement(study, backbone, {1.1, 1.2, 1.5, 1.8, 2.4, 3, 4, 5, 7, 10});
   artefact.note(
       "The augmented Lagrangian (consistent, Algorithm 1), started from the condensed solution, agrees "
       "with it to " +
@@ -199,31 +200,29 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study,
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      ll10::identity("Fig. 3", "Frequency over energy of the first nonlinear mode", "fig03_backbone");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const app::ModeStudy study(artefact.scene("rod.toml"));
-    const auto backbone = study.backbone();
-    if (!backbone.converged()) throw report::NotConverged("backbone: " + backbone.status());
-    const auto published = app::ModeStudy(artefact.scene("rod_published.toml")).published_branch(10.0);
-    const auto table = ll10::backbones_table(study, backbone, published);
-    artefact.data(
-        table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",
-        {"consistent: " + ll10::discretisation(study.scene()) + ", half-lumped mass",
-         "published: eqs. (24) as printed, Algorithm 2, N = 2, m = 20; frequency_ratio is the root of r",
-         "exact: d'Alembert; below contact the linear mode"});
-    artefact.picture(drawn(study, backbone, table));
-    artefact.caption(
-        "First nonlinear mode of the rod: exact, computed from consistent equations, and as published. "
-        "Published is the augmented Lagrangian of the printed equations, which runs with N = 2; the "
-        "paper does not state its N.");
-    claim_linear(artefact);
-    claim_onset(artefact, backbone);
-    claim_hardening(artefact, study, backbone);
-    claim_identity(artefact, study, backbone);
-    claim_work(artefact, study, backbone);
-    claim_published(artefact, published);
-    notes(artefact, study, backbone);
-  });
+void fig03(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("rod.toml"));
+  const auto backbone = study.backbone();
+  if (!backbone.converged()) throw report::NotConverged("backbone: " + backbone.status());
+  const auto published = app::ModeStudy(artefact.scene("rod_published.toml")).published_branch(10.0);
+  const auto table = backbones_table(study, backbone, published);
+  artefact.data(
+      table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",
+      {"consistent: " + discretisation(study.scene()) + ", half-lumped mass",
+       "published: eqs. (24) as printed, Algorithm 2, N = 2, m = 20; frequency_ratio is the root of r",
+       "exact: d'Alembert; below contact the linear mode"});
+  artefact.picture(drawn(study, backbone, table));
+  artefact.caption(
+      "First nonlinear mode of the rod: exact, computed from consistent equations, and as published. "
+      "Published is the augmented Lagrangian of the printed equations, which runs with N = 2; the "
+      "paper does not state its N.");
+  claim_linear(artefact);
+  claim_onset(artefact, backbone);
+  claim_hardening(artefact, study, backbone);
+  claim_identity(artefact, study, backbone);
+  claim_work(artefact, study, backbone);
+  claim_published(artefact, published);
+  notes(artefact, study, backbone);
 }
+
+}  // namespace wavebalance::ll10

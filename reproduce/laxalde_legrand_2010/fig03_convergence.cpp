@@ -1,17 +1,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "figures.hpp"
 #include "curves.hpp"
 #include "wavebalance/app/analysis/curve_measures.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::ll10 {
 namespace {
 
 struct Row {
   int harmonics, elements;
   double lumped;
-  ll10::Distance distance;
+  Distance distance;
   double linear_error;  ///< of the linear frequency
   double accepted;      ///< share of the points
   double frequency;     ///< Hz, at energy ratio 1.8
@@ -25,19 +25,19 @@ Row row_of(report::Artefact& artefact, int harmonics, int elements, double lumpe
                                                  "structure.lumped_mass_fraction=" + report::number(lumped)});
   const app::ModeStudy study(scene);
   const auto curve = study.backbone();
-  const double exact = contact::ExactBarMode::linear_frequency(ll10::exact_bar(scene), 1);
+  const double exact = contact::ExactBarMode::linear_frequency(exact_bar(scene), 1);
   return {harmonics,
           elements,
           lumped,
-          ll10::exact_distance(study, curve),
+          exact_distance(study, curve),
           std::abs(study.linear_frequency() / exact - 1.0),
           curve.count(solvers::ModeStatus::converged) / static_cast<double>(curve.points.size()),
           study.at_energy(curve, 1.8).omega / (2.0 * std::numbers::pi),
           std::nan("")};
 }
 
-ll10::Table table_of(const std::vector<Row>& rows) {
-  ll10::Table table({"harmonics", "samples", "elements", "lumped_mass_fraction", "median_frequency_error",
+Table table_of(const std::vector<Row>& rows) {
+  Table table({"harmonics", "samples", "elements", "lumped_mass_fraction", "median_frequency_error",
                      "largest_frequency_error", "points_compared", "accepted_share", "linear_frequency_error",
                      "frequency_at_1.8_against_160_elements"});
   for (const Row& row : rows)
@@ -85,48 +85,46 @@ double order(const std::vector<Row>& rows, double (*size)(const Row&), double (*
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity = ll10::identity("Fig. 3, convergence", "Distance of the backbone from the exact one",
-                                       "fig03_convergence");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    std::vector<Row> over_harmonics, over_elements, over_elements_consistent, all;
-    for (const int n : {2, 3, 5, 8, 12, 18, 27}) over_harmonics.push_back(row_of(artefact, n, 80, 0.5));
-    for (const int n : {5, 10, 20, 40, 80}) {
-      over_elements.push_back(row_of(artefact, 5, n, 0.5));
-      over_elements_consistent.push_back(row_of(artefact, 5, n, 0.0));
-    }
-    for (const double lumped : {0.5, 0.0}) {
-      const Row finest = row_of(artefact, 5, 160, lumped);
-      for (Row& row : lumped > 0.0 ? over_elements : over_elements_consistent)
-        row.in_space = std::abs(row.frequency / finest.frequency - 1.0);
-    }
-    for (const auto* rows : {&over_harmonics, &over_elements, &over_elements_consistent})
-      all.insert(all.end(), rows->begin(), rows->end());
-    artefact.data(table_of(all), "errors relative to the exact frequency at the same energy ratio");
-    app::Figure figure;
-    figure.columns = 3;
-    figure.panel_width = 400;
-    figure.panel_height = 420;
-    add_panel(figure, "80 elements, half-lumped mass", "Harmonics N, m = 2N samples", over_harmonics,
-              harmonics, false);
-    add_panel(figure, "N = 5, half-lumped mass", "Elements", over_elements, elements, true);
-    add_panel(figure, "N = 5, consistent mass", "Elements", over_elements_consistent, elements, true);
-    artefact.picture(figure);
-    artefact.caption(
-        "Errors of omega against the exact curve at the energies of the accepted points between energy "
-        "ratios 1.2 and 10, 200 frequencies asked for. m = 2N samples.");
-    artefact.note("Observed orders (least squares). In N with 80 elements: median " +
-                  report::number(order(over_harmonics, harmonics, median), 2) + ", largest " +
-                  report::number(order(over_harmonics, harmonics, largest), 2) +
-                  " (it stands at the edges of internal resonances, which more harmonics do not remove). "
-                  "Against the exact "
-                  "curve the N of the series sets a floor in the elements; against 160 elements with the "
-                  "same N the order at "
-                  "energy 1.8 is " +
-                  report::number(order(over_elements, elements, in_space), 3) + " (half-lumped) and " +
-                  report::number(order(over_elements_consistent, elements, in_space), 3) +
-                  " (consistent), that of the linear frequency " +
-                  report::number(order(over_elements, elements, linear_error), 3) + " and " +
-                  report::number(order(over_elements_consistent, elements, linear_error), 3) + ".");
-  });
+void fig03_convergence(report::Artefact& artefact) {
+  std::vector<Row> over_harmonics, over_elements, over_elements_consistent, all;
+  for (const int n : {2, 3, 5, 8, 12, 18, 27}) over_harmonics.push_back(row_of(artefact, n, 80, 0.5));
+  for (const int n : {5, 10, 20, 40, 80}) {
+    over_elements.push_back(row_of(artefact, 5, n, 0.5));
+    over_elements_consistent.push_back(row_of(artefact, 5, n, 0.0));
+  }
+  for (const double lumped : {0.5, 0.0}) {
+    const Row finest = row_of(artefact, 5, 160, lumped);
+    for (Row& row : lumped > 0.0 ? over_elements : over_elements_consistent)
+      row.in_space = std::abs(row.frequency / finest.frequency - 1.0);
+  }
+  for (const auto* rows : {&over_harmonics, &over_elements, &over_elements_consistent})
+    all.insert(all.end(), rows->begin(), rows->end());
+  artefact.data(table_of(all), "errors relative to the exact frequency at the same energy ratio");
+  app::Figure figure;
+  figure.columns = 3;
+  figure.panel_width = 400;
+  figure.panel_height = 420;
+  add_panel(figure, "80 elements, half-lumped mass", "Harmonics N, m = 2N samples", over_harmonics,
+            harmonics, false);
+  add_panel(figure, "N = 5, half-lumped mass", "Elements", over_elements, elements, true);
+  add_panel(figure, "N = 5, consistent mass", "Elements", over_elements_consistent, elements, true);
+  artefact.picture(figure);
+  artefact.caption(
+      "Errors of omega against the exact curve at the energies of the accepted points between energy "
+      "ratios 1.2 and 10, 200 frequencies asked for. m = 2N samples.");
+  artefact.note("Observed orders (least squares). In N with 80 elements: median " +
+                report::number(order(over_harmonics, harmonics, median), 2) + ", largest " +
+                report::number(order(over_harmonics, harmonics, largest), 2) +
+                " (it stands at the edges of internal resonances, which more harmonics do not remove). "
+                "Against the exact "
+                "curve the N of the series sets a floor in the elements; against 160 elements with the "
+                "same N the order at "
+                "energy 1.8 is " +
+                report::number(order(over_elements, elements, in_space), 3) + " (half-lumped) and " +
+                report::number(order(over_elements_consistent, elements, in_space), 3) +
+                " (consistent), that of the linear frequency " +
+                report::number(order(over_elements, elements, linear_error), 3) + " and " +
+                report::number(order(over_elements_consistent, elements, linear_error), 3) + ".");
 }
+
+}  // namespace wavebalance::ll10

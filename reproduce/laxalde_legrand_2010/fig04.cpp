@@ -1,9 +1,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "figures.hpp"
 #include "ll10.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::ll10 {
 using app::Colour;
 using app::Dash;
 
@@ -16,9 +17,9 @@ std::vector<double> row(const Eigen::MatrixXd& values, Eigen::Index index) {
   return {one.begin(), one.end()};
 }
 
-Eigen::Index middle(const ll10::Motion& motion) { return (motion.position.size() - 1) / 2; }
+Eigen::Index middle(const Motion& motion) { return (motion.position.size() - 1) / 2; }
 
-app::Series orbit(const std::string& label, const ll10::Motion& motion, Eigen::Index node,
+app::Series orbit(const std::string& label, const Motion& motion, Eigen::Index node,
                         Colour colour, Dash dash) {
   app::Series series(label, row(motion.displacement, middle(motion)),
                            row(motion.velocity, middle(motion)));
@@ -28,7 +29,7 @@ app::Series orbit(const std::string& label, const ll10::Motion& motion, Eigen::I
   return series;
 }
 
-void add_columns(ll10::Table& table, const std::string& name, const ll10::Motion& motion) {
+void add_columns(Table& table, const std::string& name, const Motion& motion) {
   table.add_column("middle_displacement_" + name, row(motion.displacement, middle(motion)));
   table.add_column("middle_velocity_" + name, row(motion.velocity, middle(motion)));
   table.add_column("first_node_" + name, row(motion.displacement, 1));
@@ -36,7 +37,7 @@ void add_columns(ll10::Table& table, const std::string& name, const ll10::Motion
 }
 
 /// Relative rms distance of the middle node's orbit from the ellipse of its first harmonic.
-double beyond_ellipse(const ll10::Motion& motion) {
+double beyond_ellipse(const Motion& motion) {
   const Eigen::Index count = motion.time.size() - 1;
   const Eigen::VectorXd u = motion.displacement.row(middle(motion)).head(count);
   const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * motion.time.head(count).array();
@@ -46,7 +47,7 @@ double beyond_ellipse(const ll10::Motion& motion) {
   return (u.array() - ellipse).matrix().norm() / (u.array() - mean).matrix().norm();
 }
 
-double steepest(const ll10::Motion& motion) {
+double steepest(const Motion& motion) {
   const Eigen::VectorXd v = motion.velocity.row(middle(motion));
   const Eigen::Index steps = times / 64;
   return (v.tail(v.size() - steps) - v.head(v.size() - steps)).cwiseAbs().maxCoeff() /
@@ -55,59 +56,57 @@ double steepest(const ll10::Motion& motion) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      ll10::identity("Fig. 4", "Periodic motions projected into phase space", "fig04_phase_space");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const app::ModeStudy study(artefact.scene("rod.toml"));
-    const auto low = ll10::computed_motion(study, 0.7, times),
-               high = ll10::computed_motion(study, 1.8, times);
-    const auto exact = ll10::exact_motion(study.scene(), 1.8, times);
-    app::Figure figure;
-    figure.title = "Energy 0.7 (blue) and 1.8 (orange), exact at 1.8 (dashed)";
-    figure.columns = 2;
-    figure.panel_width = 520;
-    figure.panel_height = 420;
-    for (const bool last : {true, false}) {
-      auto& panel = figure.add_panel(last ? "last node" : "first node");
-      panel.x.label = "Middle node, u / g_0";
-      panel.y.label = "Middle node, u̇ / (g_0 ω_1)";
-      panel.z.emplace().label = last ? "Last node, u / g_0" : "First node, u / g_0";
-      panel.x.ticks = {-0.8, -0.4, 0.0, 0.4, 0.8};
-      panel.y.ticks = {-1.0, 0.0, 1.0};
-      panel.z->ticks = last ? std::vector<double>{-1.0, 0.0, 1.0} : std::vector<double>{-0.1, 0.0, 0.1};
-      panel.legend = app::Legend::none;
-      const Eigen::Index node = last ? low.position.size() - 1 : 1;
-      panel.add(orbit("energy 1.8, exact", exact, node, Colour::black, Dash::dashed));
-      panel.add(orbit("energy 0.7", low, node, Colour::sky_blue, Dash::solid));
-      panel.add(orbit("energy 1.8", high, node, Colour::vermillion, Dash::solid));
-    }
-    artefact.picture(figure);
-    ll10::Table table;
-    table.add_column("time_fraction", low.time);
-    add_columns(table, "energy_0.7", low);
-    add_columns(table, "energy_1.8", high);
-    add_columns(table, "energy_1.8_exact", exact);
-    artefact.data(table, "displacement over the gap, velocity over gap times linear frequency (rad/s)",
-                  {ll10::discretisation(study.scene())});
-    artefact.caption(
-        "Displacements of the last (a) and of the first (b) node over displacement and velocity of the "
-        "middle one, " +
-        ll10::discretisation(study.scene()) + ". The paper does not state its energies.");
-    const double below = beyond_ellipse(low), above = beyond_ellipse(high);
-    artefact.claim(
-        {"section 5.1",
-         "While the former typically features elliptic trajectories in the phase space, the latter is much "
-         "more complex",
-         "relative rms distance of the middle node's motion from one harmonic: below 1e-9 without contact, "
-         "above 5 % with",
-         report::number(below, 2) + " and " + report::percent(above), below < 1e-9 && above > 0.05});
-    artefact.claim(
-        {"section 5.1", "with velocity singularities and quick changes in displacements",
-         "the middle node's velocity changes by more of its range within 1/64 of a period with contact than "
-         "without",
-         report::percent(steepest(high)) + " against " + report::percent(steepest(low)) +
-             " (exact: " + report::percent(steepest(exact)) + ", a jump)",
-         steepest(high) > steepest(low)});
-  });
+void fig04(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("rod.toml"));
+  const auto low = computed_motion(study, 0.7, times),
+             high = computed_motion(study, 1.8, times);
+  const auto exact = exact_motion(study.scene(), 1.8, times);
+  app::Figure figure;
+  figure.title = "Energy 0.7 (blue) and 1.8 (orange), exact at 1.8 (dashed)";
+  figure.columns = 2;
+  figure.panel_width = 520;
+  figure.panel_height = 420;
+  for (const bool last : {true, false}) {
+    auto& panel = figure.add_panel(last ? "last node" : "first node");
+    panel.x.label = "Middle node, u / g_0";
+    panel.y.label = "Middle node, u̇ / (g_0 ω_1)";
+    panel.z.emplace().label = last ? "Last node, u / g_0" : "First node, u / g_0";
+    panel.x.ticks = {-0.8, -0.4, 0.0, 0.4, 0.8};
+    panel.y.ticks = {-1.0, 0.0, 1.0};
+    panel.z->ticks = last ? std::vector<double>{-1.0, 0.0, 1.0} : std::vector<double>{-0.1, 0.0, 0.1};
+    panel.legend = app::Legend::none;
+    const Eigen::Index node = last ? low.position.size() - 1 : 1;
+    panel.add(orbit("energy 1.8, exact", exact, node, Colour::black, Dash::dashed));
+    panel.add(orbit("energy 0.7", low, node, Colour::sky_blue, Dash::solid));
+    panel.add(orbit("energy 1.8", high, node, Colour::vermillion, Dash::solid));
+  }
+  artefact.picture(figure);
+  Table table;
+  table.add_column("time_fraction", low.time);
+  add_columns(table, "energy_0.7", low);
+  add_columns(table, "energy_1.8", high);
+  add_columns(table, "energy_1.8_exact", exact);
+  artefact.data(table, "displacement over the gap, velocity over gap times linear frequency (rad/s)",
+                {discretisation(study.scene())});
+  artefact.caption(
+      "Displacements of the last (a) and of the first (b) node over displacement and velocity of the "
+      "middle one, " +
+      discretisation(study.scene()) + ". The paper does not state its energies.");
+  const double below = beyond_ellipse(low), above = beyond_ellipse(high);
+  artefact.claim(
+      {"section 5.1",
+       "While the former typically features elliptic trajectories in the phase space, the latter is much "
+       "more complex",
+       "relative rms distance of the middle node's motion from one harmonic: below 1e-9 without contact, "
+       "above 5 % with",
+       report::number(below, 2) + " and " + report::percent(above), below < 1e-9 && above > 0.05});
+  artefact.claim(
+      {"section 5.1", "with velocity singularities and quick changes in displacements",
+       "the middle node's velocity changes by more of its range within 1/64 of a period with contact than "
+       "without",
+       report::percent(steepest(high)) + " against " + report::percent(steepest(low)) +
+           " (exact: " + report::percent(steepest(exact)) + ", a jump)",
+       steepest(high) > steepest(low)});
 }
+
+}  // namespace wavebalance::ll10

@@ -1,16 +1,15 @@
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "ll10.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::ll10 {
 namespace {
 
 constexpr int times = 128;
 
-app::HeatMap map_of(const ll10::Motion& motion, const Eigen::MatrixXd& values, double largest) {
+app::HeatMap map_of(const Motion& motion, const Eigen::MatrixXd& values, double largest) {
   app::HeatMap map;
   map.x.assign(motion.time.begin(), motion.time.end());
   map.y.assign(motion.position.begin(), motion.position.end());
@@ -20,20 +19,20 @@ app::HeatMap map_of(const ll10::Motion& motion, const Eigen::MatrixXd& values, d
   return map;
 }
 
-void add_pair(app::Figure& figure, const std::string& title, const ll10::Motion& motion, double u,
+void add_pair(app::Figure& figure, const std::string& title, const Motion& motion, double u,
               double v) {
   for (const bool velocity : {false, true}) {
     auto& panel = figure.add_panel((velocity ? "velocity, " : "displacement, ") + title);
-    panel.x = ll10::axis("Time (fraction of a period)", 0.0, 1.0);
-    panel.y = ll10::axis("Position x/L", 0.0, 1.0);
+    panel.x = axis("Time (fraction of a period)", 0.0, 1.0);
+    panel.y = axis("Position x/L", 0.0, 1.0);
     panel.heat_map = map_of(motion, velocity ? motion.velocity : motion.displacement, velocity ? v : u);
     panel.heat_map->label = velocity ? "u̇ / (g_0 ω_1)" : "u / g_0";
     panel.legend = app::Legend::none;
   }
 }
 
-ll10::Table motion_table(const std::vector<std::pair<std::string, ll10::Motion>>& motions) {
-  ll10::Table table;
+Table motion_table(const std::vector<std::pair<std::string, Motion>>& motions) {
+  Table table;
   const auto& first = motions.front().second;
   const Eigen::Index nodes = first.position.size(), count = first.time.size();
   const auto column = [&](auto value) {
@@ -55,12 +54,19 @@ ll10::Table motion_table(const std::vector<std::pair<std::string, ll10::Motion>>
 /// Share of the motion's squares that the best product of a function of x and one of t leaves out: 0 for a
 /// standing wave in one shape.
 double beyond_one_shape(const Eigen::MatrixXd& values) {
-  const Eigen::VectorXd singular = values.bdcSvd().singularValues();
-  return 1.0 - singular[0] * singular[0] / singular.squaredNorm();
+  constexpr int iterations = 200;  // of the power method for the first singular vector
+  Eigen::Index largest = 0;
+  values.colwise().squaredNorm().maxCoeff(&largest);
+  Eigen::VectorXd shape = values.col(largest);
+  for (int i = 0; i < iterations; ++i) {
+    const Eigen::VectorXd history = values.transpose() * shape;
+    shape = (values * history).normalized();
+  }
+  return 1.0 - (values.transpose() * shape).squaredNorm() / values.squaredNorm();
 }
 
 /// Largest of |row's time of largest velocity - that of the tip's| over the outer half, in periods.
-double spread_of_maxima(const ll10::Motion& motion) {
+double spread_of_maxima(const Motion& motion) {
   double least = 1.0, largest = 0.0;
   for (Eigen::Index i = motion.position.size() / 4; i < motion.position.size(); ++i) {
     Eigen::Index place = 0;
@@ -78,7 +84,7 @@ double distance(const Eigen::MatrixXd& computed, const Eigen::MatrixXd& exact) {
   return (computed - exact).norm() / exact.norm();
 }
 
-void claims(report::Artefact& artefact, const ll10::Motion& linear, const ll10::Motion& contact) {
+void claims(report::Artefact& artefact, const Motion& linear, const Motion& contact) {
   const double below = spread_of_maxima(linear), above = spread_of_maxima(contact);
   artefact.claim(
       {"section 5.1",
@@ -109,44 +115,42 @@ void claims(report::Artefact& artefact, const ll10::Motion& linear, const ll10::
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      ll10::identity("Fig. 5", "Displacement and velocity over space and time", "fig05_space_time");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const app::ModeStudy study(artefact.scene("rod.toml"));
-    const auto& scene = study.scene();
-    const auto low = ll10::computed_motion(study, 0.7, times),
-               high = ll10::computed_motion(study, 1.8, times);
-    const auto exact_low = ll10::exact_motion(scene, 0.7, times),
-               exact_high = ll10::exact_motion(scene, 1.8, times);
-    app::Figure figure;
-    figure.columns = 2;
-    figure.panel_width = 460;
-    figure.panel_height = 260;
-    const double u =
-        std::max(high.displacement.cwiseAbs().maxCoeff(), exact_high.displacement.cwiseAbs().maxCoeff());
-    const double v = std::max(high.velocity.cwiseAbs().maxCoeff(), exact_high.velocity.cwiseAbs().maxCoeff());
-    add_pair(figure, "energy 0.7", low, u, v);
-    add_pair(figure, "energy 1.8", high, u, v);
-    add_pair(figure, "energy 1.8, exact", exact_high, u, v);
-    artefact.picture(figure);
-    artefact.data(
-        motion_table({{"energy_0.7", low},
-                      {"energy_0.7_exact", exact_low},
-                      {"energy_1.8", high},
-                      {"energy_1.8_exact", exact_high}}),
-        "position over length, time over period with the middle of the contact at 1/2, displacement over the "
-        "gap, velocity over gap times the linear frequency of the continuous rod (rad/s)",
-        {ll10::discretisation(scene)});
-    artefact.caption("One period with the middle of the contact at 1/2, computed (" +
-                     ll10::discretisation(scene) +
-                     ") and exact; below contact the exact motion is the linear mode and looks as (a), (b).");
-    artefact.note("Relative rms distance from the exact motion: displacement " +
-                  report::percent(distance(low.displacement, exact_low.displacement), 2) + ", velocity " +
-                  report::percent(distance(low.velocity, exact_low.velocity), 2) + " at energy 0.7; " +
-                  report::percent(distance(high.displacement, exact_high.displacement), 2) + " and " +
-                  report::percent(distance(high.velocity, exact_high.velocity), 2) +
-                  " at 1.8, where the exact velocity jumps at fronts that 10 harmonics round off.");
-    claims(artefact, low, high);
-  });
+void fig05(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("rod.toml"));
+  const auto& scene = study.scene();
+  const auto low = computed_motion(study, 0.7, times),
+             high = computed_motion(study, 1.8, times);
+  const auto exact_low = exact_motion(scene, 0.7, times),
+             exact_high = exact_motion(scene, 1.8, times);
+  app::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 460;
+  figure.panel_height = 260;
+  const double u =
+      std::max(high.displacement.cwiseAbs().maxCoeff(), exact_high.displacement.cwiseAbs().maxCoeff());
+  const double v = std::max(high.velocity.cwiseAbs().maxCoeff(), exact_high.velocity.cwiseAbs().maxCoeff());
+  add_pair(figure, "energy 0.7", low, u, v);
+  add_pair(figure, "energy 1.8", high, u, v);
+  add_pair(figure, "energy 1.8, exact", exact_high, u, v);
+  artefact.picture(figure);
+  artefact.data(
+      motion_table({{"energy_0.7", low},
+                    {"energy_0.7_exact", exact_low},
+                    {"energy_1.8", high},
+                    {"energy_1.8_exact", exact_high}}),
+      "position over length, time over period with the middle of the contact at 1/2, displacement over the "
+      "gap, velocity over gap times the linear frequency of the continuous rod (rad/s)",
+      {discretisation(scene)});
+  artefact.caption("One period with the middle of the contact at 1/2, computed (" +
+                   discretisation(scene) +
+                   ") and exact; below contact the exact motion is the linear mode and looks as (a), (b).");
+  artefact.note("Relative rms distance from the exact motion: displacement " +
+                report::percent(distance(low.displacement, exact_low.displacement), 2) + ", velocity " +
+                report::percent(distance(low.velocity, exact_low.velocity), 2) + " at energy 0.7; " +
+                report::percent(distance(high.displacement, exact_high.displacement), 2) + " and " +
+                report::percent(distance(high.velocity, exact_high.velocity), 2) +
+                " at 1.8, where the exact velocity jumps at fronts that 10 harmonics round off.");
+  claims(artefact, low, high);
 }
+
+}  // namespace wavebalance::ll10

@@ -1,13 +1,13 @@
 #include <algorithm>
 
+#include "figures.hpp"
 #include "blade.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::ll10 {
 namespace {
 
-ll10::Table contact_nodes(const fem::Blade& blade, double gap) {
-  ll10::Table table({"contact", "node", "face", "x_m", "y_m", "z_m", "gap_m"});
+Table contact_nodes(const fem::Blade& blade, double gap) {
+  Table table({"contact", "node", "face", "x_m", "y_m", "z_m", "gap_m"});
   const auto& nodes = blade.contact_nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Eigen::Vector3d at = blade.model.mesh.nodes.col(nodes[i]);
@@ -47,49 +47,47 @@ void add_view(app::Figure& figure, const fem::Blade& blade, double azimuth, doub
     top = std::max(top, at.y());
   }
   const double width = upper - lower;
-  panel.x = ll10::axis("", lower - 0.1 * width, upper + 0.1 * width);
-  panel.y = ll10::axis("", top - 0.55 * width, top + 0.1 * width);
+  panel.x = axis("", lower - 0.1 * width, upper + 0.1 * width);
+  panel.y = axis("", top - 0.55 * width, top + 0.1 * width);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      ll10::identity("Fig. 6", "Blade model and details of the contact interface", "fig06_blade");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const app::ModeStudy study(artefact.scene("blade_mode.toml"));
-    const fem::Blade& blade = *study.model().blade;
-    app::Figure figure;
-    figure.columns = 2;
-    figure.panel_width = 470;
-    figure.panel_height = 500;
-    add_view(figure, blade, -55.0, 28.0, false);
-    add_view(figure, blade, -60.0, 62.0, true);
-    figure.panels[0].legend = figure.panels[1].legend = app::Legend::below_panel;
-    artefact.picture(figure);
-    artefact.data(contact_nodes(blade, study.scene().contact.gap),
-                  "contact nodes from the leading to the trailing edge; metres",
-                  {"node numbers of the mesh from 1; eta = -1 and 1 are the two faces of the blade"});
-    const auto& mesh = blade.model.mesh;
-    artefact.caption("An open blade of titanium in place of the paper's proprietary one: " +
-                     std::to_string(mesh.elements.cols()) + " hexahedra of 20 nodes, " +
-                     std::to_string(study.model().unknowns) +
-                     " unknowns, clamped at the root; contact in the radial direction z at the corner nodes "
-                     "of the tip.");
-    const double error = ll10::reduction_error(study);
-    const auto coordinates = study.model().size();
-    artefact.claim(
-        {"section 5.2",
-         "This model is reduced by means of a Craig-Bampton procedure composed of 72 constraints modes "
-         "associated with the physical displacements of 24 retained interface nodes belonging to the contact "
-         "surface Γ_C complemented by 40 component normal modes.",
-         "24 contact nodes, 112 coordinates, and the eight lowest frequencies within 5e-4 of those of the "
-         "whole blade",
-         std::to_string(blade.contact_nodes.size()) + " contact nodes, " + std::to_string(coordinates) +
-             " coordinates from " + std::to_string(study.model().unknowns) +
-             " unknowns; eight frequencies within " + report::number(error, 2) + "; first " +
-             report::number(study.linear_frequency(), 5) + " Hz; assembled and reduced in " +
-             report::number(study.model().reduction_seconds, 3) + " s",
-         blade.contact_nodes.size() == 24 && coordinates == 112 && error < 5e-4});
-  });
+void fig06(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("blade_mode.toml"));
+  const fem::Blade& blade = *study.model().blade;
+  app::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 470;
+  figure.panel_height = 500;
+  add_view(figure, blade, -55.0, 28.0, false);
+  add_view(figure, blade, -60.0, 62.0, true);
+  figure.panels[0].legend = figure.panels[1].legend = app::Legend::below_panel;
+  artefact.picture(figure);
+  artefact.data(contact_nodes(blade, study.scene().contact.gap),
+                "contact nodes from the leading to the trailing edge; metres",
+                {"node numbers of the mesh from 1; eta = -1 and 1 are the two faces of the blade"});
+  const auto& mesh = blade.model.mesh;
+  artefact.caption("An open blade of titanium in place of the paper's proprietary one: " +
+                   std::to_string(mesh.elements.cols()) + " hexahedra of 20 nodes, " +
+                   std::to_string(study.model().unknowns) +
+                   " unknowns, clamped at the root; contact in the radial direction z at the corner nodes "
+                   "of the tip.");
+  const double error = reduction_error(study);
+  const auto coordinates = study.model().size();
+  artefact.claim(
+      {"section 5.2",
+       "This model is reduced by means of a Craig-Bampton procedure composed of 72 constraints modes "
+       "associated with the physical displacements of 24 retained interface nodes belonging to the contact "
+       "surface Γ_C complemented by 40 component normal modes.",
+       "24 contact nodes, 112 coordinates, and the eight lowest frequencies within 5e-4 of those of the "
+       "whole blade",
+       std::to_string(blade.contact_nodes.size()) + " contact nodes, " + std::to_string(coordinates) +
+           " coordinates from " + std::to_string(study.model().unknowns) +
+           " unknowns; eight frequencies within " + report::number(error, 2) + "; first " +
+           report::number(study.linear_frequency(), 5) + " Hz; assembled and reduced in " +
+           report::number(study.model().reduction_seconds, 3) + " s",
+       blade.contact_nodes.size() == 24 && coordinates == 112 && error < 5e-4});
 }
+
+}  // namespace wavebalance::ll10

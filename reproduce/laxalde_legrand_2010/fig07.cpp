@@ -1,14 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "blade.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::ll10 {
 using app::Colour;
 
 namespace {
 
-app::Series drawn(const std::string& label, const ll10::Table& rows, const std::string& column,
+app::Series drawn(const std::string& label, const Table& rows, const std::string& column,
                         Colour colour, app::Dash dash) {
   app::Series series(label, rows, "energy_ratio", column);
   series.colour = colour;
@@ -17,13 +18,13 @@ app::Series drawn(const std::string& label, const ll10::Table& rows, const std::
 }
 
 void add_backbones(app::Figure& figure, const app::ModeStudy& study,
-                   const app::Backbone& curve, const ll10::Table& table) {
+                   const app::Backbone& curve, const Table& table) {
   using app::Dash;
   auto& panel =
       figure.add_panel("first nonlinear mode, " + std::to_string(study.scene().analysis.harmonics) +
                        " harmonics, " + std::to_string(study.scene().analysis.samples) + " samples");
-  panel.x = ll10::axis("Energy γ over its value at linear grazing", 0.0, 13.0);
-  panel.y = ll10::axis("Frequency over the linear one", 0.98, 1.3);
+  panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
+  panel.y = axis("Frequency over the linear one", 0.98, 1.3);
   panel.legend = app::Legend::top_left;
   const auto consistent = table.where("formulation", "consistent");
   panel.add(drawn("consistent, ω", consistent, "frequency_ratio", Colour::blue, Dash::solid));
@@ -35,7 +36,7 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study,
   published.marker = 1;
   panel.add(published);
   std::vector<double> x, y, tongue_x, tongue_y;
-  for (const auto& listed : ll10::listed_points) {
+  for (const auto& listed : listed_points) {
     x.push_back(listed.energy_ratio);
     y.push_back(listed.frequency_ratio);
   }
@@ -55,10 +56,10 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study,
   panel.mark_x(1.0);
 }
 
-void add_torsion(app::Figure& figure, const ll10::Table& measures) {
+void add_torsion(app::Figure& figure, const Table& measures) {
   auto& panel = figure.add_panel("torsion");
-  panel.x = ll10::axis("Energy γ over its value at linear grazing", 0.0, 13.0);
-  panel.y = ll10::axis("Share of kinetic energy in torsion modes", 0.0, 0.05);
+  panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
+  panel.y = axis("Share of kinetic energy in torsion modes", 0.0, 0.05);
   panel.legend = app::Legend::none;
   app::Series share("", measures, "energy_ratio", "torsion_share");
   share.colour = Colour::green;
@@ -70,9 +71,9 @@ void claim_listed(report::Artefact& artefact, const app::ModeStudy& study,
   std::string measured;
   double largest = 0.0, before = 1.0;
   bool rising = true;
-  for (const auto& listed : ll10::listed_points) {
+  for (const auto& listed : listed_points) {
     const double ratio =
-        ll10::accepted_at(study, curve, listed.energy_ratio).omega / study.mode().linear_omega();
+        accepted_at(study, curve, listed.energy_ratio).omega / study.mode().linear_omega();
     largest = std::max(largest, std::abs(ratio - listed.frequency_ratio));
     rising = rising && ratio > before;
     before = ratio;
@@ -97,7 +98,7 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study,
   bool edges = true;
   std::string measured;
   for (const double energy : {4.7, 10.4}) {
-    const auto contact = blade::edge_contact(ll10::accepted_at(study, curve, energy).force);
+    const auto contact = blade::edge_contact(accepted_at(study, curve, energy).force);
     edges = edges && blade::centred(contact.leading, 0.0, sample) &&
             blade::centred(contact.trailing, 0.5, sample);
     measured += (measured.empty() ? "" : "; ") + std::string("energy ") + report::number(energy) +
@@ -125,7 +126,7 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study,
 
 void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
                     const app::Backbone& curve) {
-  const auto point = ll10::accepted_at(study, curve, 10.4);
+  const auto point = accepted_at(study, curve, 10.4);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   double identity = 0.0, residual = 0.0;
   for (std::size_t i = 0; i < curve.points.size(); ++i)
@@ -165,39 +166,37 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity = ll10::identity(
-      "Fig. 7", "Frequency over energy of the first nonlinear mode of the blade", "fig07_blade_backbone");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const app::ModeStudy study(artefact.scene("blade_mode.toml", {"analysis.largest_energy=12.5"}));
-    const auto curve = study.backbone();
-    if (!curve.converged()) throw report::NotConverged("backbone: " + curve.status());
-    const auto scene = artefact.scene("blade_published.toml");
-    const auto published =
-        app::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
-    const auto table = ll10::blade_backbones(study, curve, published);
-    const auto measures = ll10::blade_measures(study, curve);
-    artefact.data(table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",
-                  {"consistent: N = 5, m = 20; below contact the linear mode",
-                   "published: eqs. (24) as printed, Algorithm 2, N = 2, m = 20; frequency_ratio is the root "
-                   "of r"});
-    artefact.more_data("torsion", measures,
-                       "torsion_share of the kinetic energy; tip_twist_degrees: amplitude of the tip's "
-                       "rotation about z for a gap of 1 mm; contact_fraction of the period");
-    app::Figure figure;
-    figure.columns = 2;
-    figure.panel_width = 560;
-    figure.panel_height = 400;
-    add_backbones(figure, study, curve, table);
-    add_torsion(figure, measures);
-    artefact.picture(figure);
-    artefact.caption(
-        "First nonlinear mode of the open blade: frequency by consistent equations, the root of the Rayleigh "
-        "quotient of the same motions, and the equations as published. Torsion modes are the linear modes "
-        "whose tip rotates more than it translates.");
-    claim_listed(artefact, study, curve);
-    claim_contact(artefact, study, curve);
-    claim_identity(artefact, study, curve);
-    notes(artefact, study, curve, published);
-  });
+void fig07(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("blade_mode.toml", {"analysis.largest_energy=12.5"}));
+  const auto curve = study.backbone();
+  if (!curve.converged()) throw report::NotConverged("backbone: " + curve.status());
+  const auto scene = artefact.scene("blade_published.toml");
+  const auto published =
+      app::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
+  const auto table = blade_backbones(study, curve, published);
+  const auto measures = blade_measures(study, curve);
+  artefact.data(table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",
+                {"consistent: N = 5, m = 20; below contact the linear mode",
+                 "published: eqs. (24) as printed, Algorithm 2, N = 2, m = 20; frequency_ratio is the root "
+                 "of r"});
+  artefact.more_data("torsion", measures,
+                     "torsion_share of the kinetic energy; tip_twist_degrees: amplitude of the tip's "
+                     "rotation about z for a gap of 1 mm; contact_fraction of the period");
+  app::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 560;
+  figure.panel_height = 400;
+  add_backbones(figure, study, curve, table);
+  add_torsion(figure, measures);
+  artefact.picture(figure);
+  artefact.caption(
+      "First nonlinear mode of the open blade: frequency by consistent equations, the root of the Rayleigh "
+      "quotient of the same motions, and the equations as published. Torsion modes are the linear modes "
+      "whose tip rotates more than it translates.");
+  claim_listed(artefact, study, curve);
+  claim_contact(artefact, study, curve);
+  claim_identity(artefact, study, curve);
+  notes(artefact, study, curve, published);
 }
+
+}  // namespace wavebalance::ll10

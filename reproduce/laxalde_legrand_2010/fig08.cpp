@@ -3,11 +3,11 @@
 #include <numbers>
 #include <sstream>
 
+#include "figures.hpp"
 #include "blade.hpp"
 #include "wavebalance/fem/vtu.hpp"
 
-using namespace wavebalance;
-
+namespace wavebalance::ll10 {
 namespace {
 
 constexpr int times = 16;
@@ -36,8 +36,8 @@ void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape,
   view.azimuth = -35.0;
   view.elevation = 22.0;
   view.axes = 15.0;
-  panel.x = ll10::axis("", -42.0, 42.0);
-  panel.y = ll10::axis("", -18.0, 104.0);
+  panel.x = axis("", -42.0, 42.0);
+  panel.y = axis("", -18.0, 104.0);
 }
 
 /// Gap-sized motions as a series for ParaView.
@@ -57,8 +57,8 @@ void attach_series(report::Artefact& artefact, const fem::Blade& blade, const Sh
   artefact.attach(stem + ".pvd", text.str(), true);
 }
 
-ll10::Table shapes_table(const fem::Blade& blade, const std::vector<Shape>& shapes) {
-  ll10::Table table(
+Table shapes_table(const fem::Blade& blade, const std::vector<Shape>& shapes) {
+  Table table(
       {"energy_ratio", "time_fraction", "contact", "u_x_over_gap", "u_y_over_gap", "u_z_over_gap"});
   for (const Shape& shape : shapes)
     for (const int frame : {0, times / 2})
@@ -111,38 +111,36 @@ void claims(report::Artefact& artefact, const app::ModeStudy& study, const std::
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const auto identity =
-      ll10::identity("Fig. 8", "Mode shapes of the blade for three modal energies", "fig08_blade_shapes");
-  return report::run_artefact(argc, argv, identity, [](report::Artefact& artefact) {
-    const app::ModeStudy study(artefact.scene("blade_mode.toml"));
-    const fem::Blade& blade = *study.model().blade;
-    const auto curve = study.backbone();
-    std::vector<Shape> shapes;
-    for (const double energy : ll10::shape_energies) {
-      const auto point = ll10::accepted_at(study, curve, energy);
-      Shape shape{energy, point, blade::motion(study, point, times)};
-      for (auto& frame : shape.frames) frame /= study.scene().contact.gap;
-      shapes.push_back(std::move(shape));
-    }
-    app::Figure figure;
-    figure.columns = 2;
-    figure.panel_width = 350;
-    figure.panel_height = 350;
-    for (const Shape& shape : shapes) {
-      const double upper = std::max(largest(shape.frames[0]), largest(shape.frames[times / 2]));
-      for (const bool half_period : {false, true})
-        add_panel(figure, blade, shape, half_period, std::ceil(upper / 10.0) * 10.0);
-    }
-    artefact.picture(figure);
-    artefact.data(shapes_table(blade, shapes), "displacements of the contact nodes over the gap",
-                  {"contacts as in fig06_blade.csv"});
-    for (const Shape& shape : shapes) attach_series(artefact, blade, shape);
-    artefact.caption(
-        "Shapes at t = 0, the middle of the leading edge's contact, and T/2, of the trailing edge's. "
-        "Displacements "
-        "to scale for a gap of 1 mm, arrows 15 mm, dashed the blade at rest; colours are the displacement "
-        "over the gap. The .pvd files hold the motions for ParaView.");
-    claims(artefact, study, shapes);
-  });
+void fig08(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("blade_mode.toml"));
+  const fem::Blade& blade = *study.model().blade;
+  const auto curve = study.backbone();
+  std::vector<Shape> shapes;
+  for (const double energy : shape_energies) {
+    const auto point = accepted_at(study, curve, energy);
+    Shape shape{energy, point, blade::motion(study, point, times)};
+    for (auto& frame : shape.frames) frame /= study.scene().contact.gap;
+    shapes.push_back(std::move(shape));
+  }
+  app::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 350;
+  figure.panel_height = 350;
+  for (const Shape& shape : shapes) {
+    const double upper = std::max(largest(shape.frames[0]), largest(shape.frames[times / 2]));
+    for (const bool half_period : {false, true})
+      add_panel(figure, blade, shape, half_period, std::ceil(upper / 10.0) * 10.0);
+  }
+  artefact.picture(figure);
+  artefact.data(shapes_table(blade, shapes), "displacements of the contact nodes over the gap",
+                {"contacts as in fig06_blade.csv"});
+  for (const Shape& shape : shapes) attach_series(artefact, blade, shape);
+  artefact.caption(
+      "Shapes at t = 0, the middle of the leading edge's contact, and T/2, of the trailing edge's. "
+      "Displacements "
+      "to scale for a gap of 1 mm, arrows 15 mm, dashed the blade at rest; colours are the displacement "
+      "over the gap. The .pvd files hold the motions for ParaView.");
+  claims(artefact, study, shapes);
 }
+
+}  // namespace wavebalance::ll10

@@ -1,14 +1,14 @@
-// What is measured of the blade's motions, and its results as the programs write them.
+// What is measured of the blade's motions, and its figures.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "blade_motion.hpp"
+#include "figures.hpp"
 #include "forced_blade.hpp"
+#include "paper_results.hpp"
 #include "rotating_blade.hpp"
-#include "wavebalance/report/record.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
@@ -122,41 +122,23 @@ TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
   EXPECT_THROW(at(up, 400.0), std::out_of_range);
 }
 
-class BladeResults : public testing::Test {
- protected:
-  BladeResults() {
-    std::string name = (fs::temp_directory_path() / "wavebalance_blade_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~BladeResults() override { fs::remove_all(folder_); }
+report::PaperResults& results() {
+  static report::PaperResults all(figures());
+  return all;
+}
 
-  int run(const std::string& program, const std::string& options = "") const {
-    const std::string command =
-        std::string(BLADE_PROGRAMS) + "/blade_" + program + " --output '" + folder_.string() + "'" + options;
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  report::Record record(const std::string& stem) const {
-    const auto file = folder_ / "records" / (stem + ".json");
-    return report::parse_record(app::read_file(file), file);
-  }
-  app::Table read(const std::string& file) const { return app::read_csv(folder_ / file); }
-
-  fs::path folder_;
-};
-
-TEST_F(BladeResults, CampbellDiagramStiffensWithSpeedAndWithEnergy) {
-  ASSERT_EQ(run("campbell"), 0);
-  for (const auto& claim : record("campbell").claims) EXPECT_TRUE(claim.holds) << claim.quote;
-  const auto table = read("campbell.csv");
+TEST(BladeResults, CampbellDiagramStiffensWithSpeedAndWithEnergy) {
+  results().need({"campbell"});
+  for (const auto& claim : results().record("campbell").claims) EXPECT_TRUE(claim.holds) << claim.quote;
+  const auto table = results().read("campbell.csv");
   EXPECT_NEAR(table.numbers("linear_Hz").front(), 570.0, 0.5);
   // Energy 1 is the linear mode at grazing.
   EXPECT_EQ(table.numbers("energy_1"), table.numbers("linear_Hz"));
   EXPECT_NEAR(table.numbers("energy_7").front() / 570.0, 1.1931, 0.003);
 }
 
-/// The program on a coarser scene: half the functions and points, twice the step.
-TEST_F(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
+/// The figure on a coarser scene: half the functions and points, twice the step.
+TEST(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
   std::string text = app::read_file(fs::path(WAVEBALANCE_SCENES) / "blade" / "forced_response.toml");
   for (const auto& [from, to] : {std::pair{"functions = 64", "functions = 32"},
                                  {"quadrature_points = 128", "quadrature_points = 64"},
@@ -166,15 +148,19 @@ TEST_F(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
   }
   ASSERT_NE(text.find("frequency = 600.0"), std::string::npos);
   text.replace(text.find("frequency = 600.0"), 17, "frequency = 590.0");
-  app::write_file(folder_ / "scenes" / "forced_response.toml", text);
-  ASSERT_EQ(run("forced_response", " --scenes '" + (folder_ / "scenes").string() + "'"), 0);
-  EXPECT_TRUE(record("forced_response").claims.at(0).holds);
-  const auto table = read("forced_response.csv");
+  const report::TemporaryFolder folder;
+  app::write_file(folder.path() / "forced_response.toml", text);
+  report::Artefact artefact({"blade", "", "", "forced_response"}, folder.path(), folder.path());
+  forced_response(artefact);
+  artefact.write(0.0);
+  const auto record = folder.path() / "records" / "forced_response.json";
+  EXPECT_TRUE(report::parse_record(app::read_file(record), record).claims.at(0).holds);
+  const auto table = app::read_csv(folder.path() / "forced_response.csv");
   EXPECT_EQ(table.columns(),
             (std::vector<std::string>{"frequency_Hz", "fourier_fourier", "daubechies6_daubechies6",
                                       "haar_fourier", "fourier_fourier_downwards"}));
-  EXPECT_EQ(read("forced_response_histories.csv").rows(), 64u);
-  EXPECT_TRUE(fs::is_regular_file(folder_ / "forced_response.png"));
+  EXPECT_EQ(app::read_csv(folder.path() / "forced_response_histories.csv").rows(), 64u);
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "forced_response.png"));
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
-// Runs the programs of the figures into a folder of their own and holds what they write to known figures: the
-// reference values of both cases come from an independent shooting solution, the errors from an independent
-// implementation.
+// Holds what the program writes to known values: those of the references come from an independent shooting solution, the
+// errors from an independent implementation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
 
-#include "convergence.hpp"
+#include "figures.hpp"
+#include "jl14.hpp"
+#include "paper_results.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -25,30 +25,26 @@ const Columns pair_columns{
     "time_fraction",           "reference",    "fourier_fourier",     "bspline_bspline",
     "daubechies6_daubechies6", "haar_fourier", "daubechies6_fourier", "haar_bspline"};
 
-class Jl14Paper : public testing::Test {
+report::PaperResults& results() {
+  static report::PaperResults all(figures());
+  return all;
+}
+
+/// Starts the program with a folder of its own for what it writes.
+class Jl14Program : public testing::Test {
  protected:
-  Jl14Paper() {
-    std::string name = (fs::temp_directory_path() / "wavebalance_jl14_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~Jl14Paper() override { fs::remove_all(folder_); }
-
-  int run(const std::string& program, const std::string& options = "") const {
-    const std::string command = std::string(JL14_PROGRAMS) + "/jl14_" + program + " --output '" +
-                                folder_.string() + "' " + options + " 2> '" +
-                                (folder_ / "messages").string() + "'";
-    const int status = std::system(command.c_str());
-    return WEXITSTATUS(status);
-  }
-  Table read(const std::string& file) const { return app::read_csv(folder_ / file); }
-  bool has(const std::string& file) const { return fs::is_regular_file(folder_ / file); }
-  void make_references() const {
-    ASSERT_EQ(run("reference_case1"), 0);
-    ASSERT_EQ(run("reference_case2"), 0);
+  int run(std::vector<const char*> arguments) {
+    const std::string output = folder_.path().string();
+    arguments.insert(arguments.begin(), "jl14");
+    arguments.insert(arguments.end(), {"--output", output.c_str()});
+    testing::internal::CaptureStderr();
+    const int code = report::run_program(static_cast<int>(arguments.size()), arguments.data(), figures());
+    messages_ = testing::internal::GetCapturedStderr();
+    return code;
   }
 
-  fs::path folder_;
+  report::TemporaryFolder folder_;
+  std::string messages_;
 };
 
 Eigen::VectorXd column(const Table& table, const std::string& name) {
@@ -67,9 +63,9 @@ double entry(const Table& table, int case_number, const std::string& name, int f
       .at(0);
 }
 
-TEST_F(Jl14Paper, ReferencesMeetTheShootingValues) {
-  make_references();
-  const Table one = read("reference_case1.csv"), two = read("reference_case2.csv");
+TEST(Jl14Paper, ReferencesMeetTheShootingValues) {
+  results().need({"reference_case1", "reference_case2"});
+  const Table one = results().read("reference_case1.csv"), two = results().read("reference_case2.csv");
   EXPECT_NEAR(app::rms(column(one, "displacement_m")), 0.9316321e-3, 1e-6 * 0.9316321e-3);
   EXPECT_NEAR(app::rms(column(two, "displacement_m")), 11.47116e-3, 1e-6 * 11.47116e-3);
   EXPECT_NEAR(column(one, "displacement_m").cwiseAbs().maxCoeff(), 1.438608e-3,
@@ -80,25 +76,22 @@ TEST_F(Jl14Paper, ReferencesMeetTheShootingValues) {
   EXPECT_NEAR((column(two, "contact_force_N").array() > 0.0).cast<double>().mean(), 0.1069, 2.0 / 1024);
 }
 
-TEST_F(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
-  make_references();
-  ASSERT_EQ(run("fig06"), 0);
-  ASSERT_EQ(run("fig07"), 0);
+TEST(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
+  results().need({"reference_case1", "reference_case2", "fig06", "fig07"});
   for (const std::string stem : {"fig06_tip_displacement_case1", "fig07_tip_displacement_case2"}) {
-    const Table table = read(stem + ".csv");
+    const Table table = results().read(stem + ".csv");
     EXPECT_EQ(table.columns(), pair_columns) << stem;
     EXPECT_EQ(table.rows(), 1024u) << stem;
-    EXPECT_TRUE(has(stem + ".svg") && has(stem + ".png") && has("records/" + stem + ".json")) << stem;
+    EXPECT_TRUE(results().has(stem + ".svg") && results().has(stem + ".png") && results().has("records/" + stem + ".json")) << stem;
     const double error =
         app::relative_rms_error(column(table, "fourier_fourier"), column(table, "reference"));
     EXPECT_LT(error, 2e-3) << stem;
   }
 }
 
-TEST_F(Jl14Paper, ErrorsMeetAnIndependentImplementation) {
-  make_references();
-  ASSERT_EQ(run("fig11"), 0);
-  const Table table = read("fig11_tip_error.csv");
+TEST(Jl14Paper, ErrorsMeetAnIndependentImplementation) {
+  results().need({"reference_case1", "reference_case2", "fig11"});
+  const Table table = results().read("fig11_tip_error.csv");
   EXPECT_EQ(table.columns(),
             (Columns{"case", "trial", "weight", "functions", "rms_relative_error", "converged"}));
   EXPECT_EQ(table.rows(), 60u);
@@ -113,10 +106,9 @@ TEST_F(Jl14Paper, ErrorsMeetAnIndependentImplementation) {
   hold(2, "haar_bspline", {{32, 5.78e-2}, {128, 1.68e-2}});
 }
 
-TEST_F(Jl14Paper, EnergyNormsMeetAnIndependentImplementation) {
-  make_references();
-  ASSERT_EQ(run("fig10"), 0);
-  const Table table = read("fig10_energy_norm.csv");
+TEST(Jl14Paper, EnergyNormsMeetAnIndependentImplementation) {
+  results().need({"reference_case1", "reference_case2", "fig10"});
+  const Table table = results().read("fig10_energy_norm.csv");
   EXPECT_EQ(table.columns(),
             (Columns{"case", "trial", "weight", "functions", "energy_norm_ratio", "converged"}));
   const auto ratio = [&](int case_number, int functions) {
@@ -128,9 +120,9 @@ TEST_F(Jl14Paper, EnergyNormsMeetAnIndependentImplementation) {
   EXPECT_NEAR(ratio(2, 128), 1.000, 5e-4);  // 8.1 when the velocity is a difference of the function
 }
 
-TEST_F(Jl14Paper, FrequencyResponseTurnsWhereItShould) {
-  ASSERT_EQ(run("fig12"), 0);
-  const Table table = read("fig12_frequency_response.csv");
+TEST(Jl14Paper, FrequencyResponseTurnsWhereItShould) {
+  results().need({"fig12"});
+  const Table table = results().read("fig12_frequency_response.csv");
   EXPECT_EQ(table.columns(),
             (Columns{"trial", "weight", "frequency_Hz", "max_displacement_m", "rms_displacement_m"}));
   const auto frequency = table.where("trial", "fourier").numbers("frequency_Hz");
@@ -143,40 +135,45 @@ TEST_F(Jl14Paper, FrequencyResponseTurnsWhereItShould) {
   EXPECT_FALSE(table.where("trial", "haar").empty());
 }
 
-TEST_F(Jl14Paper, TablesComeFromTheScenes) {
-  ASSERT_EQ(run("tab01"), 0);
-  ASSERT_EQ(run("tab02"), 0);
-  const Table cases = read("tab01_cases.csv");
+TEST(Jl14Paper, TablesComeFromTheScenes) {
+  results().need({"tab01", "tab02"});
+  const Table cases = results().read("tab01_cases.csv");
   EXPECT_EQ(column(cases, "forcing_frequency_Hz"), Eigen::Vector2d(150.0, 1275.0));
   EXPECT_EQ(column(cases, "penalty_exponent_per_m"), Eigen::Vector2d(50.0, 20.0));
   EXPECT_EQ(column(cases, "initial_gap_m"), Eigen::Vector2d(1e-3, 14.5e-3));
   EXPECT_NEAR(column(cases, "free_max_displacement_m")[0], 1.439e-3, 1e-6);
   EXPECT_NEAR(column(cases, "free_max_displacement_m")[1], 28.84e-3, 1e-5);
-  const Table listed = read("tab02_pairs.csv");
+  const Table listed = results().read("tab02_pairs.csv");
   EXPECT_EQ(listed.rows(), 6u);
   for (std::size_t i = 0; i < listed.rows(); ++i)
     EXPECT_TRUE(std::get<bool>(listed.at(i, "admissible"))) << i;
-  EXPECT_TRUE(has("tab01_cases.md") && has("tab02_pairs.md"));
+  EXPECT_TRUE(results().has("tab01_cases.md") && results().has("tab02_pairs.md"));
 }
 
-TEST_F(Jl14Paper, SketchAndBasesAreDrawn) {
-  for (const std::string program : {"fig01", "fig02", "fig03", "fig04", "fig05"})
-    EXPECT_EQ(run(program), 0) << program;
-  int pictures = 0;
-  for (const auto& entry : fs::directory_iterator(folder_))
-    pictures += entry.path().extension() == ".svg" ? 1 : 0;
-  EXPECT_EQ(pictures, 5);
+TEST(Jl14Paper, SketchAndBasesAreDrawn) {
+  const std::map<std::string, std::string> stems{{"fig01", "system_sketch"},
+                                                 {"fig02", "fourier_functions"},
+                                                 {"fig03", "bspline_levels"},
+                                                 {"fig04", "daubechies6_levels"},
+                                                 {"fig05", "haar_levels"}};
+  for (const auto& [figure, slug] : stems) {
+    results().need({figure});
+    for (const char* suffix : {".csv", ".svg", ".png"})
+      EXPECT_TRUE(results().has(figure + "_" + slug + suffix)) << figure << suffix;
+  }
 }
 
-TEST_F(Jl14Paper, AMissingStepOrSceneIsAnErrorAndWritesNothing) {
-  EXPECT_EQ(run("fig06"), 2);  // no reference
-  EXPECT_NE(app::read_file(folder_ / "messages").find("reference_case1.csv"), std::string::npos);
-  EXPECT_EQ(run("tab01", "--scenes /nowhere"), 2);
-  EXPECT_NE(app::read_file(folder_ / "messages").find("/nowhere/case1.toml"), std::string::npos);
-  EXPECT_FALSE(has("fig06_tip_displacement_case1.csv") || has("tab01_cases.csv"));
+TEST_F(Jl14Program, AMissingStepOrSceneIsAnErrorAndWritesNothing) {
+  EXPECT_EQ(run({"fig06"}), 2);  // no reference
+  EXPECT_NE(messages_.find("reference_case1.csv"), std::string::npos) << messages_;
+  EXPECT_EQ(run({"tab01", "--scenes", "/nowhere"}), 2);
+  EXPECT_NE(messages_.find("/nowhere/case1.toml"), std::string::npos) << messages_;
+  EXPECT_EQ(run({"fig99"}), 2);
+  EXPECT_NE(messages_.find("fig12"), std::string::npos) << "the steps that there are: " << messages_;
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
-TEST_F(Jl14Paper, EverySceneReadsBackAsWritten) {
+TEST(Jl14Paper, EverySceneReadsBackAsWritten) {
   int scenes = 0;
   for (const auto& file : fs::directory_iterator(std::string(WAVEBALANCE_SCENES) + "/jones_legrand_2014")) {
     const auto scene = app::load_scene(file.path());
@@ -186,10 +183,10 @@ TEST_F(Jl14Paper, EverySceneReadsBackAsWritten) {
   EXPECT_GE(scenes, 7);
 }
 
-TEST_F(Jl14Paper, RigidObstacleFlattensThePlateauForAllPairs) {
-  ASSERT_EQ(run("rigid_plateau"), 0);
-  EXPECT_TRUE(has("rigid_plateau.svg") && has("rigid_plateau.png"));
-  const Table table = read("rigid_plateau.csv");
+TEST(Jl14Paper, RigidObstacleFlattensThePlateauForAllPairs) {
+  results().need({"rigid_plateau"});
+  EXPECT_TRUE(results().has("rigid_plateau.svg") && results().has("rigid_plateau.png"));
+  const Table table = results().read("rigid_plateau.csv");
   for (const char* number : {"1", "2"}) {
     const Table rows = table.where("case", number), rigid = rows.where("contact", "rigid");
     ASSERT_EQ(rigid.rows(), 6u);

@@ -1,4 +1,4 @@
-// Runs the programs of the blade's figures and holds what they write to figures found independently.
+// Holds what the program writes of the blade to values found independently.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,8 @@
 #include <filesystem>
 
 #include "blade.hpp"
-#include "programs.hpp"
+#include "figures.hpp"
+#include "paper_results.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
@@ -14,7 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Ll10Blade : public Programs {};
+report::PaperResults& results() {
+  static report::PaperResults all(figures());
+  return all;
+}
 
 /// Frequency ratio of a formulation at an energy ratio, linear between its rows.
 double at(const Table& table, const std::string& formulation, double energy_ratio,
@@ -28,19 +32,19 @@ double at(const Table& table, const std::string& formulation, double energy_rati
   throw std::runtime_error("no rows enclose the energy");
 }
 
-TEST_F(Ll10Blade, ModelIsReducedAsThePaperSaysAndItsNodesAreListed) {
-  ASSERT_EQ(run("fig06"), 0);
-  EXPECT_TRUE(verdict("fig06_blade", "Craig-Bampton procedure"));
-  const Table table = read("fig06_blade.csv");
+TEST(Ll10Blade, ModelIsReducedAsThePaperSaysAndItsNodesAreListed) {
+  results().need({"fig06"});
+  EXPECT_TRUE(results().verdict("fig06_blade", "Craig-Bampton procedure"));
+  const Table table = results().read("fig06_blade.csv");
   EXPECT_EQ(table.rows(), 24u);
   for (const double z : table.numbers("z_m")) EXPECT_EQ(z, 0.091);
   EXPECT_LT(table.numbers("x_m").front(), table.numbers("x_m").back());
-  EXPECT_TRUE(has("fig06_blade.svg") && has("fig06_blade.png"));
+  EXPECT_TRUE(results().has("fig06_blade.svg") && results().has("fig06_blade.png"));
 }
 
-TEST_F(Ll10Blade, BackboneIsTheListedOneAndThePublishedFormulaFallsShortOfIt) {
-  ASSERT_EQ(run("fig07"), 0);
-  const Table table = read("fig07_blade_backbone.csv");
+TEST(Ll10Blade, BackboneIsTheListedOneAndThePublishedFormulaFallsShortOfIt) {
+  results().need({"fig07"});
+  const Table table = results().read("fig07_blade_backbone.csv");
   EXPECT_EQ(table.columns(), (std::vector<std::string>{"formulation", "energy_ratio", "frequency_ratio",
                                                        "rayleigh_frequency_ratio"}));
   for (const auto& listed : listed_points)
@@ -50,15 +54,15 @@ TEST_F(Ll10Blade, BackboneIsTheListedOneAndThePublishedFormulaFallsShortOfIt) {
   EXPECT_LT(at(table, "published", 7.0), 1.13);
   EXPECT_NEAR(at(table, "published", 7.0), at(table, "consistent", 7.0, "rayleigh_frequency_ratio"), 0.03);
   for (const char* words : {"Fig. 7 depicts", "increase of the natural frequency", "leading and trailing"})
-    EXPECT_TRUE(verdict("fig07_blade_backbone", words)) << words;
-  EXPECT_FALSE(verdict("fig07_blade_backbone", "ω² = r"));
+    EXPECT_TRUE(results().verdict("fig07_blade_backbone", words)) << words;
+  EXPECT_FALSE(results().verdict("fig07_blade_backbone", "ω² = r"));
 }
 
-TEST_F(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
-  ASSERT_EQ(run("fig08"), 0);
-  EXPECT_TRUE(verdict("fig08_blade_shapes", "torsion effects"));
-  EXPECT_TRUE(verdict("fig08_blade_shapes", "Sensitivity of mode shapes"));
-  const Table table = read("fig08_blade_shapes.csv");
+TEST(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
+  results().need({"fig08"});
+  EXPECT_TRUE(results().verdict("fig08_blade_shapes", "torsion effects"));
+  EXPECT_TRUE(results().verdict("fig08_blade_shapes", "Sensitivity of mode shapes"));
+  const Table table = results().read("fig08_blade_shapes.csv");
   ASSERT_EQ(table.rows(), 3u * 2u * 24u);
   const auto energy = table.numbers("energy_ratio"), time = table.numbers("time_fraction"),
              u = table.numbers("u_z_over_gap");
@@ -84,10 +88,10 @@ TEST_F(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
   }
   for (const char* file :
        {"fig08_energy_0.8.pvd", "fig08_energy_4.7.pvd", "fig08_energy_10.4.pvd", "fig08_energy_10.4_15.vtu"})
-    EXPECT_TRUE(has(file)) << file;
+    EXPECT_TRUE(results().has(file)) << file;
 }
 
-TEST_F(Ll10Blade, EveryPointBalancesItsForces) {
+TEST(Ll10Blade, EveryPointBalancesItsForces) {
   const std::vector<std::string> overrides{"analysis.points=40"};
   const app::ModeStudy study(app::load_scene(
       fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "blade_mode.toml", overrides));

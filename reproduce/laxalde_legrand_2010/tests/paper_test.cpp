@@ -1,5 +1,4 @@
-// Runs the programs of the figures into a folder of their own and holds what they write to the closed form
-// and to figures found independently.
+// Holds what the program writes to the closed form and to values found independently.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +7,8 @@
 #include <numbers>
 
 #include "curves.hpp"
-#include "programs.hpp"
+#include "figures.hpp"
+#include "paper_results.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
@@ -17,14 +17,17 @@ namespace {
 namespace fs = std::filesystem;
 using Columns = std::vector<std::string>;
 
-class Ll10Paper : public Programs {};
+report::PaperResults& results() {
+  static report::PaperResults all(figures());
+  return all;
+}
 
-TEST_F(Ll10Paper, BackboneHoldsThreeFormulationsAndTheExactOneIsTheClosedForm) {
-  ASSERT_EQ(run("fig03"), 0);
-  const Table table = read("fig03_backbone.csv");
+TEST(Ll10Paper, BackboneHoldsThreeFormulationsAndTheExactOneIsTheClosedForm) {
+  results().need({"fig03"});
+  const Table table = results().read("fig03_backbone.csv");
   EXPECT_EQ(table.columns(),
             (Columns{"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"}));
-  EXPECT_TRUE(has("fig03_backbone.svg") && has("fig03_backbone.png"));
+  EXPECT_TRUE(results().has("fig03_backbone.svg") && results().has("fig03_backbone.png"));
   for (const char* formulation : {"published", "consistent", "exact"}) {
     const auto energy = table.where("formulation", formulation).numbers("energy_ratio");
     EXPECT_GE(*std::max_element(energy.begin(), energy.end()), 10.0 - 1e-9) << formulation;
@@ -39,9 +42,9 @@ TEST_F(Ll10Paper, BackboneHoldsThreeFormulationsAndTheExactOneIsTheClosedForm) {
   }
 }
 
-TEST_F(Ll10Paper, ConsistentCurveIsNearTheExactOneAndThePublishedOneIsNot) {
-  ASSERT_EQ(run("fig03"), 0);
-  const Table table = read("fig03_backbone.csv");
+TEST(Ll10Paper, ConsistentCurveIsNearTheExactOneAndThePublishedOneIsNot) {
+  results().need({"fig03"});
+  const Table table = results().read("fig03_backbone.csv");
   const auto last = [&](const std::string& formulation) {
     const Table rows = table.where("formulation", formulation);
     return std::pair{rows.numbers("energy_ratio").back(), rows.numbers("frequency_ratio").back()};
@@ -54,17 +57,17 @@ TEST_F(Ll10Paper, ConsistentCurveIsNearTheExactOneAndThePublishedOneIsNot) {
   EXPECT_LT(published, 0.96 * exact_mode(scene, published_energy).frequency_ratio());
 }
 
-TEST_F(Ll10Paper, VerdictsFollowTheFigures) {
-  ASSERT_EQ(run("fig03"), 0);
-  EXPECT_TRUE(verdict("fig03_backbone", "1297.5 Hz"));
-  EXPECT_TRUE(verdict("fig03_backbone", "hardening"));
-  EXPECT_TRUE(verdict("fig03_backbone", "identically zero"));
-  EXPECT_FALSE(verdict("fig03_backbone", "reaches unity"));
-  EXPECT_FALSE(verdict("fig03_backbone", "ω² = r"));
-  EXPECT_FALSE(verdict("fig03_backbone", "Eq. (24c)"));
+TEST(Ll10Paper, VerdictsFollowTheFigures) {
+  results().need({"fig03"});
+  EXPECT_TRUE(results().verdict("fig03_backbone", "1297.5 Hz"));
+  EXPECT_TRUE(results().verdict("fig03_backbone", "hardening"));
+  EXPECT_TRUE(results().verdict("fig03_backbone", "identically zero"));
+  EXPECT_FALSE(results().verdict("fig03_backbone", "reaches unity"));
+  EXPECT_FALSE(results().verdict("fig03_backbone", "ω² = r"));
+  EXPECT_FALSE(results().verdict("fig03_backbone", "Eq. (24c)"));
 }
 
-TEST_F(Ll10Paper, AugmentedLagrangianAndCondensedSolverAgreeToSixDigits) {
+TEST(Ll10Paper, AugmentedLagrangianAndCondensedSolverAgreeToSixDigits) {
   const app::ModeStudy study(
       app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml"));
   const Agreement agreement = lagrangian_agreement(study, study.backbone(), {1.2, 1.8, 3.0, 5.0, 10.0});
@@ -72,7 +75,7 @@ TEST_F(Ll10Paper, AugmentedLagrangianAndCondensedSolverAgreeToSixDigits) {
   EXPECT_LT(agreement.largest, 1e-6);
 }
 
-TEST_F(Ll10Paper, MedianErrorShrinksWithTheHarmonics) {
+TEST(Ll10Paper, MedianErrorShrinksWithTheHarmonics) {
   const auto distance = [](const std::string& harmonics) {
     const std::vector<std::string> overrides{"analysis.harmonics=" + harmonics,
                                              "analysis.samples=" + std::to_string(2 * std::stoi(harmonics)),
@@ -85,17 +88,15 @@ TEST_F(Ll10Paper, MedianErrorShrinksWithTheHarmonics) {
   EXPECT_LT(fine, 0.5 * coarse);
 }
 
-TEST_F(Ll10Paper, MotionsLookAsDescribed) {
-  ASSERT_EQ(run("fig02"), 0);
-  ASSERT_EQ(run("fig04"), 0);
-  ASSERT_EQ(run("fig05"), 0);
-  EXPECT_TRUE(verdict("fig04_phase_space", "elliptic trajectories"));
-  EXPECT_TRUE(verdict("fig05_space_time", "standing wave"));
-  EXPECT_TRUE(verdict("fig05_space_time", "traveling wave"));
-  EXPECT_TRUE(verdict("fig05_space_time", "symmetry in time and space"));
+TEST(Ll10Paper, MotionsLookAsDescribed) {
+  results().need({"fig02", "fig04", "fig05"});
+  EXPECT_TRUE(results().verdict("fig04_phase_space", "elliptic trajectories"));
+  EXPECT_TRUE(results().verdict("fig05_space_time", "standing wave"));
+  EXPECT_TRUE(results().verdict("fig05_space_time", "traveling wave"));
+  EXPECT_TRUE(results().verdict("fig05_space_time", "symmetry in time and space"));
   for (const char* stem : {"fig02_rod_sketch", "fig04_phase_space", "fig05_space_time"})
-    for (const char* suffix : {".csv", ".svg", ".png"}) EXPECT_TRUE(has(stem + std::string(suffix))) << stem;
-  const Table table = read("fig05_space_time.csv");
+    for (const char* suffix : {".csv", ".svg", ".png"}) EXPECT_TRUE(results().has(stem + std::string(suffix))) << stem;
+  const Table table = results().read("fig05_space_time.csv");
   const auto exact = table.numbers("displacement_energy_1.8_exact");
   EXPECT_NEAR(*std::max_element(exact.begin(), exact.end()), 1.0, 0.3);
   EXPECT_EQ(table.rows(), 21u * 129u);

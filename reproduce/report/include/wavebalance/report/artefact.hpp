@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -61,11 +60,6 @@ class Artefact {
   std::vector<app::CsvHeading> headings_;
   std::optional<app::Figure> figure_;
 };
-
-/// The main function of an artefact's program: reads --output and --scenes, makes and writes the artefact.
-/// Returns the exit code: 0; 2 for bad input and for files that cannot be written, nothing being written; 3
-/// for NotConverged. Messages go to stderr.
-int run_artefact(int argc, char** argv, const Identity& identity, const std::function<void(Artefact&)>& make);
 
 /// `table` in Markdown, numbers as the CSV file has them.
 std::string markdown_text(const app::Table& table);

@@ -1,18 +1,16 @@
 // Daubechies filters of 2 to 40 coefficients in double precision, against quadruple precision.
 #include "daubechies_reference.hpp"
-#include "wavebalance/report/artefact.hpp"
+#include "tables.hpp"
 
-using namespace wavebalance;
+namespace wavebalance::extremes {
 
-namespace {
-
-void make(report::Artefact& artefact) {
+void daubechies_table(report::Artefact& artefact) {
   const std::vector<std::string> columns{"coefficients",    "filter_error",     "smallest_coefficient_error",
                                          "orthogonality",   "filter_condition", "values_error",
                                          "values_condition"};
   app::Table table(columns), rounded(columns);
   for (int coefficients = 2; coefficients <= 40; coefficients += 2) {
-    const auto found = extremes::filter_accuracy(coefficients);
+    const auto found = filter_accuracy(coefficients);
     const std::vector<double> values{found.filter_error, found.relative_error, found.orthogonality,
                                      found.condition,    found.values_error,   found.values_condition};
     std::vector<app::Cell> row{std::int64_t{coefficients}}, short_row = row;
@@ -34,9 +32,4 @@ void make(report::Artefact& artefact) {
   artefact.markdown(rounded);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  return report::run_artefact(
-      argc, argv, {"extremes", "Daubechies", "filters of 2 to 40 coefficients", "daubechies"}, make);
-}
+}  // namespace wavebalance::extremes

@@ -2,12 +2,9 @@
 #include <algorithm>
 
 #include "family.hpp"
-#include "wavebalance/report/artefact.hpp"
+#include "tables.hpp"
 
-using namespace wavebalance;
-using extremes::Case;
-using extremes::Verdict;
-
+namespace wavebalance::extremes {
 namespace {
 
 std::string input_text(const Case& item) {
@@ -21,7 +18,7 @@ std::string must_text(const Case& item) {
 }
 
 std::string happened_text(const Verdict& verdict) {
-  return verdict.outcome == extremes::Outcome::solved ? to_string(verdict.outcome)
+  return verdict.outcome == Outcome::solved ? to_string(verdict.outcome)
                                                       : to_string(verdict.outcome) + ": " + verdict.text;
 }
 
@@ -49,8 +46,8 @@ void append_rounded(app::Table& table, const Case& item, const Verdict& verdict)
 void append_units(app::Table& table, app::Table& rounded, const std::filesystem::path& scenes) {
   constexpr double bound = 1e-9;
   std::string names;
-  for (const auto& units : extremes::unit_systems()) names += (names.empty() ? "" : ", ") + units.scene;
-  const double difference = extremes::difference_between_units(scenes);
+  for (const auto& units : unit_systems()) names += (names.empty() ? "" : ", ") + units.scene;
+  const double difference = difference_between_units(scenes);
   const bool holds = difference <= bound;
   const std::string happened = "largest relative difference " + report::number(difference, 2);
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -58,15 +55,18 @@ void append_units(app::Table& table, app::Table& rounded, const std::filesystem:
   rounded.append_row({"units", names, "equal to 1e-9", happened, "-", "-", "-", "-", holds});
 }
 
-void make(report::Artefact& artefact, const std::filesystem::path& scenes) {
+}  // namespace
+
+void family_table(report::Artefact& artefact) {
+  const std::filesystem::path& scenes = artefact.scenes();
   for (const char* name : {"bar.toml", "bar_linear.toml", "bar_rigid.toml", "bar_mm_n_t.toml",
                            "bar_nondimensional.toml", "blade.toml", "chain.toml", "chain_rigid.toml"})
     artefact.scene(name);
   app::Table table(columns), rounded(columns);
   int holding = 0;
   double longest = 0.0;
-  for (const Case& item : extremes::family(scenes)) {
-    const Verdict verdict = extremes::judge(item, scenes);
+  for (const Case& item : family(scenes)) {
+    const Verdict verdict = judge(item, scenes);
     append(table, item, verdict);
     append_rounded(rounded, item, verdict);
     holding += verdict.holds ? 1 : 0;
@@ -83,9 +83,4 @@ void make(report::Artefact& artefact, const std::filesystem::path& scenes) {
   artefact.markdown(rounded);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  return report::run_artefact(argc, argv, {"extremes", "Extremes", "inputs at the edge", "extremes"},
-                              [](report::Artefact& artefact) { make(artefact, artefact.scenes()); });
-}
+}  // namespace wavebalance::extremes

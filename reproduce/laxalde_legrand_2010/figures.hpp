@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "wavebalance/report/program.hpp"
+
+/// The figures of LL10, each a function that makes it.
+namespace wavebalance::ll10 {
+
+void fig02(report::Artefact& artefact);
+void fig03(report::Artefact& artefact);
+void fig03_convergence(report::Artefact& artefact);
+void fig04(report::Artefact& artefact);
+void fig05(report::Artefact& artefact);
+void fig06(report::Artefact& artefact);
+void fig07(report::Artefact& artefact);
+void fig08(report::Artefact& artefact);
+
+/// What the program ll10 makes.
+const std::vector<report::Step>& figures();
+
+}  // namespace wavebalance::ll10

@@ -1,0 +1,77 @@
+#include "wavebalance/report/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+namespace wavebalance::report {
+namespace {
+
+struct Arguments {
+  std::string name, output, scenes;
+};
+
+Arguments defaults(const std::vector<Step>& steps) {
+  const std::string& paper = steps.at(0).identity.paper;
+  return {"", "results/" + paper, std::string(WAVEBALANCE_SCENES_DIR) + "/" + paper};
+}
+
+const Step& find(const std::vector<Step>& steps, const std::string& name) {
+  const auto found =
+      std::find_if(steps.begin(), steps.end(), [&](const Step& step) { return step.name == name; });
+  if (found == steps.end()) throw std::out_of_range("\"" + name + "\" is none of the steps");
+  return *found;
+}
+
+void run(const Step& step, const Arguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  Artefact artefact(step.identity, arguments.output, arguments.scenes);
+  step.make(artefact);
+  artefact.write(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+int fail(const Step& step, const std::exception& error, int code) {
+  std::cerr << step.identity.stem << ": " << error.what() << "\n";
+  return code;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv, const std::vector<Step>& steps) {
+  Arguments arguments = defaults(steps);
+  std::vector<std::string> names;
+  std::string list = "Steps:";
+  for (const Step& step : steps) {
+    names.push_back(step.name);
+    list += "\n  " + step.name + ": " + step.identity.number + ", " + step.identity.title;
+  }
+  CLI::App app("Makes one figure or table of results/" + steps.at(0).identity.paper);
+  app.footer(list);
+  app.add_option("name", arguments.name, "the step to make")->required()->check(CLI::IsMember(names));
+  app.add_option("--output", arguments.output, "folder for the data and its picture or table")
+      ->capture_default_str();
+  app.add_option("--scenes", arguments.scenes, "folder of the scene files")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  const Step& step = find(steps, arguments.name);
+  try {
+    run(step, arguments);
+    return 0;
+  } catch (const NotConverged& error) {
+    return fail(step, error, 3);
+  } catch (const std::exception& error) {
+    return fail(step, error, 2);
+  }
+}
+
+void run_step(const std::vector<Step>& steps, const std::string& name, const std::filesystem::path& output) {
+  Arguments arguments = defaults(steps);
+  arguments.output = output.string();
+  run(find(steps, name), arguments);
+}
+
+}  // namespace wavebalance::report
