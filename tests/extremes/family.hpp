@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "judge.hpp"
+#include "check_residuals.hpp"
 
 namespace wavebalance::extremes {
 

@@ -17,30 +17,31 @@ std::string must_text(const Case& item) {
   return item.named.empty() ? to_string(item.must) : to_string(item.must) + ": " + item.named;
 }
 
-std::string happened_text(const Verdict& verdict) {
-  return verdict.outcome == Outcome::solved ? to_string(verdict.outcome)
-                                                      : to_string(verdict.outcome) + ": " + verdict.text;
+std::string happened_text(const CheckResult& result) {
+  return result.outcome == Outcome::solved ? to_string(result.outcome)
+                                                      : to_string(result.outcome) + ": " + result.text;
 }
 
 const std::vector<std::string> columns{"group",       "input",           "must",
                                        "happened",    "motion_residual", "complementarity",
                                        "periodicity", "seconds",         "holds"};
 
-void append(app::Table& table, const Case& item, const Verdict& verdict) {
-  const auto& found = verdict.residuals;
-  table.append_row({item.group, input_text(item), must_text(item), happened_text(verdict), found.motion,
-                    found.complementarity, found.periodicity, verdict.seconds, verdict.holds});
+void append(app::Table& table, const Case& item, const CheckResult& result) {
+  const auto& found = result.residuals;
+  table.append_row({item.group, input_text(item), must_text(item), happened_text(result), found.motion,
+                    found.complementarity, found.periodicity, result.seconds, led_to_what_it_must(item, result)});
 }
 
 /// The same with three digits, for reading.
-void append_rounded(app::Table& table, const Case& item, const Verdict& verdict) {
+void append_rounded(app::Table& table, const Case& item, const CheckResult& result) {
   const auto short_text = [](double value) {
     return std::isnan(value) ? std::string("-") : report::number(value, 2);
   };
-  const auto& found = verdict.residuals;
-  table.append_row({item.group, input_text(item), must_text(item), happened_text(verdict),
+  const auto& found = result.residuals;
+  table.append_row({item.group, input_text(item), must_text(item), happened_text(result),
                     short_text(found.motion), short_text(found.complementarity),
-                    short_text(found.periodicity), short_text(verdict.seconds), verdict.holds});
+                    short_text(found.periodicity), short_text(result.seconds),
+                    led_to_what_it_must(item, result)});
 }
 
 void append_units(app::Table& table, app::Table& rounded, const std::filesystem::path& scenes) {
@@ -66,11 +67,11 @@ void family_table(report::Artefact& artefact) {
   int holding = 0;
   double longest = 0.0;
   for (const Case& item : family(scenes)) {
-    const Verdict verdict = judge(item, scenes);
-    append(table, item, verdict);
-    append_rounded(rounded, item, verdict);
-    holding += verdict.holds ? 1 : 0;
-    longest = std::max(longest, verdict.seconds);
+    const CheckResult result = check_residuals(item, scenes);
+    append(table, item, result);
+    append_rounded(rounded, item, result);
+    holding += led_to_what_it_must(item, result) ? 1 : 0;
+    longest = std::max(longest, result.seconds);
   }
   append_units(table, rounded, scenes);
   artefact.caption(

@@ -1,18 +1,29 @@
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
+#include <rapidcheck.h>
 
-#include "judge.hpp"
+#include "check_residuals.hpp"
 #include "random_scenes.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {
 
 using namespace wavebalance;
+using extremes::Outcome;
 
-/// Nothing converges with a number that is none, or with an equation that does not hold.
-RC_GTEST_PROP(RandomScenes, ConvergeToWhatHoldsOrSayWhyNot, ()) {
-  app::Scene scene =
-      random_scene(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint64_t>()));
+struct Counts {
+  int solved = 0;
+  int due = 0;  ///< scenes with a solution: accepted by the loader, within the range of doubles, not singular
+};
+
+/// No solution is due from numbers beyond what doubles hold, which is an error, or at an undamped resonance.
+bool solution_is_due(const extremes::CheckResult& result) {
+  const bool singular =
+      result.outcome == Outcome::not_converged && result.text.find("singular") != std::string::npos;
+  return result.outcome != Outcome::error && !singular;
+}
+
+void check_scene(std::uint64_t seed, Counts& counts) {
+  app::Scene scene = random_scene(seed);
   try {
     scene = app::complete_scene(scene);
   } catch (const app::SceneError& error) {
@@ -20,13 +31,25 @@ RC_GTEST_PROP(RandomScenes, ConvergeToWhatHoldsOrSayWhyNot, ()) {
     return;
   }
   RC_LOG() << app::write_scene(scene);
-  const extremes::Verdict verdict = extremes::judge(scene, 0);
-  RC_LOG() << to_string(verdict.outcome) << ": " << verdict.text << "\nmotion " << verdict.residuals.motion
-           << "\nits rounding " << verdict.residuals.motion_rounding << "\ncomplementarity "
-           << verdict.residuals.complementarity << "\nseconds " << verdict.seconds << "\n";
-  RC_ASSERT(verdict.outcome != extremes::Outcome::wrong);
-  RC_ASSERT(verdict.outcome == extremes::Outcome::solved || !verdict.text.empty());
-  RC_TAG(to_string(verdict.outcome));
+  const extremes::CheckResult result = extremes::check_residuals(scene, 0);
+  RC_LOG() << to_string(result.outcome) << ": " << result.text << "\nmotion " << result.residuals.motion
+           << "\nits rounding " << result.residuals.motion_rounding << "\ncomplementarity "
+           << result.residuals.complementarity << "\n";
+  counts.solved += result.outcome == Outcome::solved ? 1 : 0;
+  counts.due += solution_is_due(result) ? 1 : 0;
+  RC_ASSERT(result.outcome != Outcome::wrong);
+  RC_ASSERT(result.outcome == Outcome::solved || !result.text.empty());
+  RC_TAG(to_string(result.outcome));
+}
+
+TEST(RandomScenes, ConvergeToWhatHoldsOrSayWhyNotAndNearlyAllConverge) {
+  Counts counts;
+  const bool holds = rc::check([&counts] {
+    check_scene(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint64_t>()), counts);
+  });
+  EXPECT_TRUE(holds);
+  EXPECT_GT(counts.due, 0);
+  EXPECT_GE(counts.solved, 0.95 * counts.due) << counts.solved << " of " << counts.due;
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-#include "judge.hpp"
+#include "check_residuals.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <functional>
+#include <stdexcept>
 
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -183,8 +184,8 @@ bool all_finite(const solvers::PeriodSamples& samples) {
          samples.velocities.allFinite();
 }
 
-/// What is wrong with a response that calls itself converged; empty if nothing is.
-std::string objection(const app::Response& response, const Residuals& found) {
+/// The first condition that a response reported as converged violates; empty if it violates none.
+std::string violated_condition(const app::Response& response, const Residuals& found) {
   if (!all_finite(response.samples)) return "converged with samples that are not finite";
   if (!(response.residual >= 0.0)) return "converged with a residual that is no number";
   if (!(found.motion <= largest_motion_residual + found.motion_rounding))
@@ -193,35 +194,35 @@ std::string objection(const app::Response& response, const Residuals& found) {
   return "";
 }
 
-Verdict solved_or_not(const Scene& scene, int stepped_elements = 30) {
-  Verdict verdict;
+CheckResult solved_or_not(const Scene& scene, int stepped_elements = 30) {
+  CheckResult result;
   const app::Response response = solve(scene);
   if (!response.converged) {
-    verdict.outcome = Outcome::not_converged;
-    verdict.text = response.status;
-    return verdict;
+    result.outcome = Outcome::not_converged;
+    result.text = response.status;
+    return result;
   }
   if (response.samples.displacements.size() == 0) {
-    verdict.text = "converged without a motion";
-    return verdict;
+    result.text = "converged without a motion";
+    return result;
   }
-  verdict.residuals = residuals(scene, response, stepped_elements);
-  verdict.text = objection(response, verdict.residuals);
-  verdict.outcome = verdict.text.empty() ? Outcome::solved : Outcome::wrong;
-  return verdict;
+  result.residuals = residuals(scene, response, stepped_elements);
+  result.text = violated_condition(response, result.residuals);
+  result.outcome = result.text.empty() ? Outcome::solved : Outcome::wrong;
+  return result;
 }
 
-Verdict timed(const std::function<Verdict()>& run) {
+CheckResult timed(const std::function<CheckResult()>& run) {
   const std::clock_t start = std::clock();
-  Verdict verdict;
+  CheckResult result;
   try {
-    verdict = run();
+    result = run();
   } catch (const std::exception& error) {
-    verdict.outcome = Outcome::error;
-    verdict.text = error.what();
+    result.outcome = Outcome::error;
+    result.text = error.what();
   }
-  verdict.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  return verdict;
+  result.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return result;
 }
 
 /// The error without the place where the file lies, which differs from machine to machine.
@@ -232,6 +233,15 @@ std::string without_folder(const std::string& text, const std::filesystem::path&
 }
 
 }  // namespace
+
+bool led_to_what_it_must(const Case& item, const CheckResult& result) {
+  if (result.outcome != item.must) return false;
+  if (item.must == Outcome::solved) return result.text.empty();
+  if (item.named.empty())
+    throw std::invalid_argument("extremes: \"" + item.group + "\", " + item.scene + ": must end with " +
+                                to_string(item.must) + ", but gives no words that the text must hold");
+  return result.text.find(item.named) != std::string::npos;
+}
 
 std::string to_string(Outcome outcome) {
   switch (outcome) {
@@ -263,17 +273,15 @@ Residuals residuals(const Scene& scene, const app::Response& response, int stepp
   return result;
 }
 
-Verdict judge(const Scene& scene, int stepped_elements) {
+CheckResult check_residuals(const Scene& scene, int stepped_elements) {
   return timed([&] { return solved_or_not(scene, stepped_elements); });
 }
 
-Verdict judge(const Case& item, const std::filesystem::path& scenes) {
-  Verdict verdict =
+CheckResult check_residuals(const Case& item, const std::filesystem::path& scenes) {
+  CheckResult result =
       timed([&] { return solved_or_not(app::load_scene(scenes / item.scene, item.overrides)); });
-  verdict.text = without_folder(verdict.text, scenes);
-  verdict.holds = verdict.outcome == item.must && verdict.text.find(item.named) != std::string::npos &&
-                  verdict.seconds <= most_seconds;
-  return verdict;
+  result.text = without_folder(result.text, scenes);
+  return result;
 }
 
 }  // namespace wavebalance::extremes
