@@ -99,12 +99,12 @@ NewtonEnd newton(SelectedSystem& system, Eigen::VectorXd& a, const NewtonOptions
     }
     const Eigen::VectorXd base = a;
     double length = 1.0;
-    for (; length >= options.smallest_step; length *= 0.5) {
+    for (; length >= options.min_step; length *= 0.5) {
       a = base - length * direction;
       end.residual = system.evaluate(a);
       if (system.residual().squaredNorm() <= (1.0 - 2.0 * sufficient * length) * start) break;
     }
-    if (length >= options.smallest_step) continue;
+    if (length >= options.min_step) continue;
     a = base;
     end.residual = system.evaluate(a);
     end.status = SolveStatus::stalled;

@@ -39,10 +39,10 @@ solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
   return {app::make_pair(scene.time), app::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
 }
 
-// A homotopy would hide what Newton takes.
+// Complementarity paths would hide what Newton takes.
 solvers::ForcedResponseOptions newton_only() {
   solvers::ForcedResponseOptions options;
-  options.homotopy = false;
+  options.complementarity = false;
   return options;
 }
 

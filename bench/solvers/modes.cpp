@@ -61,7 +61,7 @@ solvers::NonlinearMode condensed_mode(const ModeCase& study) {
 
 std::vector<solvers::ModePoint> curve(const ModeCase& study, const solvers::NonlinearMode& mode) {
   return solvers::backbone(
-      mode, {.last_ratio = study.last_ratio, .points = study.points, .largest_energy = study.largest_energy});
+      mode, {.last_ratio = study.last_ratio, .points = study.points, .max_energy = study.largest_energy});
 }
 
 void mode_backbone(benchmark::State& state, ModeCase (*make)()) {
@@ -97,7 +97,7 @@ void dense_mode_backbone(benchmark::State& state, ModeCase (*make)()) {
       contact::MultiplierUpdate outer(std::vector<double>(unknowns, penalty), {penalty});
       state.ResumeTiming();
       const auto point = mode.solve(energy, outer, {start.amplitudes, start.force});
-      if (!point.accepted()) state.SkipWithError(to_string(point.status).c_str());
+      if (!point.accepted()) state.SkipWithError(std::string(to_string(point.status)).c_str());
       newton += point.newton_iterations();
     }
   }

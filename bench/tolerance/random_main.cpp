@@ -25,14 +25,14 @@ void append(app::Table& table, std::uint64_t seed, double tolerance) {
   const tolerance::RandomMotion motion(seed);
   const double start = processor_seconds();
   auto found = motion.climb(
-      tolerance, [&](const solvers::LadderRung&) { return processor_seconds() - start < patience; });
+      tolerance, [&](const solvers::Progress&) { return processor_seconds() - start < patience; });
   const double seconds = processor_seconds() - start;
   const auto exact = tolerance::shooting_nearby(motion, found, output_points);
   const double error =
       exact ? tolerance::true_error(found, *exact) : std::numeric_limits<double>::quiet_NaN();
   table.append_row({std::to_string(seed), name_of(motion.scene.contact.law), motion.scene.forcing.frequency,
                     motion.scene.structure.stiffness_damping, motion.scene.contact.gap, tolerance,
-                    to_string(found.status), found.estimated_error, error, error / tolerance,
+                    std::string(to_string(found.status)), found.estimated_error, error, error / tolerance,
                     std::int64_t{found.ladder.back().functions}, std::int64_t{found.ladder.back().points},
                     static_cast<std::int64_t>(found.ladder.size()), seconds});
 }

@@ -47,7 +47,7 @@ ToleranceStudy::Solution ToleranceStudy::solve(const FixedChoice& choice) const 
   solvers::CondensedProblem problem = app::make_problem(scene, model_);
   // A choice that Newton alone does not solve is never the cheapest of its error.
   solvers::ForcedResponseOptions options;
-  options.homotopy = false;
+  options.complementarity = false;
   auto response = solvers::forced_response(problem, law_, options);
   return {std::move(problem), std::move(response)};
 }
@@ -98,7 +98,7 @@ solvers::LadderResponse ToleranceStudy::climb(double tolerance) const {
 
 Asked ToleranceStudy::ask(double tolerance) const {
   const auto found = climb(tolerance);
-  Asked asked{.tolerance = tolerance, .status = to_string(found.status)};
+  Asked asked{.tolerance = tolerance, .status = std::string(to_string(found.status))};
   asked.estimated_error = found.estimated_error;
   asked.error = error_of(*found.problem, found.response);
   asked.functions = found.ladder.back().functions;

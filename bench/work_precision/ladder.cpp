@@ -19,8 +19,8 @@ solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
 }
 
 // Ends a solve that takes too long; it has not converged then.
-solvers::SolveObserver deadline(double patience) {
-  return [patience, start = processor_seconds()](const std::string&, int, double) {
+solvers::Observer deadline(double patience) {
+  return [patience, start = processor_seconds()](const solvers::Progress&) {
     return processor_seconds() - start < patience;
   };
 }

@@ -27,7 +27,7 @@ std::vector<BladeResponse> stepped(const app::Scene& scene, const app::Structure
   auto problem = app::make_problem(scene, model);
   const auto laws = app::make_laws(scene);
   solvers::ForcedResponseOptions nearby;
-  nearby.homotopy = false;
+  nearby.complementarity = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
   std::vector<BladeResponse> responses;
   Eigen::VectorXd guess;

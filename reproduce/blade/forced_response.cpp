@@ -206,7 +206,7 @@ void notes(report::Artefact& artefact, const Study& study) {
   std::string turns;
   for (const auto& turn : study.traced.curve.turning_points)
     turns += (turns.empty() ? "" : ", ") + report::number(turn.frequency, 5) + " Hz";
-  artefact.note("The curve by arc length (" + to_string(study.traced.curve.status) + ", " +
+  artefact.note("The curve by arc length (" + std::string(to_string(study.traced.curve.status)) + ", " +
                 std::to_string(study.traced.curve.points.size()) + " points) turns at " +
                 (turns.empty() ? "no frequency" : turns) +
                 ". It takes an odd number of functions: an even one, as wavelets have, leaves its Nyquist "

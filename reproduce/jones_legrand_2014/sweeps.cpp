@@ -34,7 +34,7 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
     resonance.gap = scene.contact.gap;
     const auto& sweep = resonance.sweeps.back();
     if (!sweep.converged())
-      artefact.note(pair.label + " in " + file + " ended early: " + to_string(sweep.curve.status));
+      artefact.note(pair.label + " in " + file + " ended early: " + std::string(to_string(sweep.curve.status)));
   }
   auto free = artefact.scene(file);
   free.contact = {};
@@ -64,7 +64,7 @@ std::string every_turn_text(report::Artefact& artefact, const std::string& file,
     text += " at " + report::number(*low, 7) + " to " + report::number(*high, 7) + " Hz";
   }
   const bool ended = curve.status == solvers::SweepStatus::reached_end;
-  return ended ? text : text + " (" + to_string(curve.status) + ")";
+  return ended ? text : text + " (" + std::string(to_string(curve.status)) + ")";
 }
 
 Series sweep_series(const std::string& label, const app::Sweep& sweep) {

@@ -12,7 +12,7 @@ solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone&
   auto point = study.at_energy(curve, energy_ratio);
   if (!point.accepted())
     throw report::NotConverged("energy ratio " + report::number(energy_ratio) + ": " +
-                               to_string(point.status));
+                               std::string(to_string(point.status)));
   return point;
 }
 

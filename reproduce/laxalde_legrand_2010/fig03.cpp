@@ -149,7 +149,7 @@ void claim_published(report::Artefact& artefact, const std::vector<solvers::Lagr
        "the nonlinear mode",
        "with h as printed in (24c), without n², the energy of (12) is that prescribed to 1 %",
        "prescribed " + report::number(last.prescribed_ratio) + ", found " +
-           report::number(last.energy_ratio, 4) + " (" + to_string(last.status) + ", N = " +
+           report::number(last.energy_ratio, 4) + " (" + std::string(to_string(last.status)) + ", N = " +
            std::to_string(published_harmonics) + ", Algorithm 2); the equation of motion is met to " +
            report::percent(defect, 2) + " only, at no frequency",
        std::abs(last.energy_ratio / last.prescribed_ratio - 1.0) < 0.01});

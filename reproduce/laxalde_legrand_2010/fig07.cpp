@@ -158,7 +158,7 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
   artefact.note(
       "Published is Algorithm 2 on the printed equations, all 112 coordinates and two harmonics, which is as "
       "many as it runs with; it ended at energy " +
-      report::number(last.prescribed_ratio, 3) + " (" + to_string(last.status) +
+      report::number(last.prescribed_ratio, 3) + " (" + std::string(to_string(last.status)) +
       ") and misses the equation of motion by " + report::percent(last.equation_residual, 2) +
       ". At higher energies the dashed line, the root of r of the consistent motions, is what the paper's "
       "formula would call frequency.");

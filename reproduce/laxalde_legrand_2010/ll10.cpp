@@ -60,7 +60,7 @@ Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int tim
   const auto point = study.at_energy(energy_ratio);
   if (!point.accepted())
     throw report::NotConverged("energy ratio " + report::number(energy_ratio) + ": " +
-                               to_string(point.status));
+                               std::string(to_string(point.status)));
   const auto samples = study.samples(point, times, true);
   const double gap = scene.contact.gap;
   return {node_positions(scene.structure.elements), times_of(times), centred(samples.displacements) / gap,

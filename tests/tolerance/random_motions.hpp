@@ -65,12 +65,11 @@ struct RandomMotion {
         model(app::make_model(scene)),
         law(app::make_law(scene.contact)) {}
 
-  /// Stops after the rung that `go_on`, when there is one, says no to.
-  solvers::LadderResponse climb(double tolerance,
-                                std::function<bool(const solvers::LadderRung&)> go_on = {}) const {
+  /// Stops when the observer says so.
+  solvers::LadderResponse climb(double tolerance, solvers::Observer observer = {}) const {
     solvers::LadderOptions options;
     options.tolerance = tolerance;
-    options.observer = std::move(go_on);
+    options.observer = std::move(observer);
     return tolerance::climb(scene, model, law, options);
   }
 

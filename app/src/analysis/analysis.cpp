@@ -16,14 +16,6 @@ namespace wavebalance::app {
 namespace {
 
 /// Fraction of the frequency interval; falls where the curve turns back.
-Progress sweep_progress(const Analysis& analysis, int points, double frequency) {
-  const double share =
-      (frequency - analysis.frequency_from) / (analysis.frequency_to - analysis.frequency_from);
-  return {"frequency sweep",
-          std::to_string(points) + " points, " + std::to_string(std::lround(frequency)) + " Hz",
-          std::clamp(share, 0.0, 1.0)};
-}
-
 solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   solvers::FrequencySweepOptions options;
@@ -34,8 +26,8 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   auto& arc = options.arc_length;
   arc.parameter_scale = std::abs(options.to - options.from) / 20.0;
   arc.initial_step = analysis.first_step / arc.parameter_scale;
-  arc.largest_step = analysis.largest_step / arc.parameter_scale;
-  arc.smallest_step = std::min(arc.smallest_step, arc.initial_step / 20.0);
+  arc.max_step = analysis.largest_step / arc.parameter_scale;
+  arc.min_step = std::min(arc.min_step, arc.initial_step / 20.0);
   return options;
 }
 
@@ -71,7 +63,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
-    record.summary.emplace_back("used_homotopy", response.used_homotopy);
+    record.summary.emplace_back("strategy", response.strategy);
   if (response.rigid) {
     record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
     record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);
@@ -137,14 +129,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   return record;
 }
 
-Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
+Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
-  int points = 0;
-  if (observer)
-    options.observer = [&](const solvers::SweepPoint& point) {
-      observer(sweep_progress(scene.analysis, ++points, point.frequency));
-      return true;
-    };
+  options.observer = observer;
   Sweep sweep;
   solvers::CondensedProblem problem = make_problem(scene, model);
   sweep.curve = solvers::frequency_sweep(problem, make_laws(scene), options);
@@ -170,7 +157,7 @@ std::optional<solvers::SweepPoint> rigid_point(Scene& scene, const StructureMode
   return point;
 }
 
-Sweep rigid_sweep(Scene scene, const StructureModel& model, const ProgressObserver& observer) {
+Sweep rigid_sweep(Scene scene, const StructureModel& model, const Observer& observer) {
   const Analysis& analysis = scene.analysis;
   const double interval = analysis.frequency_to - analysis.frequency_from;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(interval) / analysis.largest_step)));
@@ -186,18 +173,21 @@ Sweep rigid_sweep(Scene scene, const StructureModel& model, const ProgressObserv
       sweep.curve.points.push_back(*point);
     else
       ++sweep.unsolved;
-    if (observer) observer(sweep_progress(analysis, i + 1, frequency));
+    if (!goes_on(observer, {"frequency sweep", i + 1, frequency, "Hz", double(i) / steps})) {
+      sweep.curve.status = solvers::SweepStatus::cancelled;
+      break;
+    }
   }
   return sweep;
 }
 
 }  // namespace
 
-Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer) {
+Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
   return frequency_sweep(scene, make_model(scene), observer);
 }
 
-Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   const bool rigid = scene.contact.law == ContactLawType::rigid;
   Sweep sweep = rigid ? rigid_sweep(scene, model, observer) : arc_length_sweep(scene, model, observer);
@@ -205,8 +195,8 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Pro
   return sweep;
 }
 
-Record analyse(const Scene& scene, const ProgressObserver& observer) {
-  if (observer && scene.structure.kept_modes >= 0) observer({"structure", "reduction", {}});
+Record analyse(const Scene& scene, const Observer& observer) {
+  if (scene.structure.kept_modes >= 0) goes_on(observer, {"reduction of the structure"});
   const StructureModel model = make_model(scene);
   ResponseOptions options;
   options.observer = observer;

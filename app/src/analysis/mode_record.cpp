@@ -83,7 +83,7 @@ void append_statuses(Summary& summary, const Backbone& curve) {
   summary.emplace_back("points", static_cast<std::int64_t>(curve.points.size()));
   for (const auto status : {ModeStatus::converged, ModeStatus::tongue, ModeStatus::cycling,
                             ModeStatus::no_contact, ModeStatus::singular})
-    summary.emplace_back("points_" + to_string(status), std::int64_t{curve.count(status)});
+    summary.emplace_back("points_" + std::string(to_string(status)), std::int64_t{curve.count(status)});
   summary.emplace_back("tongues", joined_names(all_tongues(curve)));
   summary.emplace_back("interruptions", static_cast<std::int64_t>(curve.interruptions.size()));
 }
@@ -209,7 +209,7 @@ Record published_record(const ModeStudy& study) {
   record.converged = response.converged = last.accepted();
   record.status = last.accepted()
                       ? "converged"
-                      : to_string(last.status) + " at energy ratio " + cell_text(last.prescribed_ratio);
+                      : std::string(to_string(last.status)) + " at energy ratio " + cell_text(last.prescribed_ratio);
   const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
   record.summary = opening(record.converged, record.status, measures.gradient, measures.iterations, unknowns,
                            response.wall_seconds);
@@ -227,10 +227,10 @@ Record published_record(const ModeStudy& study) {
 
 }  // namespace
 
-Record mode_record(const Scene& scene, const StructureModel& model, const ProgressObserver& observer) {
-  if (observer) observer({"nonlinear mode", "linear modes", {}});
+Record mode_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  goes_on(observer, {"linear modes"});
   const ModeStudy study(scene, model);
-  if (observer) observer({"nonlinear mode", "backbone", {}});
+  goes_on(observer, {"backbone"});
   const double energy = scene.analysis.energy_ratio;
   const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
   if (scene.analysis.formulation == ModeFormulation::published && with_contact)

@@ -25,14 +25,14 @@ solvers::BackboneOptions curve_options(const Analysis& analysis) {
   solvers::BackboneOptions options;
   options.last_ratio = analysis.last_frequency_ratio;
   options.points = analysis.points;
-  options.largest_energy = analysis.largest_energy;
+  options.max_energy = analysis.largest_energy;
   return options;
 }
 
 void add_to(Interruption& gap, const ModePoint& point, double ratio) {
   gap.last_ratio = ratio;
   if (point.status != ModeStatus::tongue) {
-    if (gap.status.empty()) gap.status = to_string(point.status);
+    if (gap.status.empty()) gap.status = std::string(to_string(point.status));
     return;
   }
   const std::string name = tongue_name(point.tongue);
@@ -121,7 +121,7 @@ Backbone ModeStudy::backbone() const {
 ModePoint ModeStudy::at_energy(double energy_ratio) const {
   if (energy_ratio <= 1.0) return mode_.linear_mode(energy_ratio);
   solvers::BackboneOptions options = curve_options(scene_.analysis);
-  options.largest_energy = energy_ratio;
+  options.max_energy = energy_ratio;
   return solvers::at_energy(mode_, solvers::backbone(mode_, options), energy_ratio);
 }
 
@@ -230,7 +230,7 @@ Table backbone_table(const ModeStudy& study, const std::vector<solvers::Lagrangi
     const auto value = [&](double number) { return point.accepted() ? number : missing; };
     table.append_row({point.prescribed_ratio, value(point.omega / (2.0 * std::numbers::pi)),
                       value(point.omega / linear), value(std::sqrt(point.rayleigh) / linear), missing,
-                      to_string(point.status), value(point.equation_residual), value(point.identity_defect),
+                      std::string(to_string(point.status)), value(point.equation_residual), value(point.identity_defect),
                       value(point.max_penetration), value(point.min_force), "none", missing});
   }
   return table;
@@ -244,7 +244,7 @@ Table backbone_table(const ModeStudy& study, const Backbone& curve) {
     const auto value = [&](double number) { return found ? number : missing; };
     table.append_row({value(point.energy_ratio), point.omega / (2.0 * std::numbers::pi), point.omega / linear,
                       value(std::sqrt(point.rayleigh) / linear), value(point.contact_fraction),
-                      to_string(point.status), residual, value(point.identity_defect),
+                      std::string(to_string(point.status)), residual, value(point.identity_defect),
                       value(point.max_penetration), value(point.min_force),
                       point.tongue.harmonic > 0 ? tongue_name(point.tongue) : std::string("none"),
                       value(point.tongue.share)});

@@ -142,7 +142,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const Scale scale = scale_of(*std::max_element(highest.begin(), highest.end()));
   Figure figure;
   figure.title = method_title(scene);
-  if (!sweep.converged()) figure.title += " (INCOMPLETE: " + to_string(sweep.curve.status) + ")";
+  if (!sweep.converged()) figure.title += " (INCOMPLETE: " + std::string(to_string(sweep.curve.status)) + ")";
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();

@@ -22,30 +22,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1e", value);
-  return text;
-}
-
-void tell(const ProgressObserver& observer, const Progress& progress) {
-  if (observer) observer(progress);
-}
-
-/// Share of the way from 1 down to `tolerance` that a falling error has gone, on a logarithmic scale.
-double logarithmic_share(double error, double tolerance) {
-  if (!(error > 0.0) || !std::isfinite(error)) return 0.0;
-  return std::clamp(std::log(error) / std::log(tolerance), 0.0, 1.0);
-}
-
-solvers::SolveObserver solve_observer(const ProgressObserver& observer) {
-  if (!observer) return {};
-  return [observer](const std::string& phase, int step, double residual) {
-    observer({phase, "step " + std::to_string(step) + ", residual " + short_number(residual), {}});
-    return true;
-  };
-}
-
 /// Displacements and velocities of all contacts.
 ContactMotion sample_motion(const solvers::CondensedProblem& problem,
                             const solvers::PeriodicResponse& response, int points) {
@@ -86,14 +62,14 @@ void note_solution(Response& result, const solvers::CondensedProblem& problem,
   result.status = to_string(found.status);
   result.residual = found.residual;
   result.iterations = found.iterations;
-  result.used_homotopy = found.used_homotopy;
+  result.strategy = to_string(found.strategy);
   result.condition = std::max(problem.condensation().condition(), found.condition);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
                const ResponseOptions& options, Response& result) {
   solvers::ForcedResponseOptions solver;
-  solver.observer = solve_observer(options.observer);
+  solver.observer = options.observer;
   const solvers::ContactLaws laws = make_laws(scene);
   const auto found = solvers::forced_response(problem, laws, solver, options.guess);
   note_solution(result, problem, found);
@@ -112,7 +88,7 @@ void solve_ladder(const Scene& scene, const StructureModel& model, const Respons
 void solve_rigid(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
                  const ResponseOptions& options, Response& result) {
   solvers::RigidResponseOptions solver;
-  solver.observer = solve_observer(options.observer);
+  solver.observer = options.observer;
   const auto found = solvers::rigid_response(problem, model.gaps, solver);
   note_solution(result, problem, found.response);
   const auto& contact = found.complementarity;
@@ -180,12 +156,7 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   stepping.period_tolerance = scene.analysis.tolerance;
   stepping.max_periods = scene.analysis.max_periods;
   stepping.full_history = options.full_history;
-  stepping.observer = [&](int period, double difference) {
-    tell(options.observer,
-         {"time stepping", "period " + std::to_string(period) + ", difference " + short_number(difference),
-          logarithmic_share(difference, scene.analysis.tolerance)});
-    return true;
-  };
+  stepping.observer = options.observer;
   auto found =
       solvers::integrate_to_periodic(model.structure, make_laws(scene), scene.forcing.frequency, stepping);
   Response result;
@@ -209,6 +180,7 @@ Response shooting_response(const Scene& scene, const ResponseOptions& options) {
   solvers::ShootingOptions shooting;
   shooting.output_points = scene.analysis.output_points;
   shooting.full_history = options.full_history;
+  shooting.observer = options.observer;
   auto found =
       solvers::shoot(make_structure(scene), make_law(scene.contact), scene.forcing.frequency, shooting);
   Response result;

@@ -16,26 +16,13 @@ Scene with_pair(Scene scene) {
   return scene;
 }
 
-std::string rung_text(const solvers::LadderRung& rung) {
-  char error[32];
-  std::snprintf(error, sizeof error, "%.1e", rung.estimated_error);
-  return std::to_string(rung.functions) + " functions, " + std::to_string(rung.points) +
-         " points, estimated error " + error;
-}
-
 solvers::LadderOptions ladder_options(const Scene& scene, const ResponseOptions& options) {
   solvers::LadderOptions ladder;
   ladder.tolerance = scene.time.tolerance;
   const bool wavelets = is_wavelet(scene.time.trial) || is_wavelet(scene.time.weight);
   if (wavelets) ladder.first_functions = 16;
   if (wavelets) ladder.first_points = 32;
-  if (!options.observer) return ladder;
-  ladder.observer = [&options, &scene](const solvers::LadderRung& rung) {
-    const double share = std::log(rung.estimated_error) / std::log(scene.time.tolerance);
-    options.observer(
-        {"refinement", rung_text(rung), std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0});
-    return true;
-  };
+  ladder.observer = options.observer;
   return ladder;
 }
 
@@ -54,7 +41,7 @@ solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureMo
   result.converged = found.converged();
   result.status = to_string(found.status);
   result.residual = found.response.residual;
-  result.used_homotopy = found.response.used_homotopy;
+  result.strategy = to_string(found.response.strategy);
   result.condition = std::max(found.problem->condensation().condition(), found.response.condition);
   result.unknowns = model.contacts() * found.ladder.back().functions;
   for (const auto& rung : found.ladder) result.iterations += rung.iterations;

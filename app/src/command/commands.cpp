@@ -114,8 +114,11 @@ int run_scene(const RunArguments& arguments) {
   OutputFiles files(arguments.output);
   const InterruptGuard guard(files);
   ProgressBar bar;
-  ProgressObserver observer;
-  if (!arguments.quiet) observer = [&bar](const Progress& progress) { bar.show(progress); };
+  Observer observer;
+  if (!arguments.quiet) observer = [&bar](const Progress& progress) {
+      bar.show(progress);
+      return true;
+    };
   const Record record = analyse(scene, observer);
   bar.finish();
   const auto names = stage(files, scene, record, arguments);

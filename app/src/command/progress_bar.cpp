@@ -21,6 +21,19 @@ std::string bar_text(double fraction) {
          std::string(static_cast<std::size_t>(bar_width - filled), '.') + "] ";
 }
 
+// "frequency sweep: step 12, 1342 Hz"
+std::string progress_text(const Progress& progress) {
+  std::string text(progress.phase);
+  if (progress.step > 0) text += ": step " + std::to_string(progress.step);
+  if (std::isnan(progress.value) || progress.measure.empty()) return text;
+  char number[32];
+  const bool common = std::abs(progress.value) >= 1.0 && std::abs(progress.value) < 1e5;
+  std::snprintf(number, sizeof number, common ? "%.1f" : "%.1e", progress.value);
+  const bool unit = progress.measure.size() <= 3;
+  return text + ", " + (unit ? number + (" " + std::string(progress.measure))
+                             : std::string(progress.measure) + " " + number);
+}
+
 }  // namespace
 
 ProgressBar::ProgressBar()
@@ -32,9 +45,9 @@ void ProgressBar::show(const Progress& progress) {
   const auto now = Clock::now();
   if (now < next_) return;
   next_ = now + (terminal_ ? 100ms : 10s);
-  const std::string text = progress.stage + ": " + progress.detail;
+  const std::string text = progress_text(progress);
   if (terminal_)
-    std::fprintf(stderr, "\r%s%s\033[K", bar_text(progress.fraction).c_str(), text.substr(0, 50).c_str());
+    std::fprintf(stderr, "\r%s%s\033[K", bar_text(progress.done).c_str(), text.substr(0, 50).c_str());
   else
     std::fprintf(stderr, "%s\n", text.c_str());
   std::fflush(stderr);

@@ -201,8 +201,9 @@ TEST(Analyse, ObserverIsToldOfPeriods) {
   analyse(scene_of({"analysis.type=time_stepping", "analysis.tolerance=1e-3"}),
           [&](const Progress& progress) {
             ++calls;
-            last = progress.fraction;
-            EXPECT_EQ(progress.stage, "time stepping");
+            last = progress.done;
+            EXPECT_EQ(progress.phase, "time stepping");
+            return true;
           });
   EXPECT_GE(calls, 2);
   EXPECT_EQ(last, 1.0);

@@ -23,10 +23,6 @@ ContactSystem::~ContactSystem() = default;
 
 double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
   laws_.evaluate(problem_->contacts(), displacement, force_, tangent_);
-  if (factor_ != 1.0) {
-    force_ *= factor_;
-    tangent_ *= factor_;
-  }
   return evaluate_residual(displacement);
 }
 
@@ -38,8 +34,6 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const Sides&
     tangent_[l] = presses[l] ? law_at(l).tangent(gap_at(l)) : 0.0;
     force_[l] = tangent_[l] * beyond;
   }
-  force_ *= factor_;
-  tangent_ *= factor_;
   return evaluate_residual(displacement);
 }
 

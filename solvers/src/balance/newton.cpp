@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "linalg/damped_newton.hpp"
+#include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
 #include "wavebalance/solvers/balance/newton.hpp"
 
 namespace wavebalance::solvers {
 
-std::string to_string(SolveStatus status) {
+std::string_view to_string(SolveStatus status) {
   switch (status) {
     case SolveStatus::converged:
       return "converged";
@@ -15,29 +18,24 @@ std::string to_string(SolveStatus status) {
       return "stalled";
     case SolveStatus::iteration_limit:
       return "iteration_limit";
+    case SolveStatus::effort_limit:
+      return "effort_limit";
     case SolveStatus::singular:
       return "singular";
+    case SolveStatus::cancelled:
+      return "cancelled";
   }
   return "unknown";
 }
 
-namespace {
-
-// Armijo backtracking on ||R||^2. True when a step was taken; the system is then evaluated at the new u.
-bool line_search(ContactSystem& system, Eigen::VectorXd& u, const Eigen::VectorXd& direction,
-                 const NewtonOptions& options) {
-  constexpr double sufficient = 1e-4;
-  const double start = safe_norm(system.residual());
-  const Eigen::VectorXd base = u;
-  for (double step = 1.0; step >= options.smallest_step; step *= 0.5) {
-    u = base - step * direction;
-    system.evaluate(u);
-    if (safe_norm(system.residual()) <= std::sqrt(1.0 - 2.0 * sufficient * step) * start) return true;
-  }
-  u = base;
-  system.evaluate(u);
-  return false;
+void NewtonOptions::validate() const {
+  constexpr const char* who = "NewtonOptions";
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_at_least(who, "max_iterations", max_iterations, 0);
+  detail::require_positive(who, "min_step", min_step);
 }
+
+namespace {
 
 // Residual to which a Newton system is solved by iteration: so small that the active sets, and with them the
 // steps, are those of exact solves, and not below what the tolerance asks for.
@@ -46,8 +44,7 @@ double forcing_term(double residual, double tolerance) {
   return std::max({least, share * tolerance / residual, exact_enough * std::min(1.0, 100.0 * residual)});
 }
 
-// Bounds of force_defect(): what is sought, and beyond which a stiff law has made too much of a small
-// residual.
+// Target for force_defect(), and the value above which a small residual is not trusted.
 constexpr double sought_defect = 1e-9, largest_defect = 1e-7;
 
 // The force makes the motion u - R, whose own force is f - D R, and u is rounded: how far the law's force at
@@ -63,42 +60,81 @@ double force_defect(ContactSystem& system, const Eigen::VectorXd& u) {
   return share * system.tangent().cwiseProduct(error).maxCoeff() / largest;
 }
 
-NewtonResult iterate(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options) {
-  NewtonResult result;
-  Eigen::VectorXd direction;
-  double before = std::numeric_limits<double>::infinity();
-  const auto ended = [&](SolveStatus otherwise) {
-    const bool good = result.residual <= options.tolerance && force_defect(system, u) <= largest_defect;
-    result.status = good ? SolveStatus::converged : otherwise;
-    return result;
-  };
-  system.evaluate(u);
-  for (;; ++result.iterations) {
-    result.residual = system.relative_residual();
-    result.residual_history.push_back(result.residual);
-    const bool settled = result.residual > 0.5 * before || force_defect(system, u) <= sought_defect;
-    if (result.residual <= options.tolerance && settled) return ended(SolveStatus::stalled);
-    before = result.residual;
-    if (result.iterations >= options.max_iterations) return ended(SolveStatus::iteration_limit);
-    const double reduction = forcing_term(result.residual, options.tolerance);
-    if (!system.factorize()) {
-      result.condition = std::numeric_limits<double>::infinity();
-      return ended(SolveStatus::singular);
-    }
-    if (!system.solve(system.residual(), direction, reduction)) return ended(SolveStatus::singular);
-    if (!line_search(system, u, direction, options)) return ended(SolveStatus::stalled);
+// R(u) = 0 for damped_newton().
+class ContactEquation {
+ public:
+  ContactEquation(ContactSystem& system, const NewtonOptions& options) : system_(system), options_(options) {}
+
+  double evaluate(const Eigen::VectorXd& u) {
+    system_.evaluate(u);
+    return norm();
   }
-}
+  double norm() const { return safe_norm(system_.residual()); }
+
+  // Where rounding allows it a stiff law's force is improved further.
+  bool is_solved() {
+    const double before = std::exchange(residual_, system_.relative_residual());
+    history_.push_back(residual_);
+    const bool settled = residual_ > 0.5 * before || force_defect(system_, *u_) <= sought_defect;
+    return residual_ <= options_.tolerance && settled;
+  }
+  bool is_acceptable() const {
+    return residual_ <= options_.tolerance && force_defect(system_, *u_) <= largest_defect;
+  }
+
+  bool direction(Eigen::VectorXd& direction) {
+    factorized_ = true;
+    singular_ = !system_.factorize();
+    return !singular_ &&
+           system_.solve(system_.residual(), direction, forcing_term(residual_, options_.tolerance));
+  }
+  bool goes_on(int iterations) const {
+    return solvers::goes_on(options_.observer, {"Newton", iterations, residual_, "relative residual"});
+  }
+
+  NewtonResult solve(Eigen::VectorXd& u) {
+    u_ = &u;
+    const detail::NewtonRun run = detail::damped_newton(*this, u, options_.max_iterations, options_.min_step);
+    NewtonResult result;
+    result.status = is_acceptable() ? SolveStatus::converged : status_of(run.end);
+    result.iterations = run.iterations;
+    result.residual = residual_;
+    result.residual_history = std::move(history_);
+    if (factorized_)
+      result.condition = singular_ ? std::numeric_limits<double>::infinity() : system_.condition();
+    return result;
+  }
+
+ private:
+  static SolveStatus status_of(detail::NewtonEnd end) {
+    switch (end) {
+      case detail::NewtonEnd::solved:
+      case detail::NewtonEnd::stalled:
+        break;
+      case detail::NewtonEnd::iteration_limit:
+        return SolveStatus::iteration_limit;
+      case detail::NewtonEnd::singular:
+        return SolveStatus::singular;
+      case detail::NewtonEnd::cancelled:
+        return SolveStatus::cancelled;
+    }
+    return SolveStatus::stalled;
+  }
+
+  ContactSystem& system_;
+  const NewtonOptions& options_;
+  const Eigen::VectorXd* u_ = nullptr;
+  double residual_ = std::numeric_limits<double>::infinity();
+  std::vector<double> history_;
+  bool factorized_ = false, singular_ = false;
+};
 
 }  // namespace
 
 NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options) {
+  options.validate();
   system.set_linear_solver(options.linear_solver);
-  NewtonResult result = iterate(system, u, options);
-  const bool factorized = result.iterations > 0 || result.status == SolveStatus::stalled ||
-                          result.status == SolveStatus::singular;
-  if (factorized && std::isfinite(result.condition)) result.condition = system.condition();
-  return result;
+  return ContactEquation(system, options).solve(u);
 }
 
 }  // namespace wavebalance::solvers

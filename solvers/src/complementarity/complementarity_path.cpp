@@ -180,9 +180,9 @@ ComplementarityPath::End ComplementarityPath::run(int sample) {
     distance_ += length * distance_rate_;
     z_ = sample < 0 ? 0.0 : z_ + length * direction_;
     if (sample < 0) return arrive();
-    if (observer_ && !observer_(z_ / first_z_)) return End::stopped;
+    if (observer_ && !observer_(z_ / first_z_)) return End::cancelled;
   }
-  return End::limit;
+  return End::effort_limit;
 }
 
 ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen::VectorXd& cover) {

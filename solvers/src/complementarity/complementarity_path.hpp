@@ -34,7 +34,7 @@ struct Obstacles {
 /// which digits were lost is told by what its end leaves of the problem.
 class ComplementarityPath {
  public:
-  enum class End { reached, ray, limit, lost, stopped };
+  enum class End { reached, ray, effort_limit, lost, cancelled };
   /// Told z of each corner over that at the start of the leg; false stops.
   using Observer = std::function<bool(double z)>;
 

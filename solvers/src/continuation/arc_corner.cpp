@@ -39,7 +39,7 @@ bool ArcLength::step_in_piece() {
   constexpr double shortest = 1e-4;  // of the smallest step
   const Sides sides = sides_of(point_);
   CurvePoint candidate;
-  for (double length = step_; length >= shortest * options_.smallest_step;) {
+  for (double length = step_; length >= shortest * options_.min_step;) {
     double distance = length, fraction = 1.0;
     int sample = crossing_ahead(distance);
     if (sample < 0) {
@@ -48,7 +48,7 @@ bool ArcLength::step_in_piece() {
         distance *= fraction;
         if (sample < 0) {
           accept(std::move(candidate), sides);
-          step_ = std::clamp(1.6 * length, options_.smallest_step, options_.largest_step);
+          step_ = std::clamp(1.6 * length, options_.min_step, options_.max_step);
           return true;
         }
       }
@@ -64,7 +64,7 @@ bool ArcLength::step_in_piece() {
 bool ArcLength::step_smoothly(double step, const Sides& sides, CurvePoint& candidate) {
   int corrections = 0;
   if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate)) return false;
-  return candidate.orientation * point_.orientation >= 0 || step < 2.0 * options_.smallest_step;
+  return candidate.orientation * point_.orientation >= 0 || step < 2.0 * options_.min_step;
 }
 
 // Ends the piece where a sample reaches its gap. False when the corner is not found or cannot be left.
@@ -83,7 +83,7 @@ bool ArcLength::turn_corner(int sample, double distance, const Sides& sides) {
     if (earlier < 0) {
       if (!arrives(sample, sides, corner) || !leave_corner(sample, sides, corner)) return false;
       accept(std::move(corner), sides);
-      step_ = std::clamp(1.6 * step_, options_.smallest_step, options_.largest_step);
+      step_ = std::clamp(1.6 * step_, options_.min_step, options_.max_step);
       return true;
     }
     if (fraction <= 0.0) return false;

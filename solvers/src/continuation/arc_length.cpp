@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
+
+#include "linalg/bracket.hpp"
+#include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
 
@@ -16,14 +21,18 @@ void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) co
   slope -= system.problem().free_response_slope();
 }
 
-bool StiffnessParameter::contains(double p) const { return std::isfinite(std::exp(p)); }
-
-void StiffnessParameter::set(ContactSystem& system, double p) const {
-  system.set_stiffness_factor(std::exp(p));
-}
-
-void StiffnessParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
-  system.problem().apply(system.force(), slope);
+void ArcLengthOptions::validate() const {
+  constexpr const char* who = "ArcLengthOptions";
+  for (const auto& [name, value] : {std::pair{"displacement_scale", displacement_scale},
+                                    std::pair{"parameter_scale", parameter_scale}})
+    if (!(std::isfinite(value) && value >= 0.0)) detail::reject(who, name, value, "at least 0 and finite");
+  detail::require_positive(who, "initial_step", initial_step);
+  detail::require_positive(who, "min_step", min_step);
+  detail::require_positive(who, "max_step", max_step);
+  detail::require_positive(who, "max_angle", max_angle);
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_at_least(who, "max_corrections", max_corrections, 1);
+  if (!(max_operations > 0.0)) detail::reject(who, "max_operations", max_operations, "positive");
 }
 
 ArcLength::ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options)
@@ -71,7 +80,7 @@ ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p
   last_step_ = 0.0;
   crossed_ = false;
   pieces_left_ = watched_ = 0.0;
-  last_operation_ = system_.operations() + options_.most_operations;
+  last_operation_ = system_.operations() + options_.max_operations;
   return tangent_at(point_, along) ? Status::advanced : Status::no_point;
 }
 
@@ -143,7 +152,7 @@ CurvePoint ArcLength::chord(const CurvePoint& to) const {
 
 // Whether the straight way to the candidate and the curve there point about as the curve does here.
 bool ArcLength::is_ahead(const CurvePoint& candidate) const {
-  const double least = std::cos(options_.largest_angle);
+  const double least = std::cos(options_.max_angle);
   const CurvePoint way = chord(candidate);
   return inner(point_, candidate) >= least && inner(point_, way) >= least * std::sqrt(inner(way, way));
 }
@@ -179,9 +188,9 @@ bool ArcLength::step_far() {
   constexpr double few = 4.0;
   CurvePoint candidate;
   int corrections = 0;
-  double nearest = options_.largest_step;
+  double nearest = options_.max_step;
   crossing_ahead(nearest);
-  for (; step_ >= options_.smallest_step; step_ *= 0.5) {
+  for (; step_ >= options_.min_step; step_ *= 0.5) {
     const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
     if (found && candidate.orientation * point_.orientation >= 0) {
       if (options_.corners != Corners::where_needed && turns_unseen(candidate)) {
@@ -193,34 +202,28 @@ bool ArcLength::step_far() {
       const double growth = corrections < comfortable_corrections    ? 1.6
                             : corrections == comfortable_corrections ? 1.1
                                                                      : 0.6;
-      step_ = std::clamp(step_ * growth, options_.smallest_step, options_.largest_step);
+      step_ = std::clamp(step_ * growth, options_.min_step, options_.max_step);
       return true;
     }
     if (step_ < few * nearest) break;
   }
-  step_ = std::max(step_, options_.smallest_step);
+  step_ = std::max(step_, options_.min_step);
   return false;
 }
 
 bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
-  double low = 0.0, high = 1.0;
-  double low_value = value(previous_), high_value = value(point_);
-  if (low_value * high_value > 0.0 || last_step_ == 0.0) return false;
-  constexpr int limit = 60;
+  constexpr int max_steps = 60;
   constexpr double width = 1e-10;
+  detail::Bracket bracket{0.0, 1.0, value(previous_), value(point_)};
+  if (!bracket.has_sign_change() || last_step_ == 0.0) return false;
   int corrections = 0;
   const Sides* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
-  for (int i = 0; i < limit && high - low > width; ++i) {
-    // Every third cut halves, so that a kink cannot hold false position on one side.
-    const double regula = low + (high - low) * low_value / (low_value - high_value);
-    const double fraction = i % 3 == 2 ? 0.5 * (low + high) : std::clamp(regula, low, high);
-    if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return false;
-    const double middle = value(point);
-    if (middle == 0.0) return true;
-    (low_value * middle > 0.0 ? low : high) = fraction;
-    (low_value * middle > 0.0 ? low_value : high_value) = middle;
-  }
-  return true;
+  const auto value_at = [&](double fraction) -> std::optional<double> {
+    if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return std::nullopt;
+    return value(point);
+  };
+  const auto is_close = [](const detail::Bracket& b, double) { return b.high - b.low <= width; };
+  return detail::narrow(bracket, max_steps, value_at, is_close);
 }
 
 }  // namespace wavebalance::solvers

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
@@ -55,13 +56,13 @@ ModalModel scaled(const ModalModel& model, int mode) {
 bool newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {
   constexpr double tiny = 1e-14;
   const detail::Lu<double> lu(hessian);
-  step = lu.is_singular(tiny) ? -detail::least_squares(hessian, gradient) : -lu.solve(gradient);
+  step = lu.is_singular(tiny) ? detail::least_squares(hessian, gradient) : lu.solve(gradient);
   return step.allFinite();
 }
 
 }  // namespace
 
-std::string to_string(LagrangianStatus status) {
+std::string_view to_string(LagrangianStatus status) {
   switch (status) {
     case LagrangianStatus::converged:
       return "converged";
@@ -180,33 +181,55 @@ void LagrangianMode::start_multipliers(Multipliers& multipliers, const Eigen::Ve
   multipliers.restart(view(lambda), -virial / (2.0 * functional_.normalisation(x)));
 }
 
+// The stationarity condition for damped_newton().
+class LagrangianMode::Stationarity {
+ public:
+  Stationarity(const LagrangianMode& mode, double gamma, const Multipliers& multipliers,
+               std::optional<double> frozen)
+      : mode_(mode), gamma_(gamma), multipliers_(multipliers), frozen_(frozen) {}
+
+  double evaluate(const Eigen::VectorXd& x) {
+    x_ = x;
+    gradient_ = mode_.functional_.gradient(x, gamma_, multipliers_, frozen_);
+    return norm();
+  }
+  double norm() const { return gradient_.norm(); }
+  double largest() const { return gradient_.cwiseAbs().maxCoeff(); }
+  bool is_solved() const { return largest() <= mode_.options_.inner_tolerance; }
+  bool direction(Eigen::VectorXd& direction) const {
+    return newton_step(mode_.functional_.hessian(x_, gamma_, multipliers_, frozen_), gradient_, direction);
+  }
+  bool goes_on(int) const { return true; }
+
+ private:
+  const LagrangianMode& mode_;
+  double gamma_;
+  const Multipliers& multipliers_;
+  std::optional<double> frozen_;
+  Eigen::VectorXd x_, gradient_;
+};
+
 LagrangianMode::Newton LagrangianMode::critical_point(Eigen::VectorXd& x, double gamma,
                                                       const Multipliers& multipliers,
                                                       std::optional<double> frozen) const {
-  constexpr int halvings = 30;
-  constexpr double slack = 1e-4;
-  Eigen::VectorXd gradient = functional_.gradient(x, gamma, multipliers, frozen), step;
-  Newton result{LagrangianStatus::converged, 0, gradient.cwiseAbs().maxCoeff()};
-  for (; result.gradient > options_.inner_tolerance; ++result.iterations) {
-    result.status = LagrangianStatus::inner_limit;
-    if (result.iterations == options_.inner_iterations) return result;
-    result.status = LagrangianStatus::singular;
-    if (!newton_step(functional_.hessian(x, gamma, multipliers, frozen), gradient, step)) return result;
-    result.status = LagrangianStatus::inner_stalled;
-    double length = 1.0;
-    Eigen::VectorXd next;
-    int tried = 0;
-    for (; tried < halvings; ++tried, length *= 0.5) {
-      next = functional_.gradient(x + length * step, gamma, multipliers, frozen);
-      if (next.norm() <= (1.0 - slack * length) * gradient.norm()) break;
+  constexpr double min_step = 1.0 / (1 << 29);
+  Stationarity condition(*this, gamma, multipliers, frozen);
+  const detail::NewtonRun run = detail::damped_newton(condition, x, options_.inner_iterations, min_step);
+  const auto status = [&] {
+    switch (run.end) {
+      case detail::NewtonEnd::solved:
+        return LagrangianStatus::converged;
+      case detail::NewtonEnd::iteration_limit:
+        return LagrangianStatus::inner_limit;
+      case detail::NewtonEnd::singular:
+        return LagrangianStatus::singular;
+      case detail::NewtonEnd::stalled:
+      case detail::NewtonEnd::cancelled:
+        break;
     }
-    if (tried == halvings) return result;
-    x += length * step;
-    gradient = next;
-    result.gradient = gradient.cwiseAbs().maxCoeff();
-  }
-  result.status = LagrangianStatus::converged;
-  return result;
+    return LagrangianStatus::inner_stalled;
+  };
+  return {status(), run.iterations, condition.largest()};
 }
 
 LagrangianPoint LagrangianMode::solve_with(double energy_ratio, Multipliers& multipliers,

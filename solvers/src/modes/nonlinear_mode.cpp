@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "linalg/bracket.hpp"
+#include "linalg/option_checks.hpp"
 #include "modes/mode_solver.hpp"
 
 namespace wavebalance::solvers {
 
-std::string to_string(ModeStatus status) {
+std::string_view to_string(ModeStatus status) {
   switch (status) {
     case ModeStatus::converged:
       return "converged";
@@ -77,7 +80,7 @@ ModePoint NonlinearMode::at_frequency(double omega, const std::vector<int>& acti
   return solver.solve(options_.harmonics, active.empty() ? grazing_samples() : active);
 }
 
-ModePoint NonlinearMode::at_frequency_lifted(double omega) const {
+ModePoint NonlinearMode::at_frequency_by_harmonic_continuation(double omega) const {
   ModeSolver solver(*this, omega);
   std::vector<int> active = grazing_samples();
   int iterations = 0;
@@ -111,25 +114,33 @@ ModePoint NonlinearMode::linear_mode(double energy_ratio) const {
   return point;
 }
 
-std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options) {
-  if (options.points < 2 || !(options.first_ratio > 1.0 && options.last_ratio > options.first_ratio))
-    throw std::invalid_argument("backbone: first_ratio " + std::to_string(options.first_ratio) +
-                                ", last_ratio " + std::to_string(options.last_ratio) + ", points " +
-                                std::to_string(options.points) +
+void BackboneOptions::validate() const {
+  if (points < 2 || !(first_ratio > 1.0 && last_ratio > first_ratio))
+    throw std::invalid_argument("BackboneOptions: first_ratio " + std::to_string(first_ratio) +
+                                ", last_ratio " + std::to_string(last_ratio) + ", points " +
+                                std::to_string(points) +
                                 "; 1 < first < last and at least 2 points are needed");
+  detail::require_positive("BackboneOptions", "max_energy", max_energy);
+  detail::require_positive("BackboneOptions", "max_jump", max_jump);
+}
+
+std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options) {
+  options.validate();
   std::vector<ModePoint> points;
   std::vector<int> active;
   double last_energy = 0.0;  // of the last accepted point
   const double width = (options.last_ratio - options.first_ratio) / (options.points - 1);
   const auto close = [&](const ModePoint& point) {
-    return last_energy == 0.0 || std::abs(std::log(point.energy_ratio / last_energy)) <= options.largest_jump;
+    return last_energy == 0.0 || std::abs(std::log(point.energy_ratio / last_energy)) <= options.max_jump;
   };
   for (int i = 0; i < options.points; ++i) {
-    const double omega = mode.linear_omega() * (options.first_ratio + i * width);
-    ModePoint point = active.empty() ? mode.at_frequency_lifted(omega) : mode.at_frequency(omega, active);
+    const double ratio = options.first_ratio + i * width;
+    if (!goes_on(options.observer, {"backbone", i, ratio, "frequency ratio", double(i) / options.points})) break;
+    const double omega = mode.linear_omega() * ratio;
+    ModePoint point = active.empty() ? mode.at_frequency_by_harmonic_continuation(omega) : mode.at_frequency(omega, active);
     if (!active.empty() && (point.status != ModeStatus::converged || !close(point))) {
       const int spent = point.iterations;
-      point = mode.at_frequency_lifted(omega);
+      point = mode.at_frequency_by_harmonic_continuation(omega);
       point.iterations += spent;
     }
     if (point.status == ModeStatus::converged && !close(point)) point.status = ModeStatus::tongue;
@@ -138,7 +149,7 @@ std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions
       last_energy = point.energy_ratio;
     }
     points.push_back(std::move(point));
-    if (points.back().accepted() && points.back().energy_ratio > options.largest_energy) break;
+    if (points.back().accepted() && points.back().energy_ratio > options.max_energy) break;
   }
   return points;
 }
@@ -159,18 +170,20 @@ ModePoint at_energy(const NonlinearMode& mode, const std::vector<ModePoint>& poi
     before = &point;
   }
   if (!low) return {};
-  double a = low->omega, b = high->omega;
-  double value_a = low->energy_ratio - energy_ratio, value_b = high->energy_ratio - energy_ratio;
+  constexpr int max_steps = 200;
+  const auto miss = [&](const ModePoint& at) { return at.energy_ratio - energy_ratio; };
   ModePoint point = *high;
-  constexpr int limit = 200;
-  for (int i = 0; i < limit && std::abs(point.energy_ratio / energy_ratio - 1.0) > tolerance; ++i) {
-    const double omega = i % 3 == 2 ? 0.5 * (a + b) : a - value_a * (b - a) / (value_b - value_a);
+  if (std::abs(point.energy_ratio / energy_ratio - 1.0) <= tolerance) return point;
+  detail::Bracket bracket{low->omega, high->omega, miss(*low), miss(*high)};
+  const auto miss_at = [&](double omega) -> std::optional<double> {
     point = mode.at_frequency(omega, point.active);
-    if (point.status != ModeStatus::converged) return point;
-    const double value = point.energy_ratio - energy_ratio;
-    (value * value_a > 0.0 ? a : b) = omega;
-    (value * value_a > 0.0 ? value_a : value_b) = value;
-  }
+    if (point.status != ModeStatus::converged) return std::nullopt;
+    return miss(point);
+  };
+  const auto is_close = [&](const detail::Bracket&, double value) {
+    return std::abs(value / energy_ratio) <= tolerance;
+  };
+  if (!detail::narrow(bracket, max_steps, miss_at, is_close)) return point;
   if (std::abs(point.energy_ratio / energy_ratio - 1.0) > tolerance) point.status = ModeStatus::tongue;
   return point;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 #include "reference/shooting_propagator.hpp"
@@ -14,17 +15,6 @@ namespace wavebalance::solvers {
 namespace {
 
 constexpr int fewest_steps = 512;  // a period
-
-void validate(const ShootingOptions& options, int dofs) {
-  constexpr const char* who = "ShootingOptions";
-  detail::require_at_least(who, "output_points", options.output_points, 2);
-  detail::require_at_least(who, "settling_periods", options.settling_periods, 0);
-  detail::require_at_least(who, "max_iterations", options.max_iterations, 1);
-  detail::require_positive(who, "tolerance", options.tolerance);
-  detail::require_positive(who, "step_tolerance", options.step_tolerance);
-  detail::require_dofs(who, "initial_displacement", options.initial_displacement, dofs);
-  detail::require_dofs(who, "initial_velocity", options.initial_velocity, dofs);
-}
 
 /// Steps of the period such that every output time is the end of one: base 2^level = points repeat.
 struct OutputGrid {
@@ -54,13 +44,48 @@ class Shooting {
   ShootingResult run() {
     ShootingResult result;
     Eigen::VectorXd state = initial_deviation();
-    result.status = settle(state) ? iterate(state, result) : ShootingStatus::step_failure;
+    result.status = settle(state);
+    if (result.status == ShootingStatus::converged) result.status = iterate(state, result);
     if (result.status != ShootingStatus::step_failure) record(state, result);
     result.steps = propagator_.steps();
     return result;
   }
 
  private:
+  // A period leaves the state unchanged; for damped_newton().
+  class PeriodicityEquation {
+   public:
+    explicit PeriodicityEquation(Shooting& shooting) : shooting_(shooting) {}
+
+    double evaluate(const Eigen::VectorXd& state) {
+      state_ = state;
+      return norm_ = shooting_.residual(state, change_, nullptr);
+    }
+    double norm() const { return norm_; }
+    bool is_solved() {
+      history_.push_back(norm_);
+      return norm_ <= shooting_.options_.tolerance;
+    }
+    bool direction(Eigen::VectorXd& direction) {
+      Eigen::MatrixXd sensitivity;
+      if (!std::isfinite(shooting_.residual(state_, change_, &sensitivity))) return false;
+      sensitivity.diagonal().array() -= 1.0;
+      direction = detail::Lu<double>(sensitivity).solve(change_);
+      return direction.allFinite();
+    }
+    bool goes_on(int iterations) const {
+      return std::isfinite(norm_) && solvers::goes_on(shooting_.options_.observer, {"shooting", iterations, norm_,
+                                                                                   "relative change per period"});
+    }
+    const std::vector<double>& history() const { return history_; }
+
+   private:
+    Shooting& shooting_;
+    Eigen::VectorXd state_, change_;
+    double norm_ = 0.0;
+    std::vector<double> history_;
+  };
+
   const detail::ModalStructure& modes() const { return propagator_.modes(); }
 
   Eigen::VectorXd initial_deviation() const {
@@ -74,10 +99,13 @@ class Shooting {
     return deviation;
   }
 
-  bool settle(Eigen::VectorXd& state) {
-    for (int period = 0; period < options_.settling_periods; ++period)
-      if (!propagator_.propagate_period(state, nullptr)) return false;
-    return true;
+  /// Integrates the settling periods; converged when all of them are.
+  ShootingStatus settle(Eigen::VectorXd& state) {
+    for (int period = 0; period < options_.settling_periods; ++period) {
+      if (!propagator_.propagate_period(state, nullptr)) return ShootingStatus::step_failure;
+      if (!goes_on(options_.observer, {"settling", period + 1})) return ShootingStatus::cancelled;
+    }
+    return ShootingStatus::converged;
   }
 
   /// The modal state (q, q') at the time t = periods T from its deviation.
@@ -109,35 +137,32 @@ class Shooting {
   }
 
   ShootingStatus iterate(Eigen::VectorXd& state, ShootingResult& result) {
+    constexpr double min_step = 1.0 / 8192;
+    PeriodicityEquation equation(*this);
+    const detail::NewtonRun run = detail::damped_newton(equation, state, options_.max_iterations, min_step);
+    result.iterations = run.iterations;
+    result.residual_history = equation.history();
+    result.residual = result.residual_history.back();
+    if (!std::isfinite(result.residual)) return ShootingStatus::step_failure;
+    store_multipliers(state, result);
+    switch (run.end) {
+      case detail::NewtonEnd::solved:
+        return ShootingStatus::converged;
+      case detail::NewtonEnd::iteration_limit:
+        return ShootingStatus::iteration_limit;
+      case detail::NewtonEnd::cancelled:
+        return ShootingStatus::cancelled;
+      case detail::NewtonEnd::singular:
+      case detail::NewtonEnd::stalled:
+        break;
+    }
+    return ShootingStatus::stalled;
+  }
+
+  void store_multipliers(const Eigen::VectorXd& state, ShootingResult& result) {
     Eigen::VectorXd change;
     Eigen::MatrixXd sensitivity;
-    while (true) {
-      result.residual = residual(state, change, &sensitivity);
-      if (!std::isfinite(result.residual)) return ShootingStatus::step_failure;
-      result.residual_history.push_back(result.residual);
-      store_multipliers(sensitivity, result);
-      if (result.residual <= options_.tolerance) return ShootingStatus::converged;
-      if (result.iterations == options_.max_iterations) return ShootingStatus::not_converged;
-      sensitivity.diagonal().array() -= 1.0;
-      if (!search(state, -detail::Lu<double>(sensitivity).solve(change), result.residual))
-        return ShootingStatus::not_converged;
-      ++result.iterations;
-    }
-  }
-
-  /// Halves the Newton step until the residual falls; false when it does not.
-  bool search(Eigen::VectorXd& state, const Eigen::VectorXd& direction, double current) {
-    Eigen::VectorXd change;
-    for (double length = 1.0; length > 1e-4; length *= 0.5) {
-      const Eigen::VectorXd trial = state + length * direction;
-      if (!(residual(trial, change, nullptr) < current)) continue;
-      state = trial;
-      return true;
-    }
-    return false;
-  }
-
-  static void store_multipliers(const Eigen::MatrixXd& sensitivity, ShootingResult& result) {
+    residual(state, change, &sensitivity);
     result.floquet_multipliers = detail::eigenvalues(sensitivity);
     std::stable_sort(result.floquet_multipliers.begin(), result.floquet_multipliers.end(),
                      [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
@@ -174,16 +199,31 @@ class Shooting {
 
 }  // namespace
 
-const char* to_string(ShootingStatus status) {
+std::string_view to_string(ShootingStatus status) {
   switch (status) {
     case ShootingStatus::converged:
       return "converged";
-    case ShootingStatus::not_converged:
-      return "not_converged";
+    case ShootingStatus::stalled:
+      return "stalled";
+    case ShootingStatus::iteration_limit:
+      return "iteration_limit";
     case ShootingStatus::step_failure:
       return "step_failure";
+    case ShootingStatus::cancelled:
+      return "cancelled";
   }
   return "unknown";
+}
+
+void ShootingOptions::validate(int dofs) const {
+  constexpr const char* who = "ShootingOptions";
+  detail::require_at_least(who, "output_points", output_points, 2);
+  detail::require_at_least(who, "settling_periods", settling_periods, 0);
+  detail::require_at_least(who, "max_iterations", max_iterations, 1);
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_positive(who, "step_tolerance", step_tolerance);
+  detail::require_dofs(who, "initial_displacement", initial_displacement, dofs);
+  detail::require_dofs(who, "initial_velocity", initial_velocity, dofs);
 }
 
 ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
@@ -191,7 +231,7 @@ ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law,
   detail::require_positive("shoot", "frequency_hz", frequency_hz);
   structure.validate();
   structure.single_contact("shoot");
-  validate(options, structure.size());
+  options.validate(structure.size());
   return Shooting(structure, law, frequency_hz, options).run();
 }
 

@@ -23,18 +23,6 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double first_step = 1e-6;  // periods
 
-void validate(const TimeSteppingOptions& options, int dofs) {
-  constexpr const char* who = "TimeSteppingOptions";
-  detail::require_at_least(who, "output_points", options.output_points, 2);
-  detail::require_positive(who, "period_tolerance", options.period_tolerance);
-  detail::require_at_least(who, "max_periods", options.max_periods, 1);
-  detail::require_at_least(who, "max_steps_per_period", options.max_steps_per_period, 1);
-  detail::require_positive(who, "step_tolerance", options.step_tolerance);
-  detail::require_positive(who, "step_floor", options.step_floor);
-  detail::require_dofs(who, "initial_displacement", options.initial_displacement, dofs);
-  detail::require_dofs(who, "initial_velocity", options.initial_velocity, dofs);
-}
-
 Eigen::VectorXd initial_state(const FirstOrderSystem& system, const TimeSteppingOptions& options) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.dofs());
   const auto or_zero = [&](const Eigen::VectorXd& values) -> const Eigen::VectorXd& {
@@ -232,25 +220,37 @@ class PeriodRecorder {
 
 }  // namespace
 
-const char* to_string(TimeSteppingStatus status) {
+std::string_view to_string(TimeSteppingStatus status) {
   switch (status) {
     case TimeSteppingStatus::converged:
       return "converged";
-    case TimeSteppingStatus::not_converged:
-      return "not_converged";
+    case TimeSteppingStatus::iteration_limit:
+      return "iteration_limit";
     case TimeSteppingStatus::step_failure:
       return "step_failure";
-    case TimeSteppingStatus::stopped:
-      return "stopped";
+    case TimeSteppingStatus::cancelled:
+      return "cancelled";
   }
   return "unknown";
+}
+
+void TimeSteppingOptions::validate(int dofs) const {
+  constexpr const char* who = "TimeSteppingOptions";
+  detail::require_at_least(who, "output_points", output_points, 2);
+  detail::require_positive(who, "period_tolerance", period_tolerance);
+  detail::require_at_least(who, "max_periods", max_periods, 1);
+  detail::require_at_least(who, "max_steps_per_period", max_steps_per_period, 1);
+  detail::require_positive(who, "step_tolerance", step_tolerance);
+  detail::require_positive(who, "step_floor", step_floor);
+  detail::require_dofs(who, "initial_displacement", initial_displacement, dofs);
+  detail::require_dofs(who, "initial_velocity", initial_velocity, dofs);
 }
 
 TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const ContactLaws& laws,
                                          double frequency_hz, const TimeSteppingOptions& options) {
   detail::require_positive("integrate_to_periodic", "frequency_hz", frequency_hz);
   structure.validate();
-  validate(options, structure.size());
+  options.validate(structure.size());
   FirstOrderSystem system(structure, laws, frequency_hz);
   const Eigen::VectorXd initial = initial_state(system, options);
   const detail::SilencedGslErrors silence;
@@ -261,18 +261,20 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
   const auto run = [&] {
     while (result.periods < options.max_periods) {
       if (integrator.steps() >= long{options.max_steps_per_period} * (result.periods + 1))
-        return TimeSteppingStatus::not_converged;
+        return TimeSteppingStatus::iteration_limit;
       if (!integrator.advance(options.max_periods)) return TimeSteppingStatus::step_failure;
       while (recorder.record(integrator)) {
         const double difference = recorder.close_period();
         result.samples = recorder.samples(options.full_history);
         if (++result.periods > 1) result.period_error.push_back(difference);
-        const bool stop = options.observer && !options.observer(result.periods, difference);
+        const double done = std::log(difference) / std::log(options.period_tolerance);
+        const bool stop = !goes_on(options.observer, {"time stepping", result.periods, difference,
+                                                      "relative difference of periods", std::clamp(done, 0.0, 1.0)});
         if (difference < options.period_tolerance) return TimeSteppingStatus::converged;
-        if (stop) return TimeSteppingStatus::stopped;
+        if (stop) return TimeSteppingStatus::cancelled;
       }
     }
-    return TimeSteppingStatus::not_converged;
+    return TimeSteppingStatus::iteration_limit;
   };
   result.status = run();
   result.steps = integrator.steps();

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "linalg/option_checks.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
 
-std::string to_string(SweepStatus status) {
+std::string_view to_string(SweepStatus status) {
   switch (status) {
     case SweepStatus::reached_end:
       return "reached_end";
@@ -77,8 +78,11 @@ class Sweep {
  private:
   void trace() {
     problem_.set_frequency(options_.from);
-    const PeriodicResponse first = forced_response(problem_, system_.laws(), options_.start);
+    ForcedResponseOptions start = options_.start;
+    if (!start.observer) start.observer = options_.observer;
+    const PeriodicResponse first = forced_response(problem_, system_.laws(), start);
     result_.condition = std::max(problem_.condensation().condition(), first.condition);
+    if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
     const FrequencyParameter parameter;
     ArcLength curve(system_, parameter, scaled_options(first));
@@ -93,7 +97,7 @@ class Sweep {
     const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
     if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : rms;
     if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
-    arc.largest_step *= step_share_;
+    arc.max_step *= step_share_;
     return arc;
   }
 
@@ -152,7 +156,10 @@ class Sweep {
 
   bool record(const CurvePoint& point) {
     result_.points.push_back(measure(point));
-    return !options_.observer || options_.observer(result_.points.back());
+    const double done = (point.parameter - options_.from) / (options_.to - options_.from);
+    const int count = static_cast<int>(result_.points.size());
+    return goes_on(options_.observer,
+                   {"frequency sweep", count, point.parameter, "Hz", std::clamp(done, 0.0, 1.0)});
   }
 
   CondensedProblem& problem_;
@@ -166,17 +173,25 @@ class Sweep {
 
 }  // namespace
 
+void FrequencySweepOptions::validate() const {
+  const bool valid = std::isfinite(from) && std::isfinite(to) && from > 0.0 &&
+                     to > 0.0 && from != to;
+  if (!valid)
+    throw std::invalid_argument("FrequencySweepOptions: from " + std::to_string(from) + " Hz to " +
+                                std::to_string(to) +
+                                " Hz; both must be positive, finite and different");
+  if (!(smallest_return >= 0.0))
+    throw std::invalid_argument("FrequencySweepOptions: smallest_return is " +
+                                std::to_string(smallest_return) + " Hz; it must not be negative");
+  detail::require_at_least("FrequencySweepOptions", "output_points", output_points, 1);
+  detail::require_at_least("FrequencySweepOptions", "max_points", max_points, 1);
+  arc_length.validate();
+  start.validate();
+}
+
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options) {
-  const bool valid = std::isfinite(options.from) && std::isfinite(options.to) && options.from > 0.0 &&
-                     options.to > 0.0 && options.from != options.to;
-  if (!valid)
-    throw std::invalid_argument("frequency_sweep: from " + std::to_string(options.from) + " Hz to " +
-                                std::to_string(options.to) +
-                                " Hz; both must be positive, finite and different");
-  if (!(options.smallest_return >= 0.0))
-    throw std::invalid_argument("frequency_sweep: smallest_return is " +
-                                std::to_string(options.smallest_return) + " Hz; it must not be negative");
+  options.validate();
   return Sweep(problem, laws, options).run();
 }
 

@@ -47,7 +47,9 @@ class Ladder {
         laws_(laws),
         options_(options),
         size_{options.first_functions, options.first_points},
-        odd_(options.first_functions % 2 == 1) {}
+        odd_(options.first_functions % 2 == 1) {
+    options_.solver.observer = options_.observer;
+  }
 
   LadderResponse climb() {
     const auto start = Clock::now();
@@ -79,6 +81,7 @@ class Ladder {
     CondensedProblem problem = make_problem_(size_.functions, size_.points);
     PeriodicResponse response = find(problem, rung);
     rung.residual = response.residual;
+    const SolveStatus ended_by = response.status;
     found_ = response.converged();
     if (found_ && solved_) estimate(rung, problem, response);
     if (found_ || !solved_) {
@@ -92,10 +95,16 @@ class Ladder {
       ++failures_;
     if (found_) solved_ = rung;
     result_.ladder.push_back(rung);
-    const bool told_to_stop = options_.observer && !options_.observer(rung);
-    const std::optional<LadderStatus> end = ending(told_to_stop);
+    const bool cancelled = ended_by == SolveStatus::cancelled || !goes_on(options_.observer, progress(rung));
+    const std::optional<LadderStatus> end = ending(cancelled);
     if (end) result_.status = *end;
     return end.has_value();
+  }
+
+  Progress progress(const LadderRung& rung) const {
+    const double done = std::log(rung.estimated_error) / std::log(options_.tolerance);
+    return {"refinement", static_cast<int>(result_.ladder.size()), rung.estimated_error, "estimated error",
+            std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0};
   }
 
   /// The last response's displacement at `points` points, contact-major.
@@ -124,9 +133,9 @@ class Ladder {
     return u;
   }
 
-  PeriodicResponse from_afar(CondensedProblem& problem, LadderRung& rung, bool homotopy) const {
+  PeriodicResponse from_afar(CondensedProblem& problem, LadderRung& rung, bool paths) const {
     ForcedResponseOptions solver = options_.solver;
-    solver.homotopy = homotopy && solver.homotopy && rung.points >= screening_points;
+    solver.complementarity = paths && solver.complementarity && rung.points >= screening_points;
     PeriodicResponse response = forced_response(problem, laws_, solver);
     rung.iterations += response.iterations;
     return response;
@@ -151,7 +160,7 @@ class Ladder {
     ContactSystem system(problem, laws_);
     const bool trust = system.evaluate(smooth) <= much_better * system.evaluate(straight);
     ForcedResponseOptions solver = options_.solver;
-    solver.homotopy = false;
+    solver.complementarity = false;
     PeriodicResponse response = forced_response(problem, laws_, solver, trust ? smooth : straight);
     rung.iterations = response.iterations;
     if (response.converged()) return response;
@@ -234,12 +243,12 @@ class Ladder {
   }
 
   /// How the ladder ends with its last rung; nothing when it goes on, with the size of the next.
-  std::optional<LadderStatus> ending(bool told_to_stop) {
+  std::optional<LadderStatus> ending(bool cancelled) {
     const LadderRung& rung = result_.ladder.back();
     constexpr int patience = 2;  // a small problem may have no solution although the motion exists
     if (failures_ == patience) return LadderStatus::not_converged;
     if (rung.estimated_error <= wanted(rung)) return LadderStatus::converged;
-    if (told_to_stop) return LadderStatus::cancelled;
+    if (cancelled) return LadderStatus::cancelled;
     if (has_stagnated()) return LadderStatus::stagnated;
     const Size next = next_size();
     if (next.functions > options_.max_functions || next.points > options_.max_points)
@@ -295,7 +304,7 @@ class Ladder {
 
   const ProblemFactory& make_problem_;
   const ContactLaws& laws_;
-  const LadderOptions& options_;
+  LadderOptions options_;
   Size size_;
   bool odd_;
   LadderResponse result_;
@@ -305,18 +314,9 @@ class Ladder {
   int failures_ = 0;                  // rungs without one since
 };
 
-void require_options(const LadderOptions& options) {
-  constexpr const char* who = "response_to_tolerance";
-  detail::require_positive(who, "tolerance", options.tolerance);
-  detail::require_at_least(who, "first_functions", options.first_functions, 1);
-  detail::require_at_least(who, "first_points", options.first_points, options.first_functions);
-  detail::require_at_least(who, "max_functions", options.max_functions, options.first_functions);
-  detail::require_at_least(who, "max_points", options.max_points, options.first_points);
-}
-
 }  // namespace
 
-std::string to_string(LadderStatus status) {
+std::string_view to_string(LadderStatus status) {
   switch (status) {
     case LadderStatus::converged:
       return "converged";
@@ -332,9 +332,19 @@ std::string to_string(LadderStatus status) {
   return "unknown";
 }
 
+void LadderOptions::validate() const {
+  constexpr const char* who = "LadderOptions";
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_at_least(who, "first_functions", first_functions, 1);
+  detail::require_at_least(who, "first_points", first_points, first_functions);
+  detail::require_at_least(who, "max_functions", max_functions, first_functions);
+  detail::require_at_least(who, "max_points", max_points, first_points);
+  solver.validate();
+}
+
 LadderResponse response_to_tolerance(const ProblemFactory& make_problem, const ContactLaws& laws,
                                      const LadderOptions& options) {
-  require_options(options);
+  options.validate();
   return Ladder(make_problem, laws, options).climb();
 }
 

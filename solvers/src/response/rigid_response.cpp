@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "balance/active_block.hpp"
-#include "complementarity/unilateral_force.hpp"
+#include "complementarity/lcp_homotopy.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -63,15 +64,11 @@ void solve_contact(CondensedProblem& problem, const Eigen::VectorXd& gap, const 
   PeriodicResponse& response = result.response;
   const Eigen::VectorXd& free = problem.free_response();
   const double size = std::max(free.cwiseAbs().maxCoeff(), (free - gap).maxCoeff());
-  int corner = 0;
-  ComplementarityPath::Observer observer;
-  if (options.observer)
-    observer = [&](double height) { return options.observer("lowering", corner++, height); };
-  UnilateralForce obstacles(problem, std::move(observer));
-  obstacles.solve({gap - free, Eigen::VectorXd::Zero(free.size())});
-  response.iterations = obstacles.corners();
-  response.used_homotopy = true;
-  response.status = SolveStatus::stalled;
+  LcpHomotopy obstacles(problem, options.paths, options.observer);
+  const bool found = obstacles.solve({gap - free, Eigen::VectorXd::Zero(free.size())});
+  response.iterations = obstacles.pivots();
+  response.strategy = obstacles.strategy();
+  response.status = found ? SolveStatus::stalled : obstacles.status();
   if (obstacles.force().size() == 0) return;
   result.stiffness = 1.0 / obstacles.flexibility();
   response.contact_force = obstacles.force();
@@ -105,8 +102,14 @@ Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen
   return result;
 }
 
+void RigidResponseOptions::validate() const {
+  detail::require_positive("RigidResponseOptions", "tolerance", tolerance);
+  paths.validate();
+}
+
 RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& gaps,
                              const RigidResponseOptions& options) {
+  options.validate();
   require_gaps(problem, gaps);
   const int points = problem.points();
   const Eigen::VectorXd gap = sample_gaps(gaps, points);
@@ -117,6 +120,7 @@ RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& g
   response.contact_force = Eigen::VectorXd::Zero(problem.samples());
   if ((response.displacement - gap).maxCoeff() <= 0.0) {
     response.status = SolveStatus::converged;
+    response.strategy = Strategy::newton;
     result.stiffness = std::numeric_limits<double>::infinity();
   } else {
     solve_contact(problem, gap, options, result);

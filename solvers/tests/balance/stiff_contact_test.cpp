@@ -139,9 +139,8 @@ TEST(StiffContact, AgainstAnExponentialLawIsSolvedAtAnyLoad) {
   }
 }
 
-// A law that starts without a slope has no obstacle to begin with: Newton and the arc length solve it as
-// before.
-TEST(StiffContact, LeavesLawsWithoutASlopeToTheArcLength) {
+// A law that starts without a slope has no tangent for a complementarity problem.
+TEST(StiffContact, OfALawWithoutASlopeAtItsGapIsSolvedByNewton) {
   struct Rubber {
     double force(double u) const { return u > 1e-3 ? 3e13 * (u - 1e-3) * (u - 1e-3) : 0.0; }
     double tangent(double u) const { return u > 1e-3 ? 6e13 * (u - 1e-3) : 0.0; }
@@ -149,7 +148,9 @@ TEST(StiffContact, LeavesLawsWithoutASlopeToTheArcLength) {
     double gap() const { return 1e-3; }
   };
   CondensedProblem problem = bar_problem();
-  expect_solution(problem, Rubber{}, forced_response(problem, Rubber{}, {}));
+  const PeriodicResponse response = forced_response(problem, Rubber{}, {});
+  EXPECT_EQ(response.strategy, Strategy::newton);
+  expect_solution(problem, Rubber{}, response);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "complementarity/unilateral_force.hpp"
+#include "complementarity/lcp_homotopy.hpp"
 #include "support/small_problems.hpp"
 
 namespace wavebalance::solvers {
@@ -66,7 +66,7 @@ TEST_P(SmallObstacles, ThePathEndsAtOneOfTheSolutionsOfAllActiveSets) {
     for (const double gap : {0.7, 0.2, 0.0, -0.3, -2.0}) {
       const Obstacles obstacles{Eigen::VectorXd::Constant(free.size(), gap * size) - free,
                                 Eigen::VectorXd::Constant(free.size(), compliance / stiffness)};
-      UnilateralForce path(problem, {});
+      LcpHomotopy path(problem, {}, {});
       const std::vector<Eigen::VectorXd> solutions = all_solutions(problem, obstacles);
       ASSERT_EQ(path.solve(obstacles), !solutions.empty()) << gap;
       double nearest = std::numeric_limits<double>::infinity();
@@ -109,18 +109,18 @@ TEST(ComplementarityPath, EndsWhereItIsToldToAndSaysSo) {
   const Eigen::VectorXd even = Eigen::VectorXd::Ones(64);
   ComplementarityPath path(problem);
   path.set_longest_leg(3);
-  EXPECT_EQ(path.lower(obstacles, even), End::limit);
+  EXPECT_EQ(path.lower(obstacles, even), End::effort_limit);
   path.set_longest_leg(1000);
   int told = 0;
   path.set_observer([&](double z) {
     EXPECT_TRUE(z >= 0.0 && std::isfinite(z));
     return ++told < 4;
   });
-  EXPECT_EQ(path.lower(obstacles, even), End::stopped);
+  EXPECT_EQ(path.lower(obstacles, even), End::cancelled);
   EXPECT_EQ(told, 4);
   path.set_observer({});
   path.limit_operations(1.0);
-  EXPECT_EQ(path.lower(obstacles, even), End::limit);
+  EXPECT_EQ(path.lower(obstacles, even), End::effort_limit);
   EXPECT_FALSE(path.may_go_on());
   const Obstacles away{Eigen::VectorXd::Constant(64, 2.0 * free.maxCoeff()) - free, obstacles.flexibility};
   EXPECT_EQ(path.lower(away, even), End::reached);

@@ -55,7 +55,7 @@ TEST_P(ListedBackbone, EnergyAgreesWithTheIndependentFiguresTo1e5) {
   const UnitRod rod(20);
   for (const bool cosine_only : {false, true}) {
     const NonlinearMode mode = rod_mode(rod, GetParam().harmonics, 20, cosine_only);
-    const ModePoint point = mode.at_frequency_lifted(GetParam().frequency_ratio * mode.linear_omega());
+    const ModePoint point = mode.at_frequency_by_harmonic_continuation(GetParam().frequency_ratio * mode.linear_omega());
     ASSERT_EQ(point.status, ModeStatus::converged);
     EXPECT_NEAR(point.energy_ratio, GetParam().energy_ratio, 1e-5 * GetParam().energy_ratio);
   }
@@ -71,7 +71,7 @@ TEST(NonlinearMode, RayleighQuotientAgreesWithTheIndependentFigures) {
   const NonlinearMode mode = rod_mode(rod, 5, 20);
   const double listed[][2] = {{1.05, 1.005778}, {1.10, 1.027513}, {1.15, 1.075272}};
   for (const auto& [ratio, rayleigh] : listed) {
-    const ModePoint point = mode.at_frequency_lifted(ratio * mode.linear_omega());
+    const ModePoint point = mode.at_frequency_by_harmonic_continuation(ratio * mode.linear_omega());
     EXPECT_NEAR(std::sqrt(point.rayleigh) / mode.linear_omega(), rayleigh, 1e-6);
   }
 }
@@ -107,7 +107,7 @@ TEST(NonlinearMode, ThreeToOneTongueIsNamedBesideTheLinearFrequency) {
   const UnitRod rod(20);
   EXPECT_NEAR(std::sqrt(rod.model.omega_squared[1] / rod.model.omega_squared[0]), 3.00617, 5e-6);
   const NonlinearMode mode = rod_mode(rod, 3, 20);
-  const ModePoint point = mode.at_frequency_lifted(1.0025 * mode.linear_omega());
+  const ModePoint point = mode.at_frequency_by_harmonic_continuation(1.0025 * mode.linear_omega());
   EXPECT_EQ(point.status, ModeStatus::tongue);
   EXPECT_EQ(point.tongue.harmonic, 3);
   EXPECT_EQ(point.tongue.mode, 2);
@@ -123,7 +123,7 @@ TEST(NonlinearMode, BackboneStepsOverTonguesWithoutASilentJump) {
   for (const ModePoint& point : points) {
     if (!point.accepted()) continue;
     if (before) {
-      EXPECT_LE(std::abs(std::log(point.energy_ratio / before->energy_ratio)), options.largest_jump);
+      EXPECT_LE(std::abs(std::log(point.energy_ratio / before->energy_ratio)), options.max_jump);
     }
     beyond = beyond || point.energy_ratio > 5.0;
     before = &point;
@@ -147,7 +147,7 @@ TEST(NonlinearMode, PrescribedEnergyIsMetAndBelowContactGivesTheLinearMode) {
 TEST(NonlinearMode, MotionShiftedByASampleIsTheSameMotion) {
   const UnitRod rod(20, 0.5);
   const NonlinearMode mode = rod_mode(rod, 5, 20);
-  const ModePoint point = mode.at_frequency_lifted(1.15 * mode.linear_omega());
+  const ModePoint point = mode.at_frequency_by_harmonic_continuation(1.15 * mode.linear_omega());
   ASSERT_TRUE(point.accepted());
   std::vector<int> shifted;
   for (const int sample : point.active) shifted.push_back((sample + 7) % 20);

@@ -108,10 +108,20 @@ TEST(Shooting, TooFewIterationsAreNotConverged) {
   options.settling_periods = 0;
   options.max_iterations = 1;
   const ShootingResult result = shoot(scene.structure(6), scene.law, scene.frequency_hz, options);
-  EXPECT_EQ(result.status, ShootingStatus::not_converged);
-  EXPECT_STREQ(to_string(result.status), "not_converged");
+  EXPECT_EQ(result.status, ShootingStatus::iteration_limit);
+  EXPECT_EQ(to_string(result.status), "iteration_limit");
   EXPECT_GT(result.residual, options.tolerance);
   EXPECT_EQ(result.residual_history.back(), result.residual);
+}
+
+TEST(Shooting, IsCancelledByItsObserverWhileSettlingAndInNewton) {
+  const testing::Jl14Case& scene = testing::jl14_case_2;
+  for (const std::string_view phase : {"settling", "shooting"}) {
+    ShootingOptions options;
+    options.observer = [&](const Progress& progress) { return progress.phase != phase; };
+    EXPECT_EQ(shoot(scene.structure(6), scene.law, scene.frequency_hz, options).status, ShootingStatus::cancelled)
+        << phase;
+  }
 }
 
 TEST(Shooting, LawThatJumpsIsAStepFailure) {

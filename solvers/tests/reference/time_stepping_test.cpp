@@ -49,7 +49,7 @@ TEST(TimeStepping, FollowsTheTransientFromTheGivenState) {
   options.initial_velocity = Eigen::VectorXd::Constant(1, oscillator.velocity);
   const TimeSteppingResult result =
       integrate_to_periodic(oscillator.structure(), AnyContactLaw(), oscillator.frequency, options);
-  ASSERT_EQ(result.status, TimeSteppingStatus::not_converged);
+  ASSERT_EQ(result.status, TimeSteppingStatus::iteration_limit);
   ASSERT_EQ(result.periods, 3);
   ASSERT_EQ(result.period_error.size(), 2u);
   for (int l = 0; l < 64; ++l) {
@@ -107,30 +107,30 @@ TEST(TimeStepping, TooFewPeriodsOrStepsAreNotConverged) {
   options.max_periods = 4;
   const TimeSteppingResult few_periods =
       integrate_to_periodic(bar, testing::jl14_case_2.law, 1275.0, options);
-  EXPECT_EQ(few_periods.status, TimeSteppingStatus::not_converged);
+  EXPECT_EQ(few_periods.status, TimeSteppingStatus::iteration_limit);
   EXPECT_EQ(few_periods.periods, 4);
   EXPECT_EQ(few_periods.samples.points(), 1024);
   EXPECT_GT(few_periods.period_error.back(), options.period_tolerance);
   options.max_steps_per_period = 10;
   const TimeSteppingResult few_steps = integrate_to_periodic(bar, testing::jl14_case_2.law, 1275.0, options);
-  EXPECT_EQ(few_steps.status, TimeSteppingStatus::not_converged);
+  EXPECT_EQ(few_steps.status, TimeSteppingStatus::iteration_limit);
   EXPECT_EQ(few_steps.periods, 0);
   EXPECT_EQ(few_steps.steps, 10);
   EXPECT_EQ(few_steps.samples.points(), 0);
 }
 
-TEST(TimeStepping, ObserverSeesEveryPeriodAndMayStop) {
+TEST(TimeStepping, TellsItsObserverOfEveryPeriodAndMayBeCancelled) {
   const LinearStructure bar = jl14_bar(4, 5e-6);
   std::vector<int> periods;
   std::vector<double> differences;
   TimeSteppingOptions options;
-  options.observer = [&](int period, double difference) {
-    periods.push_back(period);
-    differences.push_back(difference);
-    return period < 3;
+  options.observer = [&](const Progress& progress) {
+    periods.push_back(progress.step);
+    differences.push_back(progress.value);
+    return progress.step < 3;
   };
   const TimeSteppingResult result = integrate_to_periodic(bar, AnyContactLaw(), 1275.0, options);
-  EXPECT_EQ(result.status, TimeSteppingStatus::stopped);
+  EXPECT_EQ(result.status, TimeSteppingStatus::cancelled);
   EXPECT_EQ(periods, (std::vector<int>{1, 2, 3}));
   EXPECT_TRUE(std::isinf(differences.front()));
   EXPECT_EQ(std::vector<double>(differences.begin() + 1, differences.end()), result.period_error);
@@ -145,7 +145,7 @@ TEST(TimeStepping, LawWithoutAValueIsAStepFailure) {
   };
   const TimeSteppingResult result = integrate_to_periodic(jl14_bar(4, 1e-4), Undefined{}, 150.0);
   EXPECT_EQ(result.status, TimeSteppingStatus::step_failure);
-  EXPECT_STREQ(to_string(result.status), "step_failure");
+  EXPECT_EQ(to_string(result.status), "step_failure");
 }
 
 TEST(TimeStepping, RejectsBadFrequencies) {

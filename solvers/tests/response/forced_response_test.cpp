@@ -121,7 +121,7 @@ TEST(ForcedResponse, SaysWhenIterationsRanOut) {
   CondensedProblem problem = case_1(63, 256);
   ForcedResponseOptions options;
   options.newton.max_iterations = 1;
-  options.homotopy = false;
+  options.complementarity = false;
   const PeriodicResponse response = forced_response(problem, testing::jl14_case_1.law, options);
   EXPECT_EQ(response.status, SolveStatus::iteration_limit);
   EXPECT_FALSE(response.converged());
@@ -129,30 +129,70 @@ TEST(ForcedResponse, SaysWhenIterationsRanOut) {
   EXPECT_GT(response.residual, 1e-11);
 }
 
-TEST(ForcedResponse, HomotopyFindsWhatNewtonDoesNotAndTheObserverMayStopIt) {
+CondensedProblem stiff_haar_problem() {
   CondensedProblem problem(testing::make_pair(testing::HaarBasis{8}, spectral::FourierBasis(8), 256),
                            testing::jl14_case_2.structure(), testing::cosine_load());
   problem.set_frequency(1275.0);
+  return problem;
+}
+
+TEST(ForcedResponse, ComplementarityFindsWhatNewtonDoesNot) {
+  CondensedProblem problem = stiff_haar_problem();
   ForcedResponseOptions options;
-  options.homotopy = false;
+  options.complementarity = false;
   const PeriodicResponse plain = forced_response(problem, testing::jl14_case_2.law, options);
-  ASSERT_FALSE(plain.converged());
-  options.homotopy = true;
-  int steps = 0;
-  options.observer = [&](const std::string& phase, int, double) {
-    EXPECT_EQ(phase, "homotopy");
-    return ++steps > 0;
+  EXPECT_EQ(plain.status, SolveStatus::stalled);
+  EXPECT_EQ(plain.strategy, Strategy::none);
+  const PeriodicResponse found = forced_response(problem, testing::jl14_case_2.law, {});
+  EXPECT_TRUE(found.converged());
+  EXPECT_EQ(found.strategy, Strategy::soft_obstacle);
+}
+
+TEST(ForcedResponse, TellsItsObserverWhatTheValuesAre) {
+  CondensedProblem problem = stiff_haar_problem();
+  int newton = 0, paths = 0;
+  ForcedResponseOptions options;
+  options.observer = [&](const Progress& progress) {
+    const bool newton_step = progress.phase == "Newton";
+    EXPECT_EQ(progress.measure, newton_step ? "relative residual" : "height over the first");
+    EXPECT_GE(progress.value, 0.0);
+    return ++(newton_step ? newton : paths) > 0;
   };
-  const PeriodicResponse followed = forced_response(problem, testing::jl14_case_2.law, options);
-  EXPECT_TRUE(followed.converged());
-  EXPECT_TRUE(followed.used_homotopy);
-  EXPECT_GT(steps, 3);
-  steps = 0;
-  options.observer = [&](const std::string&, int, double) { return ++steps < 3; };
-  const PeriodicResponse stopped = forced_response(problem, testing::jl14_case_2.law, options);
-  EXPECT_FALSE(stopped.converged());
-  EXPECT_EQ(steps, 3);
-  EXPECT_EQ(stopped.status, plain.status);
+  ASSERT_TRUE(forced_response(problem, testing::jl14_case_2.law, options).converged());
+  EXPECT_GT(newton, 3);
+  EXPECT_GT(paths, 3);
+}
+
+TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndOnThePaths) {
+  CondensedProblem problem = stiff_haar_problem();
+  for (const std::string_view phase : {"Newton", "lowering the obstacle"}) {
+    int steps = 0;
+    ForcedResponseOptions options;
+    options.observer = [&](const Progress& progress) { return progress.phase != phase || ++steps < 3; };
+    const PeriodicResponse stopped = forced_response(problem, testing::jl14_case_2.law, options);
+    EXPECT_EQ(stopped.status, SolveStatus::cancelled) << phase;
+    EXPECT_EQ(steps, 3) << phase;
+  }
+}
+
+TEST(ForcedResponse, SaysWhenItsOperationsAreUsedUp) {
+  CondensedProblem problem = stiff_haar_problem();
+  ForcedResponseOptions options;
+  options.paths.max_operations = 1.0;
+  EXPECT_EQ(forced_response(problem, testing::jl14_case_2.law, options).status, SolveStatus::effort_limit);
+}
+
+TEST(ForcedResponse, RefusesOptionsOutOfRange) {
+  CondensedProblem problem = case_1(7, 32);
+  std::vector<ForcedResponseOptions> wrong(6);
+  wrong[0].newton.max_iterations = -1;
+  wrong[1].newton.tolerance = 0.0;
+  wrong[2].newton.min_step = -1.0;
+  wrong[3].paths.max_operations = 0.0;
+  wrong[4].paths.max_random_operations = std::nan("");
+  wrong[5].paths.max_random_paths = -1;
+  for (const ForcedResponseOptions& options : wrong)
+    EXPECT_THROW(forced_response(problem, Stop{}, options), std::invalid_argument);
 }
 
 TEST(ForcedResponse, RefusesAGuessOfAnotherLengthAndAProblemWithoutFrequency) {
@@ -171,13 +211,6 @@ TEST(ForcedResponse, UndampedStructureAtItsNaturalFrequencyIsAnError) {
   CondensedProblem problem(testing::fourier_pair(3, 8), oscillator, testing::cosine_load());
   EXPECT_THROW(problem.set_frequency(2.0), SingularSystem);
   EXPECT_NO_THROW(problem.set_frequency(2.001));
-}
-
-TEST(SolveStatus, IsSpelledAsInTheSource) {
-  EXPECT_EQ(to_string(SolveStatus::converged), "converged");
-  EXPECT_EQ(to_string(SolveStatus::stalled), "stalled");
-  EXPECT_EQ(to_string(SolveStatus::iteration_limit), "iteration_limit");
-  EXPECT_EQ(to_string(SolveStatus::singular), "singular");
 }
 
 // With Fourier functions on both sides the velocity of every degree of freedom is among the weights: what the

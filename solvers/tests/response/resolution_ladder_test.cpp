@@ -82,7 +82,10 @@ TEST(ResolutionLadder, MeetsItsToleranceInBasesThatAreNotBandLimited) {
 TEST(ResolutionLadder, RecordsEveryRung) {
   int told = 0;
   LadderOptions options{.tolerance = 1e-4};
-  options.observer = [&](const LadderRung&) { return ++told > 0; };
+  options.observer = [&](const Progress& progress) {
+    if (progress.phase == "refinement") ++told;
+    return true;
+  };
   const LadderResponse found = response_to_tolerance(bar, law_1, options);
   ASSERT_TRUE(found.converged());
   ASSERT_EQ(told, static_cast<int>(found.ladder.size()));
@@ -225,7 +228,7 @@ TEST(ResolutionLadder, SaysThatRoundingIsReached) {
 TEST(ResolutionLadder, SaysThatARungHasNoResponse) {
   LadderOptions options;
   options.solver.newton.max_iterations = 1;
-  options.solver.homotopy = false;
+  options.solver.complementarity = false;
   const LadderResponse found = response_to_tolerance(bar, law_1, options);
   EXPECT_EQ(found.status, LadderStatus::not_converged);
   EXPECT_TRUE(std::isnan(found.estimated_error));
@@ -233,7 +236,7 @@ TEST(ResolutionLadder, SaysThatARungHasNoResponse) {
 
 TEST(ResolutionLadder, StopsWhenTold) {
   LadderOptions options{.tolerance = 1e-8};
-  options.observer = [](const LadderRung&) { return false; };
+  options.observer = [](const Progress& progress) { return progress.phase != "refinement"; };
   const LadderResponse found = response_to_tolerance(bar, law_1, options);
   EXPECT_EQ(found.status, LadderStatus::cancelled);
   EXPECT_EQ(found.ladder.size(), 1u);

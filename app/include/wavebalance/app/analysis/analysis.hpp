@@ -30,9 +30,9 @@ struct Sweep {
 /// spring stiff enough to stand for the obstacle loses its way among them. The response is solved anew
 /// instead at uniform frequencies, analysis.largest_step apart at most: all points meet complementarity, but
 /// where several responses exist which one is found may change from one frequency to the next.
-Sweep frequency_sweep(const Scene& scene, const ProgressObserver& observer = {});
+Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// The same for the scene's structure composed before.
-Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const ProgressObserver& observer = {});
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
 /// A further file of a record, ready to be written.
 struct RecordFile {
@@ -58,7 +58,7 @@ struct Record {
 
 /// Solves `scene`. A failure to converge is told by the record. Throws std::invalid_argument or
 /// solvers::InadmissiblePair for scenes that load_scene() would not have let pass.
-Record analyse(const Scene& scene, const ProgressObserver& observer = {});
+Record analyse(const Scene& scene, const Observer& observer = {});
 
 /// The tables of a record.
 Table response_table(const solvers::PeriodSamples& samples);

@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,21 +9,15 @@
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/reference/period_samples.hpp"
 #include "wavebalance/solvers/response/resolution_ladder.hpp"
 
 namespace wavebalance::app {
 
-/// How far a computation has come.
-struct Progress {
-  std::string stage;                                           ///< "Newton", "time stepping"
-  std::string detail;                                          ///< "period 12, difference 3.1e-05"
-  double fraction = std::numeric_limits<double>::quiet_NaN();  ///< 0..1; NaN when nobody knows
-};
-
-/// Told from time to time; may be empty.
-using ProgressObserver = std::function<void(const Progress&)>;
+using solvers::Observer;
+using solvers::Progress;
 
 /// What rigid contact leaves besides the motion.
 struct RigidContact {
@@ -50,7 +43,7 @@ struct Response {
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
-  bool used_homotopy = false;
+  std::string strategy;  ///< what found it, solvers::Strategy; empty of references
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();
@@ -68,7 +61,7 @@ struct ResponseOptions {
   int motion_points = 0;      ///< uniform instants of Response::motion; not of time stepping
   Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response.
                               ///< Not used with time.tolerance
-  ProgressObserver observer;
+  Observer observer;
 };
 
 /// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a

@@ -21,9 +21,8 @@ enum class LinearSolver {
 
 /// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
 /// m, contact-major):
-///   R(u) = u - u0 + K s f_c(u),   J = I + K D,   D = diag(s f_c'(u)),
-/// s a factor on the laws (homotopy in contact stiffness; 1 otherwise). A linear solve with J reduces exactly
-/// to the active samples, those where D is not zero: x = r - K D x, an LU of their number and one product
+///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = diag(f_c'(u)).
+/// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an LU of their number and one product
 /// with K. Many of them are solved for by GMRES, which forms no matrix over them.
 class ContactSystem {
  public:
@@ -38,7 +37,6 @@ class ContactSystem {
   /// Of the contact that a sample belongs to; its gap in m.
   const AnyContactLaw& law_at(int sample) const { return laws_[sample / problem_->points()]; }
   double gap_at(int sample) const { return gaps_[sample / problem_->points()]; }
-  void set_stiffness_factor(double factor) { factor_ = factor; }
 
   /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
   double evaluate(const Eigen::VectorXd& displacement);
@@ -47,14 +45,14 @@ class ContactSystem {
   /// those of `displacement`, and smooth across the gaps.
   double evaluate(const Eigen::VectorXd& displacement, const Sides& presses);
 
-  const Eigen::VectorXd& force() const { return force_; }        ///< s f_c(u), N
+  const Eigen::VectorXd& force() const { return force_; }        ///< f_c(u), N
   const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
   const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
   /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
   double relative_residual() const { return relative_residual_; }
 
   /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
-  void set_tangent(int sample, double value) { tangent_[sample] = factor_ * value; }
+  void set_tangent(int sample, double value) { tangent_[sample] = value; }
 
   void set_linear_solver(LinearSolver method);
 
@@ -86,7 +84,6 @@ class ContactSystem {
   CondensedProblem* problem_;
   ContactLaws laws_;
   Eigen::VectorXd gaps_;
-  double factor_ = 1.0;
   double relative_residual_ = 0.0;
   Eigen::VectorXd force_, tangent_, residual_, product_;
   std::unique_ptr<JacobianSolver> jacobian_;

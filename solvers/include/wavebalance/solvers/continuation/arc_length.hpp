@@ -28,14 +28,6 @@ class FrequencyParameter final : public CurveParameter {
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };
 
-/// p = ln of the factor on the contact law: 0 is the law itself.
-class StiffnessParameter final : public CurveParameter {
- public:
-  bool contains(double p) const override;
-  void set(ContactSystem& system, double p) const override;
-  void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
-};
-
 /// Which corners of the curve are solved for.
 enum class Corners {
   where_needed,  ///< those over which no step is found
@@ -43,18 +35,22 @@ enum class Corners {
   every          ///< no turn can be missed; a few solves a corner
 };
 
+/// Scales, steps and limits of a curve followed by arc length. Lengths are in the scaled inner product of CurvePoint.
 struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
   double initial_step = 0.02;
-  double smallest_step = 1e-3;  ///< of long steps; within a piece of the curve 1e-4 of it
-  double largest_step = 0.25;
-  double largest_angle = 0.35;  ///< rad, between the tangents of successive points
+  double min_step = 1e-3;  ///< of long steps; within a piece of the curve 1e-4 of it
+  double max_step = 0.25;
+  double max_angle = 0.35;  ///< rad, between the tangents of successive points
   int max_corrections = 8;      ///< of a point; half as many after a long step
   double tolerance = 1e-10;     ///< on the relative residual
   Corners corners = Corners::at_turns;
   /// Of the linear systems of all points; the curve ends with no_point where they are used up.
-  double most_operations = std::numeric_limits<double>::infinity();
+  double max_operations = std::numeric_limits<double>::infinity();
+
+  /// Throws std::invalid_argument for a number out of its range; scales of 0 stand for a default of the caller.
+  void validate() const;
 };
 
 /// A point of a solution curve with its unit tangent in the scaled inner product
@@ -80,7 +76,7 @@ struct CurvePoint {
 /// together, and the curve is followed piece by piece from there on.
 class ArcLength {
  public:
-  enum class Status { advanced, no_point };
+  enum class Status { advanced, no_point };  // no_point: none was found, or the operations are used up
 
   ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options);
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
@@ -23,7 +23,7 @@ enum class LagrangianStatus {
   left_mode       ///< solved, but too little of the kinetic energy is in harmonic 1: another critical point
 };
 
-std::string to_string(LagrangianStatus status);
+std::string_view to_string(LagrangianStatus status);
 
 enum class EigenvalueUpdate {
   simultaneous,  ///< r depends on x [LL10, Algorithm 1]
@@ -140,6 +140,7 @@ class LagrangianMode {
     LagrangianStart start;
     std::optional<double> rayleigh;
   };
+  class Stationarity;
   struct Newton {
     LagrangianStatus status;
     int iterations;

@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
 #include <complex>
-#include <string>
+#include <string_view>
 #include <vector>
+
+#include "wavebalance/solvers/linalg/progress.hpp"
 
 namespace wavebalance::solvers {
 
@@ -28,7 +30,7 @@ enum class ModeStatus {
   tongue       ///< complementarity holds, but on an internal resonance: see ModePoint::tongue
 };
 
-std::string to_string(ModeStatus status);
+std::string_view to_string(ModeStatus status);
 
 /// An internal resonance: harmonic `harmonic` of the motion drives linear mode `mode` (both from 1), which
 /// holds `share` of the kinetic energy.
@@ -89,28 +91,32 @@ class NonlinearMode {
   ModePoint at_frequency(double omega, const std::vector<int>& active = {}) const;
   /// The same through the harmonic levels 2, 3, .., N, each from the active set of the one before: reaches
   /// the mode beyond a tongue, where continuation in omega leads onto it.
-  ModePoint at_frequency_lifted(double omega) const;
+  ModePoint at_frequency_by_harmonic_continuation(double omega) const;
   /// The linear mode at an energy ratio <= 1.
   ModePoint linear_mode(double energy_ratio) const;
 
  private:
-  friend class ModeSolver;
   std::vector<int> grazing_samples() const;
   ModalModel model_;
   NonlinearModeOptions options_;
 };
 
+/// The frequencies of a backbone.
 struct BackboneOptions {
   double first_ratio = 1.001;    ///< omega / linear omega of the first point
   double last_ratio = 1.3;       ///< and of the last
   int points = 200;              ///< uniform in omega
-  double largest_energy = 10.0;  ///< stop once the energy ratio is above
-  double largest_jump =
-      0.25;  ///< of ln(energy ratio) between accepted neighbours; above it a point is lifted anew
+  double max_energy = 10.0;      ///< the curve ends once the energy ratio is above
+  /// Of ln(energy ratio) between accepted neighbours; above it a point is solved anew by harmonic continuation.
+  double max_jump = 0.25;
+  Observer observer;             ///< called before each point; the curve ends where it asks to stop
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
 };
 
 /// The points of a mode over omega, those that failed or lie on a tongue with their status. Never a silent
-/// jump: a point whose energy is more than largest_jump away from its accepted neighbour, warm-started or
+/// jump: a point whose energy is more than max_jump away from its accepted neighbour, warm-started or
 /// lifted, is on another branch, and is kept with the status tongue.
 std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options);
 

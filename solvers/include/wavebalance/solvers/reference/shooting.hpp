@@ -1,22 +1,26 @@
 #pragma once
 #include <Eigen/Core>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_law.hpp"
-#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::solvers {
 
 enum class ShootingStatus {
-  converged,      ///< the state returns to itself after one period
-  not_converged,  ///< the iterations ran out, or no step along Newton's direction brings the residual down
-  step_failure    ///< the contact force could not be resolved in time, e.g. a law that jumps
+  converged,        ///< the state returns to itself after one period
+  stalled,          ///< no step along Newton's direction reduces the residual
+  iteration_limit,  ///< iterations used up
+  step_failure,     ///< the contact force could not be resolved in time, e.g. a law that jumps
+  cancelled         ///< the observer asked to stop
 };
 
-/// "converged", "not_converged" or "step_failure".
-const char* to_string(ShootingStatus status);
+std::string_view to_string(ShootingStatus status);
 
+/// How a periodic motion is sought in the state space.
 struct ShootingOptions {
   int output_points = 1024;   ///< uniform samples of the period
   int settling_periods = 10;  ///< periods integrated from the initial state before Newton starts
@@ -27,10 +31,15 @@ struct ShootingOptions {
   bool full_history = false;             ///< also keep every degree of freedom
   Eigen::VectorXd initial_displacement;  ///< n, m, at t = 0; empty: that of the response without contact
   Eigen::VectorXd initial_velocity;      ///< n, m/s, at t = 0; empty: that of the response without contact
+  Observer observer;                     ///< called before each Newton step and after each settling period
+
+  /// Throws std::invalid_argument for a number out of its range, or for initial values that are not `dofs`.
+  void validate(int dofs) const;
 };
 
+/// The periodic motion and its stability.
 struct ShootingResult {
-  ShootingStatus status = ShootingStatus::not_converged;
+  ShootingStatus status = ShootingStatus::iteration_limit;
   int iterations = 0;                    ///< Newton steps taken
   double residual = 0.0;                 ///< relative change of the state over one period, energy norm
   std::vector<double> residual_history;  ///< before each Newton step and at the end

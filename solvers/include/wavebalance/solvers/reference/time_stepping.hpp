@@ -1,24 +1,25 @@
 #pragma once
 #include <Eigen/Core>
-#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_laws.hpp"
-#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::solvers {
 
 enum class TimeSteppingStatus {
-  converged,      ///< two successive periods agree
-  not_converged,  ///< the periods or the steps ran out first
-  step_failure,   ///< the integrator found no step that meets its tolerance
-  stopped         ///< the observer asked to stop
+  converged,        ///< two successive periods agree
+  iteration_limit,  ///< the periods or the steps ran out first
+  step_failure,     ///< the integrator found no step that meets its tolerance
+  cancelled         ///< the observer asked to stop
 };
 
-/// "converged", "not_converged", "step_failure" or "stopped".
-const char* to_string(TimeSteppingStatus status);
+std::string_view to_string(TimeSteppingStatus status);
 
+/// How long and how finely a motion is integrated.
 struct TimeSteppingOptions {
   int output_points = 1024;        ///< uniform samples of one period, also those that periods are compared on
   double period_tolerance = 1e-7;  ///< on the relative rms difference of two periods [JL14, section 4]
@@ -29,13 +30,17 @@ struct TimeSteppingOptions {
   bool full_history = false;  ///< also keep every degree of freedom over the last period
   Eigen::VectorXd initial_displacement;  ///< n, m; empty: zero
   Eigen::VectorXd initial_velocity;      ///< n, m/s; empty: zero
-  /// Called after each period with its number, from 1, and its relative rms difference to the one before
-  /// (infinity after the first). Return false to stop.
-  std::function<bool(int period, double difference)> observer;
+  /// Called after each period with its number, from 1, and its relative rms difference to the one before (infinity
+  /// after the first).
+  Observer observer;
+
+  /// Throws std::invalid_argument for a number out of its range, or for initial values that are not `dofs`.
+  void validate(int dofs) const;
 };
 
+/// The last period integrated.
 struct TimeSteppingResult {
-  TimeSteppingStatus status = TimeSteppingStatus::not_converged;
+  TimeSteppingStatus status = TimeSteppingStatus::iteration_limit;
   int periods = 0;        ///< complete periods integrated
   long steps = 0;         ///< accepted steps
   long failed_steps = 0;  ///< steps tried and rejected

@@ -1,6 +1,5 @@
 #pragma once
-#include <functional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/continuation/arc_length.hpp"
@@ -19,7 +18,7 @@ enum class SweepStatus {
   cancelled     ///< the observer asked to stop
 };
 
-std::string to_string(SweepStatus status);
+std::string_view to_string(SweepStatus status);
 
 /// Displacements are each the largest that one of the contacts has.
 struct SweepPoint {
@@ -40,6 +39,7 @@ struct TurningPoint {
   bool corner = false;
 };
 
+/// Where a curve starts and ends, and how it is followed.
 struct FrequencySweepOptions {
   double from = 0.0;         ///< Hz
   double to = 0.0;           ///< Hz, either side of `from`
@@ -53,11 +53,15 @@ struct FrequencySweepOptions {
   /// `from`; parameter_scale 0 stands for a 20th of the interval.
   ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
   ForcedResponseOptions start;  ///< the solver of the first point
-  /// Told of each accepted point; returns false to stop. A curve that ends as unbounded is followed again
-  /// from its start with largest steps of other lengths, twice at most, unless every corner is asked for.
-  std::function<bool(const SweepPoint&)> observer;
+  /// Called after each point with its frequency, and during the solution of the first. A curve that ends as unbounded
+  /// is followed again with other steps, and its points are then counted anew.
+  Observer observer;
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
 };
 
+/// A curve of periodic responses.
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
   std::vector<SweepPoint> points;
@@ -69,7 +73,7 @@ struct FrequencySweep {
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
 /// folds and corners, from `from` until it leaves the interval. Throws std::invalid_argument for frequencies
-/// that are not positive, finite and different, and for laws that are neither one nor one a contact. O(points
+/// that are not positive, finite and different, and for laws that are neither one nor one per contact. O(points
 /// (active^3 + N log N)).
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options);

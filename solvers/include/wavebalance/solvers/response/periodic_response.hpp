@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wavebalance/solvers/balance/newton.hpp"
+#include "wavebalance/solvers/complementarity/complementarity_options.hpp"
 
 namespace wavebalance::solvers {
 
@@ -11,8 +12,8 @@ struct PeriodicResponse {
   SolveStatus status = SolveStatus::iteration_limit;
   double frequency = 0.0;  ///< Hz
   double residual = 0.0;   ///< ||R|| / (||u0|| + ||K f||)
-  int iterations = 0;      ///< Newton iterations, steps and corners of the homotopies included
-  bool used_homotopy = false;
+  int iterations = 0;      ///< Newton iterations, and pivots of complementarity paths
+  Strategy strategy = Strategy::none;    ///< what found it
   std::vector<double> residual_history;  ///< of the last Newton run
   double condition = 0.0;                ///< of its last Newton matrix, see NewtonResult
   Eigen::VectorXd displacement;          ///< m, samples() values, contact-major

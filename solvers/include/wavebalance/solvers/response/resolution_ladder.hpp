@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/response/forced_response.hpp"
@@ -18,7 +18,7 @@ enum class LadderStatus {
   cancelled       ///< the observer asked to stop
 };
 
-std::string to_string(LadderStatus status);
+std::string_view to_string(LadderStatus status);
 
 /// One resolution that the ladder climbed. Errors are relative rms of the contact displacement over the
 /// period, NaN where they are not known.
@@ -42,8 +42,11 @@ struct LadderOptions {
   int max_functions = 1 << 16;
   int max_points = 1 << 17;
   ForcedResponseOptions solver = {};
-  /// Told of each rung once it is solved; returns false to stop.
-  std::function<bool(const LadderRung&)> observer = {};
+  /// Called during each solve and after it, then with the estimated error; solver.observer is not used here.
+  Observer observer = {};
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
 };
 
 /// Composes the problem of a resolution, its frequency set. It is asked for M = 2^k (first_functions + 1) - 1

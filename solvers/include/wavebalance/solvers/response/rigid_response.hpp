@@ -20,10 +20,15 @@ Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen
 Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
                                 const Eigen::VectorXd& gaps);
 
+/// What is asked of a response with rigid contact.
 struct RigidResponseOptions {
   /// Penetration at the N points that counts as rigid, over the largest of |u0| and u0 - gap.
   double tolerance = 1e-6;
-  SolveObserver observer;
+  ComplementarityOptions paths;
+  Observer observer;
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
 };
 
 /// A response with rigid (Signorini) contact. `response.status` is converged only when complementarity holds
@@ -37,7 +42,7 @@ struct RigidResponse {
   int active_samples = 0;
 };
 
-/// The periodic response of `problem` (frequency set before) against rigid obstacles at `gaps`, one a contact
+/// The periodic response of `problem` (frequency set before) against rigid obstacles at `gaps`, one per contact
 /// and of any sign:
 ///
 ///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at all samples.
@@ -45,7 +50,7 @@ struct RigidResponse {
 /// An active set started from the contact-free response cycles in nearly every case. Obstacles that yield a
 /// little are lowered and stiffened along piecewise linear paths instead; their active samples are then
 /// solved with u = gap, which is accepted when every sign holds. With as many points as functions there may
-/// be no solution, or several. Throws std::invalid_argument for gaps that are not finite or not one a
+/// be no solution, or several. Throws std::invalid_argument for gaps that are not finite or not one per
 /// contact. O(corners (active^2 + C N log N + C^2 M)).
 RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& gaps,
                              const RigidResponseOptions& options);

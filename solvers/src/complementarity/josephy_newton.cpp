@@ -1,4 +1,4 @@
-#include "complementarity/law_force.hpp"
+#include "complementarity/josephy_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "linalg/safe_norm.hpp"
-#include "complementarity/unilateral_force.hpp"
+#include "complementarity/lcp_homotopy.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -58,7 +58,7 @@ class LawObstacles {
       result.opening[l] += law.gap();
       if (!std::isfinite(law.gap())) continue;
       const double u = force[l] > 0.0 ? inverse(law, force[l]) : law.gap(), penetration = u - law.gap();
-      // A law that goes past the force from one double to the next has no slope there but that of the secant.
+      // If the law is too steep for double precision at this force, its secant is used.
       const bool resolved = std::abs(law.force(u) - force[l]) <= 0.5 * force[l];
       result.flexibility[l] = resolved ? 1.0 / law.tangent(u) : penetration / force[l];
       if (force[l] > 0.0) result.opening[l] += penetration - force[l] * result.flexibility[l];
@@ -93,30 +93,34 @@ class LawObstacles {
 
 }  // namespace
 
-LawForce law_force(ContactSystem& system, ComplementarityPath::Observer observer) {
+LawForce josephy_newton(ContactSystem& system, const ComplementarityOptions& options, Observer observer) {
   constexpr int rounds = 10;
   constexpr double settled = 1e-14;
   LawForce best;
   const LawObstacles laws(system);
   if (!laws.usable()) return best;
-  UnilateralForce obstacles(system.problem(), std::move(observer));
+  LcpHomotopy obstacles(system.problem(), options, std::move(observer));
   const auto note = [&](LawForce& result) {
     result.force = obstacles.force();
     result.condition = obstacles.condition();
     laws.measure(result);
   };
   best.found = obstacles.solve(laws.tangents(Eigen::VectorXd::Zero(system.problem().samples())));
+  best.status = obstacles.status();
+  best.strategy = obstacles.strategy();
   if (best.found) note(best);
   for (int round = 0; best.found && round < rounds && best.defect > settled; ++round) {
     const Obstacles tangents = laws.tangents(best.force);
     if (!obstacles.follow(tangents) && !obstacles.solve(tangents)) break;
     LawForce next;
     next.found = true;
+    next.status = best.status;
+    next.strategy = best.strategy;
     note(next);
     if (!(next.defect < best.defect)) break;
     best = std::move(next);
   }
-  best.corners = obstacles.corners();
+  best.pivots = obstacles.pivots();
   return best;
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+#include <functional>
+#include <limits>
+#include <string_view>
+
+namespace wavebalance::solvers {
+
+/// How far a long computation has come.
+struct Progress {
+  std::string_view phase;  ///< what is done: "Newton", "lowering the obstacle", "frequency sweep"
+  int step = 0;            ///< steps of this phase so far
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when the phase has none
+  std::string_view measure;  ///< what `value` is: "relative residual", "Hz"; empty when there is none
+  double done = std::numeric_limits<double>::quiet_NaN();  ///< share of the whole work, 0..1; NaN when unknown
+};
+
+/// Called now and then during long work; the texts live as long as the call. Returns false to stop the work,
+/// whose status is then `cancelled`. An empty observer stops nothing.
+using Observer = std::function<bool(const Progress&)>;
+
+/// False when there is an observer and it asks to stop.
+inline bool goes_on(const Observer& observer, const Progress& progress) {
+  return !observer || observer(progress);
+}
+
+}  // namespace wavebalance::solvers
