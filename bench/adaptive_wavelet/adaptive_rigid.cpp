@@ -110,8 +110,8 @@ void require_cells(const CondensedProblem& problem, const ForceCells& cells, dou
   const auto fail = [](const std::string& text) { throw std::invalid_argument("cell_response: " + text); };
   const int points = problem.points();
   if (!std::isfinite(gap)) fail("gap must be finite");
-  if (problem.free_response().size() != points)
-    fail("the problem has " + std::to_string(problem.free_response().size()) + " samples and " +
+  if (problem.contact_free_response().size() != points)
+    fail("the problem has " + std::to_string(problem.contact_free_response().size()) + " samples and " +
          std::to_string(points) + " points; it must have one contact and a frequency");
   if (cells.empty() || cells.front() != 0 || cells.back() >= points ||
       std::adjacent_find(cells.begin(), cells.end(), std::greater_equal<>()) != cells.end())
@@ -200,7 +200,7 @@ CellResponse cell_response(CondensedProblem& problem, double gap, const ForceCel
     problem.apply(spread(cells, Eigen::VectorXd::Unit(count, j), points), answer);
     compliance.col(j) = at_ends(cells, answer);
   }
-  const Eigen::VectorXd& free = problem.free_response();
+  const Eigen::VectorXd& free = problem.contact_free_response();
   CellProblem system(std::move(compliance), at_ends(cells, free).array() - gap, free.cwiseAbs().maxCoeff());
   const bool solved = (start.size() != 0 && system.solve_rigid(system.where_positive(means(cells, start)),
                                                                options.max_iterations)) ||

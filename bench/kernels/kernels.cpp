@@ -48,7 +48,7 @@ void condensation(benchmark::State& state) {
                                     scene.structure(elements), cosine_load());
   for (auto _ : state) {
     problem.set_frequency(scene.frequency);
-    benchmark::DoNotOptimize(problem.free_response().data());
+    benchmark::DoNotOptimize(problem.contact_free_response().data());
   }
   set_work(state, operations * elements * (functions / 2 + 1), 6.0 * real * elements);
 }
@@ -90,7 +90,7 @@ void force_evaluation(benchmark::State& state) {
   const auto points = static_cast<int>(state.range(0));
   auto problem = fourier_problem(scene, 63, points);
   problem.set_frequency(scene.frequency);
-  const Eigen::VectorXd& displacement = problem.free_response();
+  const Eigen::VectorXd& displacement = problem.contact_free_response();
   Eigen::VectorXd force(points), tangent(points);
   const solvers::AnyContactLaw law = scene.law();
   const auto size = static_cast<std::size_t>(points);
@@ -112,10 +112,10 @@ void newton_step(benchmark::State& state) {
   solvers::ContactSystem system(problem, scene.law());
   system.set_linear_solver(solvers::LinearSolver::dense);
   Eigen::VectorXd direction;
-  system.evaluate(problem.free_response());
+  system.evaluate(problem.contact_free_response());
   system.factorize();
   for (auto _ : state) {
-    system.evaluate(problem.free_response());
+    system.evaluate(problem.contact_free_response());
     system.factorize();
     system.solve(system.residual(), direction);
     benchmark::DoNotOptimize(direction.data());
@@ -136,7 +136,7 @@ void newton_step_gmres(benchmark::State& state) {
   Eigen::VectorXd direction;
   bool solved = true;
   for (auto _ : state) {
-    system.evaluate(problem.free_response());
+    system.evaluate(problem.contact_free_response());
     solved = system.factorize() && system.solve(system.residual(), direction, 1e-6) && solved;
     benchmark::DoNotOptimize(direction.data());
   }

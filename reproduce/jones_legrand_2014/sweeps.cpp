@@ -53,7 +53,7 @@ std::string every_turn_text(report::Artefact& artefact, const std::string& file,
   solvers::FrequencySweepOptions options;
   options.from = scene.analysis.frequency_from;
   options.to = scene.analysis.frequency_to;
-  options.arc_length.corners = solvers::Corners::every;
+  options.arc_length.grazing_events = solvers::GrazingEvents::all;
   options.smallest_return = 1e-9 * std::abs(options.to - options.from);
   const auto curve = solvers::frequency_sweep(problem, app::make_laws(scene), options);
   std::vector<double> turns;

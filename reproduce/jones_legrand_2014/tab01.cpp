@@ -9,7 +9,7 @@ namespace wavebalance::jl14 {
 namespace {
 
 double largest_free_displacement(const app::Scene& scene) {
-  return app::make_problem(scene).free_response().cwiseAbs().maxCoeff();
+  return app::make_problem(scene).contact_free_response().cwiseAbs().maxCoeff();
 }
 
 void claim_near(report::Artefact& artefact, const std::string& quote, const std::string& what, double found,

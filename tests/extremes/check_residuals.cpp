@@ -30,7 +30,7 @@ Eigen::VectorXcd spectrum(spectral::RealFft& fft, const Eigen::VectorXd& samples
 /// Trial coefficients of every degree of freedom, n x (M/2 + 1), by projecting its samples on the trial
 /// functions.
 Eigen::MatrixXcd coefficients(const solvers::TimePair& pair, const Eigen::MatrixXd& displacements) {
-  const solvers::TranslateIndex index{pair.functions(), pair.points()};
+  const solvers::AliasMap index{pair.functions(), pair.points()};
   spectral::RealFft fft(pair.points());
   Eigen::VectorXcd gram, projected;
   index.fold(pair.trial_spectrum(), pair.trial_spectrum(), gram);
@@ -45,7 +45,7 @@ Eigen::MatrixXcd coefficients(const solvers::TimePair& pair, const Eigen::Matrix
 /// Standard deviation of a coefficient's spectrum, M/2 + 1 values, by that projection of samples with errors
 /// of deviation one: large where a trial function has little of a harmonic.
 Eigen::VectorXd projected_noise(const solvers::TimePair& pair) {
-  const solvers::TranslateIndex index{pair.functions(), pair.points()};
+  const solvers::AliasMap index{pair.functions(), pair.points()};
   Eigen::VectorXcd gram;
   index.fold(pair.trial_spectrum(), pair.trial_spectrum(), gram);
   return (double(pair.points()) * gram.real().cwiseInverse()).cwiseSqrt();

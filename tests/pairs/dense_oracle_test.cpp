@@ -74,7 +74,7 @@ class Oracle {
     const Eigen::VectorXd found = stacked(problem_.full_coefficients(zero), functions_);
     EXPECT_LE((found - expected).norm(), tolerance * expected.norm());
     const Eigen::VectorXd samples = dense_.contact_displacement(expected);
-    EXPECT_LE((problem_.free_response() - samples).norm(), tolerance * samples.norm());
+    EXPECT_LE((problem_.contact_free_response() - samples).norm(), tolerance * samples.norm());
   }
 
   // R(u) = u - u0 + K f(u) is what G^-1 leaves of the assembled residual at the contact.
@@ -90,7 +90,7 @@ class Oracle {
       const Eigen::VectorXd expected = dense_.contact_displacement(dense_.solve(dense_.residual(state)));
       system.evaluate(dense_.contact_displacement(state));
       EXPECT_LE((system.residual() - expected).norm(),
-                tolerance * (expected.norm() + problem_.free_response().norm()));
+                tolerance * (expected.norm() + problem_.contact_free_response().norm()));
     }
   }
 
@@ -120,7 +120,7 @@ class Oracle {
     // A spring that stands for the obstacle leaves its residual, an active set rounding.
     const Eigen::VectorXd u = dense_.contact_displacement(expected);
     EXPECT_LE((u - rigid.response.displacement).norm(), 10.0 * tolerance * u.norm());
-    const double size = problem_.free_response().cwiseAbs().maxCoeff();
+    const double size = problem_.contact_free_response().cwiseAbs().maxCoeff();
     for (const auto& contact : rigid.contact_complementarity) {
       EXPECT_LE(contact.max_penetration, solvers::RigidResponseOptions{}.tolerance * size);
       EXPECT_GE(contact.min_force, 0.0);

@@ -32,7 +32,7 @@ CondensedProblem::CondensedProblem(CondensedProblem&&) noexcept = default;
 CondensedProblem& CondensedProblem::operator=(CondensedProblem&&) noexcept = default;
 CondensedProblem::~CondensedProblem() = default;
 
-StiffnessFactors CondensedProblem::factors(int k) const {
+ImpedanceCoefficients CondensedProblem::factors(int k) const {
   return {factors_[0][k], factors_[1][k], factors_[2][k]};
 }
 
@@ -62,7 +62,7 @@ void CondensedProblem::synthesize(const Eigen::MatrixXcd& spectra, Eigen::Vector
   samples /= points();
 }
 
-const Eigen::VectorXd& CondensedProblem::free_response_slope() {
+const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
   if (slope_is_current_) return free_response_slope_;
   synthesize(condensed_.load_response_slope, free_response_slope_);
   slope_is_current_ = true;
@@ -72,7 +72,7 @@ const Eigen::VectorXd& CondensedProblem::free_response_slope() {
 void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
                                     const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis,
                                     Eigen::VectorXd& out) {
-  const TranslateIndex index{pair_.functions(), points()};
+  const AliasMap index{pair_.functions(), points()};
   const double scale = double(pair_.functions()) / points() / points() / points();
   for (int d = 0; d < contacts(); ++d) {
     Eigen::VectorXcd& translates = work_->translates[static_cast<std::size_t>(d)];

@@ -26,7 +26,7 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
   return evaluate_residual(displacement);
 }
 
-double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const Sides& presses) {
+double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const ActiveMask& presses) {
   laws_.evaluate(problem_->contacts(), displacement, force_, tangent_);
   for (int l = 0; l < displacement.size(); ++l) {
     const double beyond = displacement[l] - gap_at(l);
@@ -38,7 +38,7 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const Sides&
 }
 
 double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
-  const Eigen::VectorXd& free = problem_->free_response();
+  const Eigen::VectorXd& free = problem_->contact_free_response();
   if (force_.isZero(0.0)) {
     product_.setZero(displacement.size());
   } else {

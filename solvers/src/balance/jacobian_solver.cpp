@@ -5,15 +5,14 @@
 namespace wavebalance::solvers {
 namespace {
 
-// Active samples of one contact up to which LU is quicker than GMRES, measured on both cases of JL14 with 4
-// points a function: a point takes 0.18 ms by LU and 0.40 ms by GMRES with 256 points (27 to 80 active
-// samples), 0.97 ms and 0.59 ms with 512 (55 to 160).
+// Active samples of one contact up to which LU is faster than GMRES, as measured on both cases of JL14.
 constexpr Eigen::Index crossover = 96;
 
-// Of several contacts the preconditioner affords few harmonics each: LU as long as it takes about a second.
+// With several contacts the preconditioner holds few harmonics of each, and LU is used up to about a second per
+// system.
 constexpr Eigen::Index crossover_of_several = 2048;
 
-// LU of more is not affordable: 4096 take several seconds.
+// A larger LU takes more than several seconds.
 constexpr Eigen::Index largest_dense = 4096;
 
 ComplianceOperator compliance_of(CondensedProblem& problem) {

@@ -186,7 +186,7 @@ KrylovBlock::Outcome KrylovBlock::solve_bordered(const ComplianceOperator& compl
   return outcome;
 }
 
-// Powers of J turn towards what it magnifies, which is smooth, those of P^-1 towards what J shrinks. Both
+// Power iteration on J estimates the largest singular value, on P^-1 the smallest. Both
 // start with a part of every frequency: the smoothest motion may be the very one that J shrinks.
 double KrylovBlock::condition(const ComplianceOperator& compliance) {
   if (active_.empty()) return 1.0;

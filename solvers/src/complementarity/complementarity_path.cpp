@@ -14,13 +14,13 @@ namespace {
 // An update of the inverse loses digits: it is made anew after this many, more where that is dear.
 Eigen::Index most_updates(Eigen::Index size) { return std::max<Eigen::Index>(50, 2 * size); }
 
-// Corners from one correction of force and slope by the whole inverse to the next.
-constexpr int corners_a_correction = 8;
+// GrazingEvents from one correction of force and slope by the whole inverse to the next.
+constexpr int pivots_per_correction = 8;
 
 }  // namespace
 
 ComplementarityPath::ComplementarityPath(CondensedProblem& problem)
-    : problem_(problem), inverse_(problem.samples()), corners_a_leg_(10 * problem.samples()) {}
+    : problem_(problem), inverse_(problem.samples()), max_segment_(10 * problem.samples()) {}
 
 // The column of a point is that of the point modulo the shift period, shifted by the rest.
 double ComplementarityPath::entry(int row, int column) const {
@@ -53,8 +53,8 @@ double ComplementarityPath::condition() {
   return norm(block(inverse_.ascending())) * inverse;
 }
 
-void ComplementarityPath::turn(int sample) {
-  inverse_.tidy();
+void ComplementarityPath::pivot_at(int sample) {
+  inverse_.apply_pending_updates();
   const auto n = static_cast<double>(inverse_.size());
   if (inverse_.contains(sample)) {
     operations_ -= 2.0 * n * n;
@@ -75,7 +75,7 @@ void ComplementarityPath::enter(int sample) {
   }
   const Eigen::VectorXd right = inverse_.times(column), left = inverse_.transposed_times(row);
   const double pivot = entry(sample, sample) - row.dot(right);
-  const double slope = (cover_[sample] - row.dot(inverse_.gather(slope_))) / pivot;
+  const double slope = (covering_vector_[sample] - row.dot(inverse_.gather(slope_))) / pivot;
   subtract(slope * right, slope_);
   slope_[sample] = slope;
   inverse_.enter(sample, right, left, pivot);
@@ -97,20 +97,20 @@ void ComplementarityPath::subtract(const Eigen::VectorXd& values, Eigen::VectorX
 void ComplementarityPath::measure() {
   const Obstacles& obstacles = state_.obstacles;
   problem_.apply(state_.force, product_);
-  distance_ = obstacles.opening + z_ * cover_ + obstacles.flexibility.cwiseProduct(state_.force) + product_;
+  distance_ = obstacles.gap_without_force + z_ * covering_vector_ + obstacles.flexibility.cwiseProduct(state_.force) + product_;
 }
 
-// Takes from the force what it leaves of a distance in contact, and rounding from its slope.
+// One step of iterative refinement for the force and for its derivative.
 void ComplementarityPath::correct() {
   if (inverse_.updates() > most_updates(inverse_.size())) invert(inverse_.ascending());
   measure();
   Eigen::MatrixXd right(inverse_.size(), 2);
   right.col(0) = inverse_.gather(distance_);
-  right.col(1) = inverse_.gather(cover_);
+  right.col(1) = inverse_.gather(covering_vector_);
   const Eigen::MatrixXd found = inverse_.times(right);
   operations_ -= 4.0 * double(inverse_.size()) * double(inverse_.size());
   subtract(found.col(0), state_.force);
-  slope_.setZero(cover_.size());
+  slope_.setZero(covering_vector_.size());
   subtract(-found.col(1), slope_);
   keep_in_contact(distance_);
 }
@@ -122,7 +122,7 @@ void ComplementarityPath::keep_in_contact(Eigen::VectorXd& distance) const {
 }
 
 // At the end of a leg: the solution, if it holds to rounding of the terms that make a distance.
-ComplementarityPath::End ComplementarityPath::arrive() {
+ComplementarityPath::End ComplementarityPath::finish() {
   constexpr double rounding = 1e-10;
   correct();
   state_.active = inverse_.ascending();
@@ -130,29 +130,29 @@ ComplementarityPath::End ComplementarityPath::arrive() {
   measure();
   double size = product_.cwiseAbs().maxCoeff(), worst = 0.0;
   for (Eigen::Index l = 0; l < distance_.size(); ++l) {
-    const double opening = std::abs(state_.obstacles.opening[l]);
-    if (std::isfinite(opening)) size = std::max(size, opening);
+    const double gap_without_force = std::abs(state_.obstacles.gap_without_force[l]);
+    if (std::isfinite(gap_without_force)) size = std::max(size, gap_without_force);
     worst = std::max(worst, state_.force[l] > 0.0 ? std::abs(distance_[l]) : -distance_[l]);
   }
   return std::isfinite(size) && worst <= rounding * size ? End::reached : End::lost;
 }
 
-// By z, in the direction in which the sample that has just turned goes away from its bound.
-void ComplementarityPath::set_rates(int turned) {
+// Derivatives with respect to z; the sign is such that the pivoted sample leaves its bound.
+void ComplementarityPath::set_rates(int pivoted) {
   force_rate_ = -slope_;
   problem_.apply(force_rate_, product_);
-  distance_rate_ = cover_ + state_.obstacles.flexibility.cwiseProduct(force_rate_) + product_;
+  distance_rate_ = covering_vector_ + state_.obstacles.flexibility.cwiseProduct(force_rate_) + product_;
   keep_in_contact(distance_rate_);
-  if (turned >= 0) {
-    const bool presses = inverse_.contains(turned);
-    direction_ = (presses ? force_rate_[turned] : distance_rate_[turned]) > 0.0 ? 1.0 : -1.0;
+  if (pivoted >= 0) {
+    const bool presses = inverse_.contains(pivoted);
+    direction_ = (presses ? force_rate_[pivoted] : distance_rate_[pivoted]) > 0.0 ? 1.0 : -1.0;
   }
   force_rate_ *= direction_;
   distance_rate_ *= direction_;
 }
 
 // The sample that reaches its bound first and the length up to there; -1 when z = 0 comes before, or nothing.
-int ComplementarityPath::next_corner(double& length) const {
+int ComplementarityPath::next_pivot(double& length) const {
   int sample = -1;
   length = direction_ < 0.0 ? z_ : std::numeric_limits<double>::infinity();
   for (int l = 0; l < state_.force.size(); ++l) {
@@ -167,45 +167,45 @@ int ComplementarityPath::next_corner(double& length) const {
   return sample;
 }
 
-ComplementarityPath::End ComplementarityPath::run(int sample) {
-  for (int corner = 0; corner < corners_a_leg_ && operations_ > 0.0; ++corner, ++corners_) {
-    if (sample >= 0) turn(sample);
-    if (corner % corners_a_correction == 0) correct();
+ComplementarityPath::End ComplementarityPath::follow_segment(int sample) {
+  for (int pivot = 0; pivot < max_segment_ && operations_ > 0.0; ++pivot, ++pivots_) {
+    if (sample >= 0) pivot_at(sample);
+    if (pivot % pivots_per_correction == 0) correct();
     set_rates(sample);
     double length = 0.0;
-    sample = next_corner(length);
+    sample = next_pivot(length);
     operations_ -= 300.0 * double(state_.force.size());  // transforms, at a fraction of the rate of products
     if (!std::isfinite(length) || !state_.force.allFinite()) return End::ray;
     state_.force += length * force_rate_;
     distance_ += length * distance_rate_;
     z_ = sample < 0 ? 0.0 : z_ + length * direction_;
-    if (sample < 0) return arrive();
+    if (sample < 0) return finish();
     if (observer_ && !observer_(z_ / first_z_)) return End::cancelled;
   }
   return End::effort_limit;
 }
 
-ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen::VectorXd& cover) {
-  state_ = {std::move(goal), {}, Eigen::VectorXd::Zero(cover.size())};
-  cover_ = cover;
+ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen::VectorXd& covering_vector) {
+  state_ = {std::move(goal), {}, Eigen::VectorXd::Zero(covering_vector.size())};
+  covering_vector_ = covering_vector;
   inverse_.assign({}, Eigen::MatrixXd());
-  slope_.setZero(cover.size());
-  distance_.setZero(cover.size());
+  slope_.setZero(covering_vector.size());
+  distance_.setZero(covering_vector.size());
   direction_ = -1.0;
   int sample = 0;
-  z_ = first_z_ = (-state_.obstacles.opening.cwiseQuotient(cover_)).maxCoeff(&sample);
-  return z_ > 0.0 ? run(sample) : End::reached;
+  z_ = first_z_ = (-state_.obstacles.gap_without_force.cwiseQuotient(covering_vector_)).maxCoeff(&sample);
+  return z_ > 0.0 ? follow_segment(sample) : End::reached;
 }
 
 ComplementarityPath::End ComplementarityPath::follow(Obstacles goal) {
-  cover_ = (state_.obstacles.flexibility - goal.flexibility).cwiseProduct(state_.force);
-  for (Eigen::Index l = 0; l < cover_.size(); ++l)  // where there is no obstacle both are infinite
-    if (std::isfinite(goal.opening[l])) cover_[l] += state_.obstacles.opening[l] - goal.opening[l];
+  covering_vector_ = (state_.obstacles.flexibility - goal.flexibility).cwiseProduct(state_.force);
+  for (Eigen::Index l = 0; l < covering_vector_.size(); ++l)  // where there is no obstacle both are infinite
+    if (std::isfinite(goal.gap_without_force[l])) covering_vector_[l] += state_.obstacles.gap_without_force[l] - goal.gap_without_force[l];
   state_.obstacles = std::move(goal);
   z_ = first_z_ = 1.0;
   direction_ = -1.0;
   invert(state_.active);
-  return run(-1);
+  return follow_segment(-1);
 }
 
 }  // namespace wavebalance::solvers

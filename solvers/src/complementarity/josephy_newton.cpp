@@ -42,7 +42,7 @@ bool starts_with_a_slope(const AnyContactLaw& law) {
 
 class LawObstacles {
  public:
-  explicit LawObstacles(ContactSystem& system) : system_(system), free_(system.problem().free_response()) {}
+  explicit LawObstacles(ContactSystem& system) : system_(system), free_(system.problem().contact_free_response()) {}
 
   bool usable() const {
     for (int c = 0; c < system_.problem().contacts(); ++c)
@@ -55,13 +55,13 @@ class LawObstacles {
     Obstacles result{-free_, Eigen::VectorXd::Zero(free_.size())};
     for (int l = 0; l < free_.size(); ++l) {
       const AnyContactLaw& law = system_.law_at(l);
-      result.opening[l] += law.gap();
+      result.gap_without_force[l] += law.gap();
       if (!std::isfinite(law.gap())) continue;
       const double u = force[l] > 0.0 ? inverse(law, force[l]) : law.gap(), penetration = u - law.gap();
       // If the law is too steep for double precision at this force, its secant is used.
       const bool resolved = std::abs(law.force(u) - force[l]) <= 0.5 * force[l];
       result.flexibility[l] = resolved ? 1.0 / law.tangent(u) : penetration / force[l];
-      if (force[l] > 0.0) result.opening[l] += penetration - force[l] * result.flexibility[l];
+      if (force[l] > 0.0) result.gap_without_force[l] += penetration - force[l] * result.flexibility[l];
     }
     return result;
   }

@@ -32,7 +32,7 @@ LcpHomotopy::LcpHomotopy(CondensedProblem& problem, const ComplementarityOptions
   path_.limit_operations(options_.max_operations);
   if (observer)
     path_.set_observer([this, observer = std::move(observer)](double height) {
-      cancelled_ = !observer({"lowering the obstacle", path_.corners(), height, "height over the first"});
+      cancelled_ = !observer({"lowering the obstacle", path_.pivots(), height, "height over the first"});
       return !cancelled_;
     });
 }
@@ -45,7 +45,7 @@ SolveStatus LcpHomotopy::status() const {
 
 // In units in which openings are about 1, so that products of the largest and the smallest stay in range.
 Obstacles LcpHomotopy::scaled(const Obstacles& goal, double least) const {
-  return {goal.opening / scale_, goal.flexibility.cwiseMax(least)};
+  return {goal.gap_without_force / scale_, goal.flexibility.cwiseMax(least)};
 }
 
 void LcpHomotopy::keep(double flexibility) {
@@ -54,9 +54,9 @@ void LcpHomotopy::keep(double flexibility) {
   force_ = scale_ * path_.force();
 }
 
-bool LcpHomotopy::lower(const Obstacles& goal, double flexibility, const Eigen::VectorXd& cover) {
+bool LcpHomotopy::lower(const Obstacles& goal, double flexibility, const Eigen::VectorXd& covering_vector) {
   level_ = std::max(least_, flexibility);
-  return !cancelled_ && path_.lower(scaled(goal, level_), cover) == End::reached;
+  return !cancelled_ && path_.lower(scaled(goal, level_), covering_vector) == End::reached;
 }
 
 bool LcpHomotopy::arrived(const Obstacles& goal) const {
@@ -92,16 +92,16 @@ Strategy LcpHomotopy::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
   };
   const int samples = static_cast<int>(even.size());
   const double soft = largest_compliance_;
-  path_.set_longest_leg(long_segment(samples));
+  path_.set_max_segment(long_segment(samples));
   if (lower(goal, soft, even)) {
     const ComplementarityPath::State start = path_.state();
     for (const auto& [strategy, length, smallest] :
          {Segments{Strategy::soft_obstacle, 1, 1.2}, {Strategy::long_segments, 4, 1.2},
           {Strategy::small_factors, 1, 1.02}}) {
-      path_.set_longest_leg(length * short_segment(samples));
+      path_.set_max_segment(length * short_segment(samples));
       if (stiffen(goal, 3.0, smallest)) return strategy;
     }
-    path_.set_longest_leg(long_segment(samples));
+    path_.set_max_segment(long_segment(samples));
     path_.restore(start);
     level_ = std::max(least_, soft);
     if (stiffen(goal, 10.0, 10.0)) return Strategy::fixed_factor;
@@ -111,7 +111,7 @@ Strategy LcpHomotopy::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
 
 // With obstacles whose height varies at random from sample to sample, from random flexibilities by random factors.
 Strategy LcpHomotopy::random_paths(const Obstacles& goal, const Eigen::VectorXd& even) {
-  path_.set_longest_leg(random_segment(static_cast<int>(even.size())));
+  path_.set_max_segment(random_segment(static_cast<int>(even.size())));
   path_.limit_operations(options_.max_random_operations);
   std::mt19937 generator(20140817);
   const auto power = [&](double low, double high) {
@@ -119,18 +119,18 @@ Strategy LcpHomotopy::random_paths(const Obstacles& goal, const Eigen::VectorXd&
   };
   for (int i = 0; i < options_.max_random_paths && !cancelled_ && path_.may_go_on(); ++i) {
     std::uniform_real_distribution<double> spread(-power(-2.0, -0.3), 0.0);
-    const Eigen::VectorXd cover = even.unaryExpr([&](double one) { return one + spread(generator); });
+    const Eigen::VectorXd covering_vector = even.unaryExpr([&](double one) { return one + spread(generator); });
     const double soft = i % 3 == 2 ? 0.0 : largest_compliance_ * power(-3.0, 1.0);
-    if (lower(goal, soft, cover) && stiffen(goal, power(0.3, 2.0), 1.5)) return Strategy::random_obstacles;
+    if (lower(goal, soft, covering_vector) && stiffen(goal, power(0.3, 2.0), 1.5)) return Strategy::random_obstacles;
   }
   return Strategy::none;
 }
 
 bool LcpHomotopy::solve(const Obstacles& goal) {
   force_.resize(0);
-  scale_ = largest_finite(goal.opening);
+  scale_ = largest_finite(goal.gap_without_force);
   if (scale_ == 0.0) scale_ = 1.0;
-  const Eigen::VectorXd even = Eigen::VectorXd::Ones(goal.opening.size());
+  const Eigen::VectorXd even = Eigen::VectorXd::Ones(goal.gap_without_force.size());
   strategy_ = even_paths(goal, even);
   if (strategy_ == Strategy::none) strategy_ = random_paths(goal, even);
   return strategy_ != Strategy::none;

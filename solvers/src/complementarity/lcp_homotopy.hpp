@@ -29,11 +29,11 @@ class LcpHomotopy {
   const Eigen::VectorXd& force() const { return force_; }  ///< N
   double flexibility() const { return reached_; }          ///< m/N, down to which obstacles were stiffened
   double condition() const { return condition_; }          ///< of its last system, see ComplementarityPath
-  int pivots() const { return path_.corners(); }
+  int pivots() const { return path_.pivots(); }
 
  private:
   Obstacles scaled(const Obstacles& goal, double least) const;
-  bool lower(const Obstacles& goal, double flexibility, const Eigen::VectorXd& cover);
+  bool lower(const Obstacles& goal, double flexibility, const Eigen::VectorXd& covering_vector);
   bool arrived(const Obstacles& goal) const;
   bool stiffen(const Obstacles& goal, double factor, double smallest);
   Strategy even_paths(const Obstacles& goal, const Eigen::VectorXd& even);

@@ -18,7 +18,7 @@ void FrequencyParameter::set(ContactSystem& system, double p) const { system.pro
 
 void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
   system.problem().apply_slope(system.force(), slope);
-  slope -= system.problem().free_response_slope();
+  slope -= system.problem().contact_free_response_slope();
 }
 
 void ArcLengthOptions::validate() const {
@@ -78,33 +78,33 @@ ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p
   along.parameter_tangent = direction * options_.parameter_scale;
   previous_ = point_;
   last_step_ = 0.0;
-  crossed_ = false;
-  pieces_left_ = watched_ = 0.0;
-  last_operation_ = system_.operations() + options_.max_operations;
+  orientation_unknown_ = false;
+  piecewise_arc_length_ = reversal_step_ = 0.0;
+  operation_limit_ = system_.operations() + options_.max_operations;
   return tangent_at(point_, along) ? Status::advanced : Status::no_point;
 }
 
 double ArcLength::Plane::miss(const CurvePoint& point) const {
-  return row.dot(point.displacement) + corner * point.parameter - offset;
+  return row.dot(point.displacement) + parameter * point.parameter - offset;
 }
 
-double ArcLength::evaluate(const CurvePoint& point, const Sides* sides) {
+double ArcLength::evaluate(const CurvePoint& point, const ActiveMask* sides) {
   parameter_.set(system_, point.parameter);
   return sides ? system_.evaluate(point.displacement, *sides) : system_.evaluate(point.displacement);
 }
 
 // Newton on R = 0 in the plane, on the smooth continuation of one piece when its sides are given.
-bool ArcLength::solve_in(const Plane& plane, const Sides* sides, CurvePoint& point, int& corrections) {
+bool ArcLength::solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections) {
   double parameter_change = 0.0;
   const int most = sides ? options_.max_corrections : (options_.max_corrections + 1) / 2;
   for (corrections = 0; corrections <= most; ++corrections) {
-    if (!parameter_.contains(point.parameter) || system_.operations() > last_operation_) return false;
+    if (!parameter_.contains(point.parameter) || system_.operations() > operation_limit_) return false;
     point.residual = evaluate(point, sides);
     if (!std::isfinite(point.residual)) return false;
     const double miss = plane.miss(point);
     if (point.residual <= options_.tolerance && std::abs(miss) <= plane.tolerance) return true;
     parameter_.slope(system_, slope_);
-    if (!system_.factorize_bordered(slope_, plane.row, plane.corner)) return false;
+    if (!system_.factorize_bordered(slope_, plane.row, plane.parameter)) return false;
     if (!system_.solve_bordered(system_.residual(), miss, change_, parameter_change)) return false;
     point.displacement -= change_;
     point.parameter -= parameter_change;
@@ -120,7 +120,7 @@ CurvePoint ArcLength::ahead(const CurvePoint& from, double step) const {
 }
 
 // The point in the plane at distance `step` along the tangent of `from`, with its tangent.
-bool ArcLength::correct(const CurvePoint& from, double step, const Sides* sides, CurvePoint& to,
+bool ArcLength::correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to,
                         int& corrections) {
   to = ahead(from, step);
   Plane plane{scaled(from.displacement_tangent),
@@ -134,8 +134,8 @@ bool ArcLength::is_at_gap(const CurvePoint& point, int sample) const {
 }
 
 // On which side of the gap the curve goes on: a sample at its gap has been turned there.
-Sides ArcLength::sides_of(const CurvePoint& point) const {
-  Sides sides(point.displacement.size());
+ActiveMask ArcLength::sides_of(const CurvePoint& point) const {
+  ActiveMask sides(point.displacement.size());
   for (int l = 0; l < sides.size(); ++l)
     sides[l] =
         is_at_gap(point, l) ? point.displacement_tangent[l] > 0.0 : point.displacement[l] > system_.gap_at(l);
@@ -157,27 +157,27 @@ bool ArcLength::is_ahead(const CurvePoint& candidate) const {
   return inner(point_, candidate) >= least && inner(point_, way) >= least * std::sqrt(inner(way, way));
 }
 
-void ArcLength::accept(CurvePoint&& candidate, const Sides& sides) {
+void ArcLength::accept(CurvePoint&& candidate, const ActiveMask& sides) {
   last_step_ = inner(point_, chord(candidate));
   last_sides_ = sides;
-  crossed_ = crossed_ || candidate.orientation * point_.orientation < 0;
+  orientation_unknown_ = orientation_unknown_ || candidate.orientation * point_.orientation < 0;
   previous_ = std::move(point_);
   point_ = std::move(candidate);
 }
 
 ArcLength::Status ArcLength::advance() {
-  const bool far = !crossed_ && pieces_left_ <= 0.0 && options_.corners != Corners::every;
+  const bool far = !orientation_unknown_ && piecewise_arc_length_ <= 0.0 && options_.grazing_events != GrazingEvents::all;
   if (far && step_far()) return Status::advanced;
   if (!step_in_piece()) return Status::no_point;
   const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
-  pieces_left_ = turned ? watched_ : pieces_left_ - last_step_;
+  piecewise_arc_length_ = turned ? reversal_step_ : piecewise_arc_length_ - last_step_;
   return Status::advanced;
 }
 
 // A turn over corners, or the first or last touch, is followed piece by piece: there the curve turns at a
 // corner.
 bool ArcLength::turns_unseen(const CurvePoint& candidate) const {
-  const Sides here = sides_of(point_), there = sides_of(candidate);
+  const ActiveMask here = sides_of(point_), there = sides_of(candidate);
   if ((here == there).all()) return false;
   return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || here.any() != there.any();
 }
@@ -193,12 +193,12 @@ bool ArcLength::step_far() {
   for (; step_ >= options_.min_step; step_ *= 0.5) {
     const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
     if (found && candidate.orientation * point_.orientation >= 0) {
-      if (options_.corners != Corners::where_needed && turns_unseen(candidate)) {
+      if (options_.grazing_events != GrazingEvents::where_needed && turns_unseen(candidate)) {
         const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
-        if (turns && sides_of(point_).any()) pieces_left_ = watched_ = step_;
+        if (turns && sides_of(point_).any()) piecewise_arc_length_ = reversal_step_ = step_;
         return false;
       }
-      accept(std::move(candidate), Sides());
+      accept(std::move(candidate), ActiveMask());
       const double growth = corrections < comfortable_corrections    ? 1.6
                             : corrections == comfortable_corrections ? 1.1
                                                                      : 0.6;
@@ -217,7 +217,7 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, Cu
   detail::Bracket bracket{0.0, 1.0, value(previous_), value(point_)};
   if (!bracket.has_sign_change() || last_step_ == 0.0) return false;
   int corrections = 0;
-  const Sides* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
+  const ActiveMask* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
   const auto value_at = [&](double fraction) -> std::optional<double> {
     if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return std::nullopt;
     return value(point);

@@ -87,12 +87,12 @@ Eigen::VectorXd ActiveInverse::leave(int member) {
   return column;
 }
 
-void ActiveInverse::tidy() {
-  if (terms_ == most_terms) settle();
+void ActiveInverse::apply_pending_updates() {
+  if (terms_ == most_terms) compact();
 }
 
 Eigen::Ref<const Eigen::MatrixXd> ActiveInverse::matrix() {
-  settle();
+  compact();
   return base_.topLeftCorner(size(), size());
 }
 
@@ -104,7 +104,7 @@ void ActiveInverse::make_room() {
   right_.conservativeResize(larger, most_terms);
 }
 
-void ActiveInverse::settle() {
+void ActiveInverse::compact() {
   const Eigen::Index n = size();
   base_.topLeftCorner(n, n).noalias() +=
       right_.topLeftCorner(n, terms_) * left_.topLeftCorner(n, terms_).transpose();

@@ -4,13 +4,12 @@
 
 namespace wavebalance::solvers {
 
-/// Inverse of the block of a matrix over a set of its rows and columns, the members, while they enter and
-/// leave one by one. Vectors run over slots, one a member and some left empty by those that went: what a
-/// result says there is of no meaning, and zero is to be given there.
+/// Inverse of the block of a matrix over a set of its rows and columns, the members, which enter and leave one by one.
+/// Vectors are indexed by slot. Slots of removed members stay empty: inputs must be zero there, outputs are undefined.
 ///
-/// Each change is a term of rank one. Terms are gathered and added to the inverse in one product, as it is
-/// the passes over the inverse in memory that take the time: two for a member that enters, none for one that
-/// leaves. n slots, k terms gathered.
+/// Each change is a term of rank one. Terms are collected and added to the inverse in one product, because passes over
+/// the inverse in memory take most of the time. In the costs below n is the number of slots and k that of the terms
+/// collected.
 class ActiveInverse {
  public:
   /// For members out of 0..total-1.
@@ -29,13 +28,13 @@ class ActiveInverse {
 
   /// Values at the members out of those of all, zero in empty slots.
   Eigen::VectorXd gather(const Eigen::VectorXd& all) const;
-  /// inverse * right, and with its transpose; n x any. O(n^2) a column.
+  /// inverse * right, and with its transpose; n x any. O(n^2) per column.
   Eigen::MatrixXd times(const Eigen::MatrixXd& right) const;
   Eigen::MatrixXd transposed_times(const Eigen::MatrixXd& right) const;
 
   /// Adds the terms gathered once they are as many as are kept, and closes gaps: slots change here alone and
   /// in matrix(). To be called before each change. O(n^2 k), once in k changes.
-  void tidy();
+  void apply_pending_updates();
   /// Takes in `member` by the Schur complement `pivot` of its diagonal entry, right = inverse * column and
   /// left = inverse^T row of its entries. O(n).
   void enter(int member, const Eigen::VectorXd& right, const Eigen::VectorXd& left, double pivot);
@@ -47,7 +46,7 @@ class ActiveInverse {
 
  private:
   void make_room();
-  void settle();
+  void compact();
   void close_gaps();
 
   std::vector<int> members_, slots_;  // the slot of each member of all, or -1

@@ -24,7 +24,7 @@ ModeSolver::ModeSolver(const NonlinearMode& mode, double omega)
       samples_(mode.options().samples),
       unknowns_(mode.model().contacts() * mode.options().samples) {}
 
-std::vector<int> ModeSolver::orbit(int index) const {
+std::vector<int> ModeSolver::time_mirror(int index) const {
   const int time = index % samples_;
   const int mirrored = time == 0 ? 0 : samples_ - time;
   if (!mode_.options().cosine_only || mirrored == time) return {index};
@@ -56,7 +56,7 @@ double ModeSolver::compliance(int a, int b) const {
 bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& force) {
   std::vector<int> representatives;
   for (const int index : active)
-    if (orbit(index).size() == 1 || index % samples_ <= samples_ / 2) representatives.push_back(index);
+    if (time_mirror(index).size() == 1 || index % samples_ <= samples_ / 2) representatives.push_back(index);
   const auto count = static_cast<Eigen::Index>(representatives.size());
   Eigen::MatrixXd matrix(count, count);
   Eigen::VectorXd right(count);
@@ -65,7 +65,7 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
     right[i] = -mode_.model().gaps[row / samples_];
     for (Eigen::Index j = 0; j < count; ++j) {
       matrix(i, j) = 0.0;
-      for (const int column : orbit(representatives[static_cast<std::size_t>(j)]))
+      for (const int column : time_mirror(representatives[static_cast<std::size_t>(j)]))
         matrix(i, j) += compliance(row, column);
     }
   }
@@ -73,7 +73,7 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
   const Eigen::VectorXd values = lu.solve(right);
   force.setZero(unknowns_);
   for (Eigen::Index i = 0; i < count; ++i)
-    for (const int index : orbit(representatives[static_cast<std::size_t>(i)])) force[index] = values[i];
+    for (const int index : time_mirror(representatives[static_cast<std::size_t>(i)])) force[index] = values[i];
   constexpr double tiny = 1e-13;
   return values.allFinite() && !lu.is_singular(tiny);
 }
@@ -91,17 +91,17 @@ std::vector<int> ModeSolver::exchanges(const std::vector<int>& active, const Eig
                                        bool worst_only) const {
   std::vector<int> all;
   double worst = 0.0;
-  std::vector<int> worst_orbit;
+  std::vector<int> worst_mirror;
   for (int index = 0; index < unknowns_; ++index) {
     const double value = violation(index, force, active);
     if (!(value > 0.0)) continue;
     all.push_back(index);
     if (value > worst) {
       worst = value;
-      worst_orbit = orbit(index);
+      worst_mirror = time_mirror(index);
     }
   }
-  return worst_only ? worst_orbit : all;
+  return worst_only ? worst_mirror : all;
 }
 
 ModePoint ModeSolver::solve(int harmonics, const std::vector<int>& start) {

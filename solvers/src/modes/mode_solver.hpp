@@ -18,7 +18,7 @@ class ModeSolver {
 
  private:
   // Samples that must carry the same force: one, or with cosine_only also its mirror in time.
-  std::vector<int> orbit(int index) const;
+  std::vector<int> time_mirror(int index) const;
   void assemble_lags(int harmonics);
   double compliance(int a, int b) const;  // between samples a and b (contact * m + time)
   bool solve_forces(const std::vector<int>& active, Eigen::VectorXd& force);

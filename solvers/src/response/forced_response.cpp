@@ -106,7 +106,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   require_start(problem, guess);
   ContactSystem system(problem, laws);
   Candidate candidate =
-      try_newton(system, guess.size() != 0 ? guess : problem.free_response(), Strategy::newton, options);
+      try_newton(system, guess.size() != 0 ? guess : problem.contact_free_response(), Strategy::newton, options);
   int iterations = candidate.newton.iterations;
   const bool cancelled = candidate.newton.status == SolveStatus::cancelled;
   if (!candidate.converged() && !cancelled && options.complementarity)

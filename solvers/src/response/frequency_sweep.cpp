@@ -66,7 +66,7 @@ class Sweep {
       result_ = {};
       trace();
       const bool again =
-          result_.status == SweepStatus::unbounded && options_.arc_length.corners != Corners::every;
+          result_.status == SweepStatus::unbounded && options_.arc_length.grazing_events != GrazingEvents::all;
       if (!again) break;
     }
     const double interval = std::abs(options_.to - options_.from);
@@ -121,7 +121,7 @@ class Sweep {
 
   // With the contact-free response of the frequency last measured.
   bool has_grown_past_bounds() {
-    largest_free_ = std::max(largest_free_, problem_.free_response().cwiseAbs().maxCoeff());
+    largest_free_ = std::max(largest_free_, problem_.contact_free_response().cwiseAbs().maxCoeff());
     const double gap = system_.laws().largest_gap();
     return gap > 0.0 && result_.points.back().max_abs_displacement > bound * std::max(gap, largest_free_);
   }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "linalg/option_checks.hpp"
-#include "response/rung_distance.hpp"
+#include "response/error_estimate.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -192,7 +192,7 @@ class Ladder {
 
   void estimate(LadderRung& rung, CondensedProblem& problem, const PeriodicResponse& response) {
     const LadderRung& before = *solved_;
-    const RungDistance distance = rung_distance(*result_.problem, result_.response, problem, response);
+    const LevelDifference distance = level_difference(*result_.problem, result_.response, problem, response);
     rung.change = distance.whole();
     const double functions = double(rung.functions) / before.functions;
     const double points = double(rung.points) / before.points;

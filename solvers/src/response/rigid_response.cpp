@@ -37,7 +37,7 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   const auto count = static_cast<Eigen::Index>(active.size());
   Eigen::MatrixXd matrix(count, count);
   fill_active_compliance(problem, active, matrix);
-  const Eigen::VectorXd right = (problem.free_response() - gap)(active);
+  const Eigen::VectorXd right = (problem.contact_free_response() - gap)(active);
   const double unit = matrix.cwiseAbs().maxCoeff();  // compliances below 1e-154 m/N have squares that vanish
   const Eigen::VectorXd values = detail::least_squares(matrix / unit, right) / unit;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(start.size());
@@ -45,7 +45,7 @@ std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eig
   Eigen::VectorXd product(start.size());
   problem.apply(force, product);
   if (!force.allFinite() || values.minCoeff() < 0.0) return std::nullopt;
-  if (!(violation(problem.free_response() - product - gap, force) <= tolerance)) return std::nullopt;
+  if (!(violation(problem.contact_free_response() - product - gap, force) <= tolerance)) return std::nullopt;
   return force;
 }
 
@@ -62,7 +62,7 @@ void require_gaps(const CondensedProblem& problem, const Eigen::VectorXd& gaps) 
 void solve_contact(CondensedProblem& problem, const Eigen::VectorXd& gap, const RigidResponseOptions& options,
                    RigidResponse& result) {
   PeriodicResponse& response = result.response;
-  const Eigen::VectorXd& free = problem.free_response();
+  const Eigen::VectorXd& free = problem.contact_free_response();
   const double size = std::max(free.cwiseAbs().maxCoeff(), (free - gap).maxCoeff());
   LcpHomotopy obstacles(problem, options.paths, options.observer);
   const bool found = obstacles.solve({gap - free, Eigen::VectorXd::Zero(free.size())});
@@ -116,7 +116,7 @@ RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& g
   RigidResponse result;
   PeriodicResponse& response = result.response;
   response.frequency = problem.frequency();
-  response.displacement = problem.free_response();
+  response.displacement = problem.contact_free_response();
   response.contact_force = Eigen::VectorXd::Zero(problem.samples());
   if ((response.displacement - gap).maxCoeff() <= 0.0) {
     response.status = SolveStatus::converged;

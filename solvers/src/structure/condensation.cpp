@@ -100,17 +100,17 @@ StiffnessScale::StiffnessScale(const LinearStructure& structure)
     : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
                largest_entry(structure.stiffness)} {}
 
-double StiffnessScale::size(const StiffnessFactors& factors) const {
+double StiffnessScale::size(const ImpedanceCoefficients& factors) const {
   return std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
          std::abs(factors[2]) * largest_[2];
 }
 
-double StiffnessScale::condition(const StiffnessFactors& factors, double solution_norm,
+double StiffnessScale::condition(const ImpedanceCoefficients& factors, double solution_norm,
                                  double right_norm) const {
   return right_norm > 0.0 ? size(factors) * (solution_norm / right_norm) : 0.0;
 }
 
-double StiffnessScale::require_regular(const StiffnessFactors& factors,
+double StiffnessScale::require_regular(const ImpedanceCoefficients& factors,
                                        const Eigen::Ref<const Eigen::VectorXcd>& solution,
                                        double right_norm) const {
   const double found = condition(factors, safe_norm(solution), right_norm);
@@ -130,8 +130,8 @@ Condensation::~Condensation() = default;
 int Condensation::size() const { return method_->size(); }
 int Condensation::contacts() const { return method_->contacts(); }
 
-CondensedPoint Condensation::at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
-  return method_->at(factors, rates);
+CondensedPoint Condensation::dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
+  return method_->dynamic_compliance(factors, rates);
 }
 
 void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
@@ -148,7 +148,7 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
                                     CondensedSpectrum& result) {
   for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
     const CondensedPoint point =
-        at({factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
+        dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
     result.compliance.row(k) = point.compliance.reshaped().transpose();
     result.load_response.row(k) = point.load_response.transpose();
     result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
@@ -156,7 +156,7 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
   }
 }
 
-Eigen::VectorXcd Condensation::recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+Eigen::VectorXcd Condensation::recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                                        const Eigen::VectorXcd& contact_forces) {
   return method_->recover(factors, load_amplitude, contact_forces);
 }

@@ -9,7 +9,7 @@ class DenseMethod final : public DirectMethod {
   using DirectMethod::DirectMethod;
 
  private:
-  void factorize(const StiffnessFactors& factors) override {
+  void factorize(const ImpedanceCoefficients& factors) override {
     solver_.compute(Eigen::MatrixXcd(combine(factors)));
   }
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const override { return solver_.solve(right); }

@@ -4,7 +4,7 @@
 
 namespace wavebalance::solvers {
 
-CondensedPoint DirectMethod::at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
   factorize(factors);
   const int count = contacts();
   Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size(), count + 1);
@@ -17,7 +17,7 @@ CondensedPoint DirectMethod::at(const StiffnessFactors& factors, const Stiffness
   return {at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count), slope.col(count)};
 }
 
-Eigen::VectorXcd DirectMethod::recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                                        const Eigen::VectorXcd& contact_forces) {
   factorize(factors);
   Eigen::VectorXcd force = structure_.load * load_amplitude;
@@ -27,7 +27,7 @@ Eigen::VectorXcd DirectMethod::recover(const StiffnessFactors& factors, std::com
   return response;
 }
 
-DirectMethod::SparseComplex DirectMethod::combine(const StiffnessFactors& s) const {
+DirectMethod::SparseComplex DirectMethod::combine(const ImpedanceCoefficients& s) const {
   using Complex = std::complex<double>;
   SparseComplex sum = structure_.mass.cast<Complex>() * s[0] + structure_.damping.cast<Complex>() * s[1] +
                       structure_.stiffness.cast<Complex>() * s[2];

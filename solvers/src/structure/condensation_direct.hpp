@@ -14,16 +14,16 @@ class DirectMethod : public Condensation::Method {
 
   int size() const override { return structure_.size(); }
   int contacts() const override { return structure_.contacts(); }
-  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override;
-  Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override;
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                            const Eigen::VectorXcd& contact_forces) override;
 
  protected:
   /// s2 M + s1 C + s0 K.
-  SparseComplex combine(const StiffnessFactors& s) const;
+  SparseComplex combine(const ImpedanceCoefficients& s) const;
 
  private:
-  virtual void factorize(const StiffnessFactors& factors) = 0;
+  virtual void factorize(const ImpedanceCoefficients& factors) = 0;
   virtual Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const = 0;
 
   LinearStructure structure_;

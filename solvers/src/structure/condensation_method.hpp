@@ -14,11 +14,11 @@ class Condensation::Method {
   virtual ~Method() = default;
   virtual int size() const = 0;
   virtual int contacts() const = 0;
-  virtual CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) = 0;
+  virtual CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) = 0;
   /// Point by point unless a method knows better; the results have their size.
   virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                         CondensedSpectrum& result);
-  virtual Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+  virtual Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                                    const Eigen::VectorXcd& contact_forces) = 0;
 
   /// The largest lower bound of a condition number met since it was forgotten.
@@ -40,12 +40,12 @@ class StiffnessScale {
   /// Largest entries of M, C and K.
   const std::array<double, 3>& largest() const { return largest_; }
   /// |s2| max|M| + |s1| max|C| + |s0| max|K|.
-  double size(const StiffnessFactors& factors) const;
+  double size(const ImpedanceCoefficients& factors) const;
   /// scale ||x|| / ||b|| for Z x = b: what the size of x says of the condition number of Z.
-  double condition(const StiffnessFactors& factors, double solution_norm, double right_norm) const;
+  double condition(const ImpedanceCoefficients& factors, double solution_norm, double right_norm) const;
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
   /// working precision makes it, or not finite. Returns condition(). O(n).
-  double require_regular(const StiffnessFactors& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
+  double require_regular(const ImpedanceCoefficients& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
                          double right_norm) const;
 
  private:

@@ -74,7 +74,7 @@ class ModalMethod final : public Condensation::Method {
   int size() const override { return static_cast<int>(load_.size()); }
   int contacts() const override { return static_cast<int>(contacts_.rows()); }
 
-  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override {
     const Eigen::ArrayXcd compliance = invert(factors);
     const Eigen::ArrayXcd slope = -compliance.square() * combine(rates);
     const Eigen::Index count = contacts_.rows();
@@ -93,7 +93,7 @@ class ModalMethod final : public Condensation::Method {
     return point;
   }
 
-  Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, Complex load_amplitude,
                            const Eigen::VectorXcd& contact_forces) override {
     const Eigen::VectorXcd force = load_ * load_amplitude - contacts_.transpose() * contact_forces;
     return modes_.shapes * (invert(factors) * force.array()).matrix();
@@ -105,13 +105,13 @@ class ModalMethod final : public Condensation::Method {
     return parts.topRows(count) + Complex(0.0, 1.0) * parts.bottomRows(count);
   }
 
-  Eigen::ArrayXcd combine(const StiffnessFactors& s) const {
+  Eigen::ArrayXcd combine(const ImpedanceCoefficients& s) const {
     return (s[0] * modes_.mass + s[1] * modes_.damping + s[2] * modes_.stiffness).array();
   }
 
-  // 1 / (s2 m_j + s1 c_j + s0 k_j). A mode is as singular as its share |x|^2 / d of Z^-1 is large: natural
-  // frequencies are known no better than the entries of the matrices.
-  Eigen::ArrayXcd invert(const StiffnessFactors& factors) {
+  // 1 / (s2 m_j + s1 c_j + s0 k_j). A mode is singular if its term |x|^2 / d of Z^-1 exceeds 1/eps of the scale: its
+  // natural frequency is uncertain by rounding of M and K.
+  Eigen::ArrayXcd invert(const ImpedanceCoefficients& factors) {
     const Eigen::ArrayXcd inverse = combine(factors).inverse();
     record(scale_.require_regular(factors, inverse * sizes_, 1.0));
     return inverse;

@@ -36,9 +36,9 @@ class ScaledMethod final : public Condensation::Method {
   int size() const override { return method_->size(); }
   int contacts() const override { return method_->contacts(); }
 
-  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override {
     const double unit = unit_of(scale_.size(factors));
-    CondensedPoint point = method_->at(in_units(factors, unit), in_units(rates, unit));
+    CondensedPoint point = method_->dynamic_compliance(in_units(factors, unit), in_units(rates, unit));
     take_condition();
     const double per_unit = 1.0 / unit;  // Eigen divides by the square of a complex divisor, which overflows
     point.compliance *= per_unit;
@@ -55,14 +55,14 @@ class ScaledMethod final : public Condensation::Method {
     take_condition();
   }
 
-  Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                            const Eigen::VectorXcd& contact_forces) override {
     const double unit = unit_of(scale_.size(factors));
     return method_->recover(in_units(factors, unit), load_amplitude, contact_forces) * (1.0 / unit);
   }
 
  private:
-  StiffnessFactors in_units(const StiffnessFactors& s, double unit) const {
+  ImpedanceCoefficients in_units(const ImpedanceCoefficients& s, double unit) const {
     return {s[0] * (units_[0] / unit), s[1] * (units_[1] / unit), s[2] * (units_[2] / unit)};
   }
 

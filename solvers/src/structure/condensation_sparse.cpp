@@ -12,7 +12,7 @@ class SparseMethod final : public DirectMethod {
   }
 
  private:
-  void factorize(const StiffnessFactors& factors) override {
+  void factorize(const ImpedanceCoefficients& factors) override {
     solver_.factorize(combine(factors));
     if (solver_.info() != Eigen::Success)
       throw SingularSystem("the dynamic stiffness is singular: " + solver_.lastErrorMessage());

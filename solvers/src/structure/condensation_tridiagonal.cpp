@@ -51,9 +51,9 @@ class TridiagonalMethod final : public Condensation::Method {
   int size() const override { return static_cast<int>(load_.size()); }
   int contacts() const override { return static_cast<int>(contacts_.size()); }
 
-  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) override {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override {
     if (!factorize(factors)) {
-      const CondensedPoint point = pivoting().at(factors, rates);
+      const CondensedPoint point = pivoting().dynamic_compliance(factors, rates);
       record(pivoting().condition());
       return point;
     }
@@ -87,7 +87,7 @@ class TridiagonalMethod final : public Condensation::Method {
                               std::abs(result.compliance(k, 0)), 1.0));
   }
 
-  Eigen::VectorXcd recover(const StiffnessFactors& factors, Complex load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, Complex load_amplitude,
                            const Eigen::VectorXcd& contact_forces) override {
     if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_forces);
     Eigen::VectorXcd response = load_ * load_amplitude;
@@ -108,7 +108,7 @@ class TridiagonalMethod final : public Condensation::Method {
 
   // L D L^T without pivoting, as for a definite matrix. False when a pivot nearly vanishes: the matrix is
   // singular, or the part of the structure before that row is at a natural frequency of its own.
-  bool factorize(const StiffnessFactors& s) {
+  bool factorize(const ImpedanceCoefficients& s) {
     const int n = size();
     for (int i = 0; i < n; ++i)
       diagonal_[i] = s[0] * mass_.diagonal[i] + s[1] * damping_.diagonal[i] + s[2] * stiffness_.diagonal[i];
@@ -126,7 +126,7 @@ class TridiagonalMethod final : public Condensation::Method {
   }
 
   // By columns of Z^-1 at the contacts, left in units_.
-  void set_compliance(const StiffnessFactors& factors, const StiffnessFactors& rates, CondensedPoint& point) {
+  void set_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates, CondensedPoint& point) {
     point.compliance.resize(contacts(), contacts());
     point.compliance_slope.resize(contacts(), contacts());
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -158,7 +158,7 @@ class TridiagonalMethod final : public Condensation::Method {
   }
 
   // x^T (d2 M + d1 C + d0 K) y, no conjugation.
-  Complex product(const Eigen::VectorXcd& x, const StiffnessFactors& d, const Eigen::VectorXcd& y) const {
+  Complex product(const Eigen::VectorXcd& x, const ImpedanceCoefficients& d, const Eigen::VectorXcd& y) const {
     Complex sum = 0.0;
     for (int i = 0; i < size(); ++i) {
       const Complex entry =

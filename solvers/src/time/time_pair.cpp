@@ -95,7 +95,7 @@ Eigen::VectorXcd TimePair::sampled_symbol(int derivative) const {
   const auto spectrum = [&](const AnyTimeBasis& basis, const Eigen::VectorXcd& values, int order) {
     return order == 0 ? values : sampled_spectrum(basis, points_, order);
   };
-  TranslateIndex{functions_, points_}.fold(spectrum(weight_, weight_spectrum_, on_weight),
+  AliasMap{functions_, points_}.fold(spectrum(weight_, weight_spectrum_, on_weight),
                                            spectrum(trial_, trial_spectrum_, on_trial), symbol);
   const double sign = on_weight % 2 == 0 ? 1.0 : -1.0;
   return symbol * (sign * functions_ / points_ / points_);
@@ -124,11 +124,11 @@ Eigen::VectorXcd TimePair::exact_symbol(int derivative) const {
 }
 
 void TimePair::spread(const Eigen::VectorXcd& coefficients, Eigen::VectorXcd& sample_spectrum) const {
-  TranslateIndex{functions_, points_}.replicate(trial_spectrum_, coefficients, sample_spectrum);
+  AliasMap{functions_, points_}.replicate(trial_spectrum_, coefficients, sample_spectrum);
 }
 
 void TimePair::project(const Eigen::VectorXcd& sample_spectrum, Eigen::VectorXcd& projection) const {
-  TranslateIndex{functions_, points_}.fold(weight_spectrum_, sample_spectrum, projection);
+  AliasMap{functions_, points_}.fold(weight_spectrum_, sample_spectrum, projection);
   projection *= static_cast<double>(functions_) / points_ / points_;
 }
 

@@ -28,7 +28,7 @@ int fine_points(const AnyTimeBasis& basis, int points) {
 
 }  // namespace
 
-void TranslateIndex::replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& translates,
+void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& translates,
                                Eigen::VectorXcd& out) const {
   const int size = points / 2 + 1;
   out.resize(size);
@@ -41,7 +41,7 @@ void TranslateIndex::replicate(const Eigen::VectorXcd& factor, const Eigen::Vect
   }
 }
 
-void TranslateIndex::fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples,
+void AliasMap::fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples,
                           Eigen::VectorXcd& out) const {
   const int size = points / 2 + 1;
   const int stored = functions / 2 + 1;

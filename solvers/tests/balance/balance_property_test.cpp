@@ -69,7 +69,7 @@ RC_GTEST_PROP(TimePairProperty, InnerProductsAreCirculantWithTheSymbolAsSpectrum
 RC_GTEST_PROP(TranslateIndexProperty, FoldIsTheAdjointOfReplicate, ()) {
   std::mt19937 generator = random_generator();
   const int functions = *rc::gen::inRange(1, 20), points = functions * *rc::gen::inRange(1, 6);
-  const TranslateIndex index{functions, points};
+  const AliasMap index{functions, points};
   const Eigen::VectorXcd factor = real_spectrum(points, generator),
                          samples = real_spectrum(points, generator),
                          translates = real_spectrum(functions, generator);
@@ -134,7 +134,7 @@ RC_GTEST_PROP(ForcedResponseProperty, ShiftedLoadShiftsTheResponse, ()) {
   CondensedProblem first(pair, chain, harmonics), second(pair, chain, later);
   first.set_frequency(0.04);
   second.set_frequency(0.04);
-  const testing::ExponentialLaw law{0.5, 0.3, 0.5 * first.free_response().maxCoeff()};
+  const testing::ExponentialLaw law{0.5, 0.3, 0.5 * first.contact_free_response().maxCoeff()};
   const PeriodicResponse response = forced_response(first, law, {});
   RC_PRE(response.converged());
   RC_ASSERT(response.contact_force.maxCoeff() > 0.0);
@@ -149,7 +149,7 @@ RC_GTEST_PROP(ForcedResponseProperty, OutOfReachOfTheObstacleItIsTheLinearRespon
   const PeriodicResponse without = forced_response(problem, AnyContactLaw(), {});
   const PeriodicResponse with = forced_response(problem, far, {});
   RC_ASSERT(without.converged() && with.converged());
-  RC_ASSERT(with.displacement == problem.free_response());
+  RC_ASSERT(with.displacement == problem.contact_free_response());
   RC_ASSERT(with.coefficients == without.coefficients);
   RC_ASSERT(with.contact_force.isZero(0.0));
 }
@@ -211,9 +211,9 @@ RC_GTEST_PROP(CondensationProperty, TridiagonalAndSparseAgree, ()) {
   a.apply(f, ka);
   b.apply(f, kb);
   RC_ASSERT((ka - kb).norm() <= 1e-10 * ka.norm());
-  RC_ASSERT((a.free_response() - b.free_response()).norm() <= 1e-10 * a.free_response().norm());
-  RC_ASSERT((a.free_response_slope() - b.free_response_slope()).norm() <=
-            1e-10 * a.free_response_slope().norm());
+  RC_ASSERT((a.contact_free_response() - b.contact_free_response()).norm() <= 1e-10 * a.contact_free_response().norm());
+  RC_ASSERT((a.contact_free_response_slope() - b.contact_free_response_slope()).norm() <=
+            1e-10 * a.contact_free_response_slope().norm());
 }
 
 }  // namespace

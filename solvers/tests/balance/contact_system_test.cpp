@@ -99,7 +99,7 @@ TEST_P(ContactSystemTest, BorderedSolveEqualsTheBorderedDenseMatrix) {
 
 TEST_P(ContactSystemTest, KeptOnTheirSidesSamplesPassTheGapSmoothly) {
   const Eigen::VectorXd u = state(0.0);
-  const Sides sides = u.array() > law_.start;
+  const ActiveMask sides = u.array() > law_.start;
   ASSERT_TRUE(sides.any() && !sides.all());
   system_.evaluate(u);
   const Eigen::VectorXd residual = system_.residual(), tangent = system_.tangent();
@@ -123,9 +123,9 @@ TEST_P(ContactSystemTest, ResidualIsThatOfTheExplicitCompliance) {
   Eigen::VectorXd force(u.size());
   for (Eigen::Index l = 0; l < u.size(); ++l) force[l] = law_.force(u[l]);
   const Eigen::VectorXd product = compliance_ * force;
-  const Eigen::VectorXd residual = u - problem_.free_response() + product;
+  const Eigen::VectorXd residual = u - problem_.contact_free_response() + product;
   EXPECT_LE((system_.residual() - residual).norm(), 1e-13 * (u.norm() + product.norm()));
-  EXPECT_NEAR(relative, residual.norm() / (problem_.free_response().norm() + product.norm()),
+  EXPECT_NEAR(relative, residual.norm() / (problem_.contact_free_response().norm() + product.norm()),
               1e-12 * relative);
 }
 

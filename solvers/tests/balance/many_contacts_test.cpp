@@ -173,8 +173,8 @@ TEST(ManyContactsResponse, AgainstRigidObstaclesUncoupledOscillatorsSolveTheirOw
                           u = rigid.response.displacement.segment(64 * c, 64);
     Eigen::VectorXd product;
     alone.apply(force, product);
-    const double size = alone.free_response().cwiseAbs().maxCoeff();
-    EXPECT_LE((u - alone.free_response() + product).cwiseAbs().maxCoeff(), 1e-12 * size);
+    const double size = alone.contact_free_response().cwiseAbs().maxCoeff();
+    EXPECT_LE((u - alone.contact_free_response() + product).cwiseAbs().maxCoeff(), 1e-12 * size);
     const Complementarity found = complementarity(u, force, c == 0 ? 0.3e-3 : 0.4e-3);
     EXPECT_GT(force.maxCoeff(), 0.0);
     EXPECT_GE(found.min_force, 0.0);
@@ -207,8 +207,8 @@ TEST(ManyContactsResponse, IsThatOfEveryCondensationMethod) {
     const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
     ASSERT_TRUE(response.converged());
     EXPECT_LE((response.displacement - reference.displacement).norm(), 1e-9 * reference.displacement.norm());
-    const Eigen::VectorXd slope = problem.free_response_slope();
-    EXPECT_LE((slope - expected.free_response_slope()).norm(), 1e-9 * slope.norm());
+    const Eigen::VectorXd slope = problem.contact_free_response_slope();
+    EXPECT_LE((slope - expected.contact_free_response_slope()).norm(), 1e-9 * slope.norm());
   }
 }
 

@@ -44,8 +44,8 @@ void expect_solution(CondensedProblem& problem, const Law& law, const PeriodicRe
   ASSERT_TRUE(response.converged()) << to_string(response.status) << " " << response.residual;
   Eigen::VectorXd product;
   problem.apply(response.contact_force, product);
-  const Eigen::VectorXd motion = problem.free_response() - product;
-  const double size = problem.free_response().cwiseAbs().maxCoeff() + product.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd motion = problem.contact_free_response() - product;
+  const double size = problem.contact_free_response().cwiseAbs().maxCoeff() + product.cwiseAbs().maxCoeff();
   EXPECT_LE((response.displacement - motion).cwiseAbs().maxCoeff(), 1e-10 * size);
   const double largest = response.contact_force.maxCoeff(), near = 1e-9 * size;
   EXPECT_GT(largest, 0.0);
@@ -82,7 +82,7 @@ TEST(StiffContact, ApproachesTheRigidObstacle) {
   CondensedProblem problem = bar_problem();
   const RigidResponse rigid = rigid_response(problem, 1e-3, {});
   ASSERT_TRUE(rigid.response.converged());
-  const double size = problem.free_response().cwiseAbs().maxCoeff();
+  const double size = problem.contact_free_response().cwiseAbs().maxCoeff();
   for (const double stiffness : {1e12, 1e15, 1e18}) {
     const PeriodicResponse response = forced_response(problem, LinearContact{stiffness, 1e-3}, {});
     ASSERT_TRUE(response.converged()) << stiffness;
@@ -134,7 +134,7 @@ TEST(StiffContact, AgainstAnExponentialLawIsSolvedAtAnyLoad) {
     ASSERT_TRUE(response.converged()) << to_string(response.status);
     EXPECT_TRUE(response.displacement.allFinite() && response.contact_force.allFinite());
     // Beside such a load the law is rigid and the gap nothing.
-    const double size = problem.free_response().maxCoeff();
+    const double size = problem.contact_free_response().maxCoeff();
     EXPECT_LE(response.displacement.maxCoeff(), 1e-3 * size);
     EXPECT_GT(response.contact_force.mean(), 0.04 * bar.load.maxCoeff());
   }

@@ -26,9 +26,9 @@ CondensedProblem small_problem(int contacts, int functions, int points) {
 double violation(CondensedProblem& problem, const Obstacles& obstacles, const Eigen::VectorXd& force) {
   Eigen::VectorXd distance;
   problem.apply(force, distance);
-  distance += obstacles.opening + obstacles.flexibility.cwiseProduct(force);
+  distance += obstacles.gap_without_force + obstacles.flexibility.cwiseProduct(force);
   const double largest_force = force.cwiseAbs().maxCoeff(),
-               largest_distance = obstacles.opening.cwiseAbs().maxCoeff();
+               largest_distance = obstacles.gap_without_force.cwiseAbs().maxCoeff();
   const double signs = std::max(-force.minCoeff() / largest_force, -distance.minCoeff() / largest_distance);
   return std::max(signs,
                   force.cwiseProduct(distance).cwiseAbs().maxCoeff() / (largest_force * largest_distance));
@@ -38,7 +38,7 @@ double violation(CondensedProblem& problem, const Obstacles& obstacles, const Ei
 std::vector<Eigen::VectorXd> all_solutions(CondensedProblem& problem, const Obstacles& obstacles) {
   const Eigen::MatrixXd matrix =
       testing::compliance_matrix(problem) + Eigen::MatrixXd(obstacles.flexibility.asDiagonal());
-  const auto samples = static_cast<int>(obstacles.opening.size());
+  const auto samples = static_cast<int>(obstacles.gap_without_force.size());
   std::vector<Eigen::VectorXd> found;
   for (unsigned set = 0; set < 1u << samples; ++set) {
     std::vector<int> active;
@@ -47,8 +47,8 @@ std::vector<Eigen::VectorXd> all_solutions(CondensedProblem& problem, const Obst
     Eigen::VectorXd force = Eigen::VectorXd::Zero(samples);
     if (!active.empty())
       force(active) =
-          -Eigen::MatrixXd(matrix(active, active)).partialPivLu().solve(obstacles.opening(active));
-    if (force.minCoeff() >= 0.0 && (obstacles.opening + matrix * force).minCoeff() >= -1e-12)
+          -Eigen::MatrixXd(matrix(active, active)).partialPivLu().solve(obstacles.gap_without_force(active));
+    if (force.minCoeff() >= 0.0 && (obstacles.gap_without_force + matrix * force).minCoeff() >= -1e-12)
       found.push_back(force);
   }
   return found;
@@ -60,7 +60,7 @@ TEST_P(SmallObstacles, ThePathEndsAtOneOfTheSolutionsOfAllActiveSets) {
   int with_contact = 0;
   for (const int contacts : {1, 2}) {
     CondensedProblem problem = small_problem(contacts, 5, contacts == 1 ? 12 : 6);
-    const Eigen::VectorXd& free = problem.free_response();
+    const Eigen::VectorXd& free = problem.contact_free_response();
     const double size = free.cwiseAbs().maxCoeff(), stiffness = GetParam();
     const double compliance = problem.columns().cwiseAbs().maxCoeff();
     for (const double gap : {0.7, 0.2, 0.0, -0.3, -2.0}) {
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Stiffness, SmallObstacles, ::testing::Values(0.1, 1.0, 
 
 TEST(ComplementarityPath, FollowsObstaclesToOtherPlacesAndStiffnesses) {
   CondensedProblem problem = small_problem(2, 15, 32);
-  const Eigen::VectorXd& free = problem.free_response();
+  const Eigen::VectorXd& free = problem.contact_free_response();
   const double size = free.cwiseAbs().maxCoeff(), compliance = problem.columns().cwiseAbs().maxCoeff();
   const auto obstacles = [&](double gap, double stiffness) -> Obstacles {
     return {Eigen::VectorXd::Constant(64, gap * size) - free,
@@ -103,14 +103,14 @@ TEST(ComplementarityPath, FollowsObstaclesToOtherPlacesAndStiffnesses) {
 
 TEST(ComplementarityPath, EndsWhereItIsToldToAndSaysSo) {
   CondensedProblem problem = small_problem(1, 15, 64);
-  const Eigen::VectorXd& free = problem.free_response();
+  const Eigen::VectorXd& free = problem.contact_free_response();
   const Obstacles obstacles{Eigen::VectorXd::Constant(64, 0.2 * free.maxCoeff()) - free,
                             Eigen::VectorXd::Constant(64, problem.columns().maxCoeff())};
   const Eigen::VectorXd even = Eigen::VectorXd::Ones(64);
   ComplementarityPath path(problem);
-  path.set_longest_leg(3);
+  path.set_max_segment(3);
   EXPECT_EQ(path.lower(obstacles, even), End::effort_limit);
-  path.set_longest_leg(1000);
+  path.set_max_segment(1000);
   int told = 0;
   path.set_observer([&](double z) {
     EXPECT_TRUE(z >= 0.0 && std::isfinite(z));

@@ -20,7 +20,7 @@ class ActiveInverseTest : public ::testing::Test {
   }
 
   void turn(int member) {
-    inverse_.tidy();
+    inverse_.apply_pending_updates();
     if (inverse_.contains(member)) {
       inverse_.leave(member);
       return;

@@ -87,7 +87,7 @@ TEST(ForcedResponse, TheForceOfAConvergedMotionIsThatOfItsLaw) {
     ASSERT_TRUE(response.converged()) << stiffening << " " << to_string(response.status);
     Eigen::VectorXd product;
     problem.apply(response.contact_force, product);
-    const Eigen::VectorXd& free = problem.free_response();
+    const Eigen::VectorXd& free = problem.contact_free_response();
     const Eigen::VectorXd motion = free - product;
     EXPECT_LE((motion - response.displacement).norm(), 1e-4 * (free.norm() + product.norm())) << stiffening;
     const Eigen::VectorXd law_force = motion.unaryExpr([&](double u) { return law.force(u); });

@@ -27,7 +27,7 @@ double grazing_frequency(CondensedProblem& problem, double gap, double low, doub
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     problem.set_frequency(middle);
-    (problem.free_response().maxCoeff() > gap ? low : high) = middle;
+    (problem.contact_free_response().maxCoeff() > gap ? low : high) = middle;
   }
   return low;
 }
@@ -171,7 +171,7 @@ TEST(FrequencySweep, SaysWhenTheCurveEnds) {
 // An even number of functions leaves the Nyquist coefficient of the bar without damping.
 TEST(FrequencySweep, SaysWhenTheCurveGrowsPastAllBounds) {
   BarSweep even(testing::fourier_pair(64, 256)), odd(testing::fourier_pair(63, 256));
-  even.options.arc_length.corners = odd.options.arc_length.corners = Corners::every;
+  even.options.arc_length.grazing_events = odd.options.arc_length.grazing_events = GrazingEvents::all;
   EXPECT_EQ(even.run().status, SweepStatus::unbounded);
   EXPECT_EQ(odd.run().status, SweepStatus::reached_end);
 }

@@ -149,7 +149,7 @@ std::vector<std::pair<testing::Oscillator, testing::LinearContact>> stops_betwee
   testing::Oscillator one;
   for (one.frequency = 20.0; one.frequency < 40.0; one.frequency += 0.5) {
     const double peak = std::abs(one.amplitude());
-    const double seen = oscillator(one, 31, 64).free_response().maxCoeff();
+    const double seen = oscillator(one, 31, 64).contact_free_response().maxCoeff();
     if (seen < (1.0 - 5e-4) * peak) stops.push_back({one, {1e12, 0.5 * (seen + peak)}});
   }
   return stops;
@@ -182,7 +182,7 @@ TEST(ResolutionLadder, SeesAContactBetweenThePoints) {
 void expect_covered(double frequency, double below) {
   const auto make = [frequency](int functions, int points) { return bar_at(frequency, functions, points); };
   CondensedProblem fine = make(1023, 8192);
-  const testing::LinearContact stop{5e9, (1.0 - below) * fine.free_response().maxCoeff()};
+  const testing::LinearContact stop{5e9, (1.0 - below) * fine.contact_free_response().maxCoeff()};
   const PeriodicResponse exact = forced_response(fine, stop, {});
   ASSERT_TRUE(exact.converged());
   const LadderResponse found = response_to_tolerance(make, stop, {.tolerance = 1e-5});

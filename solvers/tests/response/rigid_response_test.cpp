@@ -34,15 +34,15 @@ TEST_P(RigidJl14, HoldsComplementarityAndTheMeanForceOfOtherComputations) {
       fourier_problem(testing::jl14_bar(25, scene.beta), scene.functions, scene.points, scene.frequency);
   const RigidResponse rigid = rigid_response(problem, scene.gap, {});
   ASSERT_TRUE(rigid.response.converged());
-  EXPECT_LE(rigid.complementarity.max_penetration, 1e-6 * problem.free_response().cwiseAbs().maxCoeff());
+  EXPECT_LE(rigid.complementarity.max_penetration, 1e-6 * problem.contact_free_response().cwiseAbs().maxCoeff());
   EXPECT_GE(rigid.complementarity.min_force, 0.0);
   EXPECT_LE(rigid.complementarity.product, 1e-6);
   EXPECT_NEAR(rigid.response.contact_force.mean() / 250e3, scene.mean_force, scene.tolerance);
   // The balance itself, independently of the path: u = u0 - K f.
   Eigen::VectorXd product(scene.points);
   problem.apply(rigid.response.contact_force, product);
-  const Eigen::VectorXd residual = rigid.response.displacement - problem.free_response() + product;
-  EXPECT_LE(residual.cwiseAbs().maxCoeff(), 1e-9 * problem.free_response().cwiseAbs().maxCoeff());
+  const Eigen::VectorXd residual = rigid.response.displacement - problem.contact_free_response() + product;
+  EXPECT_LE(residual.cwiseAbs().maxCoeff(), 1e-9 * problem.contact_free_response().cwiseAbs().maxCoeff());
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, RigidJl14,
@@ -55,7 +55,7 @@ TEST(RigidResponse, WithoutContactItIsTheFreeResponse) {
   auto problem = fourier_problem(testing::jl14_bar(25, 1e-4), 15, 64, 150.0);
   const RigidResponse rigid = rigid_response(problem, 1.0, {});
   ASSERT_TRUE(rigid.response.converged());
-  EXPECT_TRUE(rigid.response.displacement.isApprox(problem.free_response(), 0.0));
+  EXPECT_TRUE(rigid.response.displacement.isApprox(problem.contact_free_response(), 0.0));
   EXPECT_TRUE(rigid.response.contact_force.isZero(0.0));
 }
 
@@ -110,7 +110,7 @@ TEST(RigidResponse, HoldsComplementarityWithOneToFourPointsAFunction) {
     auto problem = fourier_problem(testing::jl14_bar(25, 1e-4), size.functions, size.points, 150.0);
     const RigidResponse rigid = rigid_response(problem, 1e-3, {});
     ASSERT_TRUE(rigid.response.converged()) << size.functions << "/" << size.points;
-    const double largest = problem.free_response().cwiseAbs().maxCoeff();
+    const double largest = problem.contact_free_response().cwiseAbs().maxCoeff();
     EXPECT_LE(rigid.complementarity.max_penetration, 1e-9 * largest) << size.functions << "/" << size.points;
     EXPECT_GE(rigid.complementarity.min_force, 0.0);
     EXPECT_LE(rigid.complementarity.product, 1e-9);

@@ -18,7 +18,7 @@ struct StoppedOscillators {
   double stiffness = 10.0;
   int count = 1;
 
-  FrequencySweep sweep(TimePair pair, double from, double to, Corners corners = Corners::at_turns) const {
+  FrequencySweep sweep(TimePair pair, double from, double to, GrazingEvents corners = GrazingEvents::at_turning_points) const {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
     LinearStructure structure;
     structure.mass = structure.stiffness = identity.sparseView();
@@ -30,8 +30,8 @@ struct StoppedOscillators {
     FrequencySweepOptions options;
     options.from = from;
     options.to = to;
-    options.arc_length.corners = corners;
-    if (corners == Corners::every) options.smallest_return = 1e-12;
+    options.arc_length.grazing_events = corners;
+    if (corners == GrazingEvents::all) options.smallest_return = 1e-12;
     return frequency_sweep(problem, testing::LinearContact{stiffness, 1.0}, options);
   }
 };
@@ -56,8 +56,8 @@ TEST(FrequencySweep, OfTwinsThatTouchTogetherIsThatOfOne) {
                     : testing::fourier_pair(15, 64);
       };
       const double from = rising ? 0.1 : 0.35, to = rising ? 0.35 : 0.1;
-      const FrequencySweep one = StoppedOscillators{10.0, 1}.sweep(pair(), from, to, Corners::every);
-      const FrequencySweep two = StoppedOscillators{10.0, 2}.sweep(pair(), from, to, Corners::every);
+      const FrequencySweep one = StoppedOscillators{10.0, 1}.sweep(pair(), from, to, GrazingEvents::all);
+      const FrequencySweep two = StoppedOscillators{10.0, 2}.sweep(pair(), from, to, GrazingEvents::all);
       const FrequencySweep three = StoppedOscillators{10.0, 3}.sweep(pair(), from, to);
       EXPECT_EQ(one.status, SweepStatus::reached_end) << to_string(one.status);
       EXPECT_EQ(two.status, SweepStatus::reached_end) << to_string(two.status);
@@ -72,8 +72,8 @@ TEST(FrequencySweep, OfEveryCornerIsTheSameUpAndDown) {
     const StoppedOscillators one{stiffness};
     for (const int functions : {7, 15}) {
       const auto pair = testing::fourier_pair(functions, 32);
-      const FrequencySweep up = one.sweep(pair, 0.1, 0.35, Corners::every),
-                           down = one.sweep(pair, 0.35, 0.1, Corners::every);
+      const FrequencySweep up = one.sweep(pair, 0.1, 0.35, GrazingEvents::all),
+                           down = one.sweep(pair, 0.35, 0.1, GrazingEvents::all);
       ASSERT_EQ(up.status, SweepStatus::reached_end);
       ASSERT_EQ(down.status, SweepStatus::reached_end);
       std::vector<double> reversed = turning_frequencies(down);
@@ -89,7 +89,7 @@ int count_responses(CondensedProblem& problem, double frequency, const testing::
   problem.set_frequency(frequency);
   const Eigen::MatrixXd compliance = testing::compliance_matrix(problem);
   const int points = problem.points();
-  int found = problem.free_response().maxCoeff() <= law.start ? 1 : 0;
+  int found = problem.contact_free_response().maxCoeff() <= law.start ? 1 : 0;
   for (int first = 0; first < points; ++first)
     for (int length = 1; length < points; ++length) {
       Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(points);
@@ -97,7 +97,7 @@ int count_responses(CondensedProblem& problem, double frequency, const testing::
       const Eigen::MatrixXd jacobian =
           Eigen::MatrixXd::Identity(points, points) + compliance * stiffness.asDiagonal();
       const Eigen::VectorXd u =
-          jacobian.partialPivLu().solve(problem.free_response() + law.start * (compliance * stiffness));
+          jacobian.partialPivLu().solve(problem.contact_free_response() + law.start * (compliance * stiffness));
       found += ((u.array() > law.start) == (stiffness.array() > 0.0)).all() ? 1 : 0;
     }
   return found;
@@ -106,7 +106,7 @@ int count_responses(CondensedProblem& problem, double frequency, const testing::
 TEST(FrequencySweep, OfEveryCornerPassesAllResponsesThatThereAre) {
   const testing::LinearContact law{1.0, 1.0};
   const TimePair pair = testing::fourier_pair(15, 32);
-  const FrequencySweep sweep = StoppedOscillators{1.0}.sweep(pair, 0.1, 0.35, Corners::every);
+  const FrequencySweep sweep = StoppedOscillators{1.0}.sweep(pair, 0.1, 0.35, GrazingEvents::all);
   ASSERT_EQ(sweep.status, SweepStatus::reached_end);
   std::vector<double> curve = turning_frequencies(sweep);
   EXPECT_EQ(curve.size(), 12u);
@@ -128,7 +128,7 @@ TEST(FrequencySweep, OfEveryCornerPassesAllResponsesThatThereAre) {
 TEST(FrequencySweep, TurnsReportedWithLongStepsAreTurnsOfTheCurve) {
   const StoppedOscillators one{1.0};
   for (const TimePair& pair : {testing::fourier_pair(15, 32), testing::fourier_pair(31, 128)}) {
-    const FrequencySweep every = one.sweep(pair, 0.1, 0.35, Corners::every);
+    const FrequencySweep every = one.sweep(pair, 0.1, 0.35, GrazingEvents::all);
     const FrequencySweep some = one.sweep(pair, 0.1, 0.35);
     ASSERT_EQ(some.status, SweepStatus::reached_end);
     ASSERT_GE(some.turning_points.size(), 2u);
@@ -175,7 +175,7 @@ TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefa
   double free = 0.0;
   for (double frequency = 0.15; frequency < 0.17; frequency += 0.0002) {
     problem.set_frequency(frequency);
-    free = std::max(free, problem.free_response().maxCoeff());
+    free = std::max(free, problem.contact_free_response().maxCoeff());
   }
   const testing::LinearContact stop{1000.0, free / 3.0};
   std::vector<double> largest;
@@ -226,7 +226,7 @@ TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {
   options.from = 0.35;
   options.to = 0.1;
   const FrequencySweep whole = frequency_sweep(problem, testing::LinearContact{10.0, 1.0}, options);
-  const FrequencySweep sector = StoppedOscillators{10.0}.sweep(pair, 0.35, 0.1, Corners::every);
+  const FrequencySweep sector = StoppedOscillators{10.0}.sweep(pair, 0.35, 0.1, GrazingEvents::all);
   ASSERT_EQ(whole.status, SweepStatus::reached_end) << to_string(whole.status);
   ASSERT_EQ(sector.status, SweepStatus::reached_end) << to_string(sector.status);
   expect_near(turning_frequencies(whole), turning_frequencies(sector), 1e-8);

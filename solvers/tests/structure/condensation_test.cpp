@@ -28,7 +28,7 @@ LinearStructure shuffled(const LinearStructure& structure, std::mt19937& generat
   return out;
 }
 
-Eigen::MatrixXcd dense(const LinearStructure& s, const StiffnessFactors& factors) {
+Eigen::MatrixXcd dense(const LinearStructure& s, const ImpedanceCoefficients& factors) {
   return factors[0] * Eigen::MatrixXcd(s.mass.cast<Complex>()) +
          factors[1] * Eigen::MatrixXcd(s.damping.cast<Complex>()) +
          factors[2] * Eigen::MatrixXcd(s.stiffness.cast<Complex>());
@@ -39,7 +39,7 @@ struct Dense {
   Eigen::VectorXcd recovered;
 };
 
-Dense by_dense_lu(const LinearStructure& s, const StiffnessFactors& factors, const StiffnessFactors& rates,
+Dense by_dense_lu(const LinearStructure& s, const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates,
                   Complex load, const Eigen::VectorXcd& contact) {
   const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
   const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
@@ -74,15 +74,15 @@ struct Rescaled {
     for (auto* matrix : {&structure.mass, &structure.damping, &structure.stiffness}) *matrix *= factor;
     return structure;
   }
-  StiffnessFactors in_units(const StiffnessFactors& s) const {
+  ImpedanceCoefficients in_units(const ImpedanceCoefficients& s) const {
     return {s[0] * factor, s[1] * factor, s[2] * factor};
   }
-  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
-    const CondensedPoint point = condensation.at(in_units(factors), in_units(rates));
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
+    const CondensedPoint point = condensation.dynamic_compliance(in_units(factors), in_units(rates));
     return {point.compliance * unit, point.load_response * unit, point.compliance_slope * unit,
             point.load_response_slope * unit};
   }
-  Complex spectrum_at(const StiffnessFactors& factors, const StiffnessFactors& rates) {
+  Complex spectrum_at(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
     const Eigen::VectorXcd one = Eigen::VectorXcd::Constant(1, factor);
     CondensedSpectrum result;
     condensation.condense({one * factors[0], one * factors[1], one * factors[2]},
@@ -97,18 +97,18 @@ TEST(Condensation, StiffnessesBeyondTheRangeOfSquaresAreOnlyAnotherUnit) {
   LinearStructure chain = testing::random_chain(12, generator);
   chain.load = Eigen::VectorXd::Unit(12, 11) * 2.0;
   chain.contact_dofs = {11};
-  const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
-  const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  const ImpedanceCoefficients factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const ImpedanceCoefficients rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
   const Eigen::VectorXcd force = Eigen::VectorXcd::Constant(1, Complex(0.3, -0.4));
   for (const CondensationMethod method : all_methods) {
     Rescaled ordinary(chain, method, 0, 0);
-    const CondensedPoint expected = ordinary.at(factors, rates);
+    const CondensedPoint expected = ordinary.dynamic_compliance(factors, rates);
     const Eigen::VectorXcd full = ordinary.condensation.recover(factors, Complex(1.0, 2.0), force);
     for (const int entries : {-900, -520, 0, 520, 900})
       for (const int total : {-520, 0, 520, 900}) {
         if (std::abs(total - entries) > 1000) continue;  // factors out of range
         Rescaled rescaled(chain, method, entries, total);
-        expect_equal(rescaled.at(factors, rates), expected, 1e-13);
+        expect_equal(rescaled.dynamic_compliance(factors, rates), expected, 1e-13);
         EXPECT_LE(std::abs(rescaled.spectrum_at(factors, rates) - expected.compliance_slope(0, 0)),
                   1e-13 * std::abs(expected.compliance_slope(0, 0)));
         const Eigen::VectorXcd recovered =
@@ -121,8 +121,8 @@ TEST(Condensation, StiffnessesBeyondTheRangeOfSquaresAreOnlyAnotherUnit) {
 // Of one to three contacts: the chain, whose damping its modes decouple, by every method.
 TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
   std::mt19937 generator(1);
-  const StiffnessFactors factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
-  const StiffnessFactors rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  const ImpedanceCoefficients factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const ImpedanceCoefficients rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
   for (const int size : {1, 2, 9, 25})
     for (const int contacts : {1, 2, 3}) {
       if (contacts > size) continue;
@@ -135,7 +135,7 @@ TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
         Condensation condensation(chain, method);
         EXPECT_EQ(condensation.method(), method);
         EXPECT_EQ(condensation.contacts(), contacts);
-        expect_equal(condensation.at(factors, rates), expected.point, 1e-11);
+        expect_equal(condensation.dynamic_compliance(factors, rates), expected.point, 1e-11);
         const auto recovered = condensation.recover(factors, Complex(1.0, 2.0), force);
         EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
       }
@@ -162,7 +162,7 @@ TEST(Condensation, TakesTheFastestMethodThatTheMatricesAdmit) {
 // A contact without mass, and a body that nothing holds: modes of whichever matrix is definite.
 TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
   std::mt19937 generator(8);
-  const StiffnessFactors factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0}, rates{Complex(-2.6), 1.0, 0.0};
+  const ImpedanceCoefficients factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0}, rates{Complex(-2.6), 1.0, 0.0};
   LinearStructure massless = testing::random_chain(9, generator);
   massless.contact_dofs = {8, 2};
   massless.mass.row(8) *= 0.0;
@@ -176,7 +176,7 @@ TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
     const Eigen::VectorXcd force = testing::random_vector(2, generator) * Complex(0.3, -0.4);
     const Dense expected = by_dense_lu(structure, factors, rates, 1.0, force);
     Condensation modal(structure, CondensationMethod::modal);
-    expect_equal(modal.at(factors, rates), expected.point, 1e-11);
+    expect_equal(modal.dynamic_compliance(factors, rates), expected.point, 1e-11);
     EXPECT_LE((modal.recover(factors, 1.0, force) - expected.recovered).norm(),
               1e-11 * expected.recovered.norm());
   }
@@ -186,9 +186,9 @@ TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
 TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
   const LinearStructure bar = testing::jl14_bar(25, 1e-4);
   const Complex rate(0.0, 2.0 * std::numbers::pi * 1275.0);
-  const StiffnessFactors factors{rate * rate, rate, 1.0};
-  const StiffnessFactors rates{2.0 * rate, 1.0, 0.0};
-  expect_equal(Condensation(bar).at(factors, rates),
+  const ImpedanceCoefficients factors{rate * rate, rate, 1.0};
+  const ImpedanceCoefficients rates{2.0 * rate, 1.0, 0.0};
+  expect_equal(Condensation(bar).dynamic_compliance(factors, rates),
                by_dense_lu(bar, factors, rates, 1.0, Eigen::VectorXcd::Zero(1)).point, 1e-9);
 }
 
@@ -214,7 +214,7 @@ TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
     condensation.condense(factors, rates, result);
     ASSERT_EQ(result.compliance.rows(), 9);
     for (int k = 0; k < 9; ++k) {
-      const CondensedPoint point = condensation.at({factors[0][k], factors[1][k], factors[2][k]},
+      const CondensedPoint point = condensation.dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
                                                    {rates[0][k], rates[1][k], rates[2][k]});
       const int contacts = structure.contacts();
       expect_equal(
@@ -232,15 +232,15 @@ TEST(Condensation, SlopesAreTheDerivativesAlongTheRates) {
   const LinearStructure chain = testing::random_chain(6, generator);
   for (const LinearStructure& structure : {chain, shuffled(chain, generator)}) {
     Condensation condensation(structure);
-    const StiffnessFactors factors{Complex(-2.0, 0.1), Complex(0.0, 1.5), 1.0};
-    const StiffnessFactors rates{Complex(-2.7, 0.3), Complex(0.1, 1.0), Complex(0.2, 0.1)};
+    const ImpedanceCoefficients factors{Complex(-2.0, 0.1), Complex(0.0, 1.5), 1.0};
+    const ImpedanceCoefficients rates{Complex(-2.7, 0.3), Complex(0.1, 1.0), Complex(0.2, 0.1)};
     const auto moved = [&](double h) {
-      StiffnessFactors at = factors;
+      ImpedanceCoefficients at = factors;
       for (std::size_t i = 0; i < 3; ++i) at[i] += h * rates[i];
-      return condensation.at(at, rates);
+      return condensation.dynamic_compliance(at, rates);
     };
     const double h = 1e-5;
-    const CondensedPoint point = condensation.at(factors, rates), ahead = moved(h), behind = moved(-h);
+    const CondensedPoint point = condensation.dynamic_compliance(factors, rates), ahead = moved(h), behind = moved(-h);
     EXPECT_LE(((ahead.compliance - behind.compliance) / (2 * h) - point.compliance_slope).norm(),
               1e-7 * point.compliance_slope.norm());
     EXPECT_LE(((ahead.load_response - behind.load_response) / (2 * h) - point.load_response_slope).norm(),
@@ -260,7 +260,7 @@ TEST(Condensation, VanishingLeadingPivotIsNotSingular) {
   s.load = Eigen::Vector2d(3.0, 0.0);
   s.contact_dofs = {1};
   Condensation condensation(s);
-  const CondensedPoint point = condensation.at({-1.0, 0.0, 1.0}, {0.0, 0.0, 1.0});
+  const CondensedPoint point = condensation.dynamic_compliance({-1.0, 0.0, 1.0}, {0.0, 0.0, 1.0});
   EXPECT_NEAR(point.compliance.norm(), 0.0, 1e-14);
   EXPECT_NEAR(std::abs(point.load_response[0] - 3.0), 0.0, 1e-14);
   s.load = Eigen::Vector2d(0.0, 3.0);  // now at the contact: the recursion over k
@@ -279,14 +279,14 @@ TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
     for (const LinearStructure& structure : {bar, shuffled(bar, generator)}) {
       Condensation condensation(structure);
       const Complex at = -modes.eigenvalues()[0];
-      EXPECT_THROW(condensation.at({at, 0.0, 1.0}, {1.0, 0.0, 0.0}), SingularSystem) << size;
+      EXPECT_THROW(condensation.dynamic_compliance({at, 0.0, 1.0}, {1.0, 0.0, 0.0}), SingularSystem) << size;
       EXPECT_THROW(condensation.recover({at, 0.0, 1.0}, 1.0, Eigen::VectorXcd::Zero(1)), SingularSystem)
           << size;
       const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
       CondensedSpectrum result;
       EXPECT_THROW(condensation.condense({at * one, 0.0 * one, one}, {one, one, one}, result),
                    SingularSystem);
-      EXPECT_NO_THROW(condensation.at({at * 1.0001, 0.0, 1.0}, {1.0, 0.0, 0.0})) << size;
+      EXPECT_NO_THROW(condensation.dynamic_compliance({at * 1.0001, 0.0, 1.0}, {1.0, 0.0, 0.0})) << size;
     }
   }
 }

@@ -43,8 +43,8 @@ class CondensedProblem {
   double frequency() const { return frequency_; }
 
   /// u0, m, samples() values, and its derivative by frequency, m/Hz.
-  const Eigen::VectorXd& free_response() const { return free_response_; }
-  const Eigen::VectorXd& free_response_slope();
+  const Eigen::VectorXd& contact_free_response() const { return free_response_; }
+  const Eigen::VectorXd& contact_free_response_slope();
 
   /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
   void apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement);
@@ -73,7 +73,7 @@ class CondensedProblem {
   Eigen::MatrixXcd full_coefficients(const Eigen::VectorXd& force);
 
  private:
-  StiffnessFactors factors(int k) const;
+  ImpedanceCoefficients factors(int k) const;
   void apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
                     const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);

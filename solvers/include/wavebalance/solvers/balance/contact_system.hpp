@@ -9,8 +9,8 @@ namespace wavebalance::solvers {
 
 class JacobianSolver;
 
-/// Of each sample, whether it presses.
-using Sides = Eigen::Array<bool, Eigen::Dynamic, 1>;
+/// Mask of the samples in contact.
+using ActiveMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 /// How systems with the Newton matrix J are solved.
 enum class LinearSolver {
@@ -43,7 +43,7 @@ class ContactSystem {
   /// The same with every sample kept on one side of its gap, samples() values: one that presses feels its
   /// law's tangent also below the gap, a free one no force beyond it. Equal to evaluate() where the sides are
   /// those of `displacement`, and smooth across the gaps.
-  double evaluate(const Eigen::VectorXd& displacement, const Sides& presses);
+  double evaluate(const Eigen::VectorXd& displacement, const ActiveMask& presses);
 
   const Eigen::VectorXd& force() const { return force_; }        ///< f_c(u), N
   const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m

@@ -28,11 +28,12 @@ class FrequencyParameter final : public CurveParameter {
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };
 
-/// Which corners of the curve are solved for.
-enum class Corners {
-  where_needed,  ///< those over which no step is found
-  at_turns,      ///< also those at which the parameter is seen to turn, and the first and last touch
-  every          ///< no turn can be missed; a few solves a corner
+/// Which grazing events are solved for: the points of the curve where a sample reaches its gap, so that the law's slope
+/// jumps and the curve has a kink.
+enum class GrazingEvents {
+  where_needed,  ///< those that no step passes
+  at_turning_points,  ///< also those at which the parameter turns back, and the first and last contact
+  all            ///< no turning point can be missed; a few solves per event
 };
 
 /// Scales, steps and limits of a curve followed by arc length. Lengths are in the scaled inner product of CurvePoint.
@@ -45,7 +46,7 @@ struct ArcLengthOptions {
   double max_angle = 0.35;  ///< rad, between the tangents of successive points
   int max_corrections = 8;      ///< of a point; half as many after a long step
   double tolerance = 1e-10;     ///< on the relative residual
-  Corners corners = Corners::at_turns;
+  GrazingEvents grazing_events = GrazingEvents::at_turning_points;
   /// Of the linear systems of all points; the curve ends with no_point where they are used up.
   double max_operations = std::numeric_limits<double>::infinity();
 
@@ -62,18 +63,21 @@ struct CurvePoint {
   double parameter_tangent = 0.0;
   double residual = 0.0;
   int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
-  bool corner = false;  ///< the contact law's slope jumps here; the tangent is that of the side ahead
+  bool corner = false;  ///< a grazing event: the law's slope jumps here, and the tangent is that of the piece ahead
 };
 
-/// Pseudo-arc-length continuation of a piecewise smooth solution curve. A smooth fold is passed by the
-/// bordered Newton matrix. Long steps pass corners, where a sample reaches the gap and the law's slope jumps,
-/// unseen. Where they miss the curve, and as far as a long step in which the curve turns, it is followed
-/// piece by piece: with the samples kept on their sides of the gaps it is smooth, the first sample that would
-/// leave its side is held at its gap, and the corner is left on the side ahead, on which that sample goes on
-/// through. The sign of det [R_u R_p; tangent^T] stays over folds and over corners of one sample: a long step
-/// that lands on a part of the curve that faces back is refused. It changes only where curves cross, as those
-/// of a structure with symmetries do where samples reach their gaps together: those samples go on through
-/// together, and the curve is followed piece by piece from there on.
+/// Pseudo-arc-length continuation [H. B. Keller, in: Applications of Bifurcation Theory, 1977; R. Seydel, Practical
+/// Bifurcation and Stability Analysis, 2010, chapter 4] of a piecewise smooth solution curve.
+///
+/// The bordered Newton matrix passes smooth folds. Long steps pass grazing events without solving for them. Where a
+/// long step fails, or contains a turning point, the curve is followed piece by piece: while every sample keeps its
+/// side of the gap the curve is smooth; the first sample that would change sides is placed at its gap, and the next
+/// piece starts with that sample on the other side.
+///
+/// The sign of det [R_u R_p; tangent^T] is the same on both sides of a fold and of a grazing event of one sample. A
+/// long step to a point with the other sign is refused. The sign changes only where two curves cross. That happens in
+/// symmetric structures, where several samples reach their gaps together: all of them change sides, and from there on
+/// the curve is followed piece by piece.
 class ArcLength {
  public:
   enum class Status { advanced, no_point };  // no_point: none was found, or the operations are used up
@@ -93,39 +97,39 @@ class ArcLength {
   const CurvePoint& previous() const { return previous_; }
 
  private:
-  /// Of points (u, p) with row.u + corner p = offset.
+  /// The points (u, p) with row.u + parameter p = offset.
   struct Plane {
     Eigen::VectorXd row;
-    double corner = 0.0;
+    double parameter = 0.0;
     double offset = 0.0;
     double tolerance = 0.0;  // on miss()
     double miss(const CurvePoint& point) const;
   };
 
-  double evaluate(const CurvePoint& point, const Sides* sides);
-  bool solve_in(const Plane& plane, const Sides* sides, CurvePoint& point, int& corrections);
-  bool correct(const CurvePoint& from, double step, const Sides* sides, CurvePoint& to, int& corrections);
+  double evaluate(const CurvePoint& point, const ActiveMask* sides);
+  bool solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections);
+  bool correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to, int& corrections);
   bool tangent_at(CurvePoint& point, const CurvePoint& along);
   CurvePoint ahead(const CurvePoint& from, double step) const;
   CurvePoint chord(const CurvePoint& to) const;
   bool is_ahead(const CurvePoint& candidate) const;
   bool is_at_gap(const CurvePoint& point, int sample) const;
   bool turns_unseen(const CurvePoint& candidate) const;
-  void accept(CurvePoint&& candidate, const Sides& sides);
+  void accept(CurvePoint&& candidate, const ActiveMask& sides);
 
   bool step_far();
   bool step_in_piece();
-  bool step_smoothly(double step, const Sides& sides, CurvePoint& candidate);
-  bool turn_corner(int sample, double distance, const Sides& sides);
+  bool step_smoothly(double step, const ActiveMask& sides, CurvePoint& candidate);
+  bool pass_grazing_event(int sample, double distance, const ActiveMask& sides);
   int crossing_ahead(double& distance) const;
-  int passed(const CurvePoint& candidate, const Sides& sides, double& fraction) const;
-  Sides sides_of(const CurvePoint& point) const;
+  int passed(const CurvePoint& candidate, const ActiveMask& sides, double& fraction) const;
+  ActiveMask sides_of(const CurvePoint& point) const;
   std::vector<int> samples_at_gap(const CurvePoint& point) const;
-  bool arrives(int sample, const Sides& sides, CurvePoint corner);
+  bool arrives(int sample, const ActiveMask& sides, CurvePoint corner);
   bool tangent_through(int sample, bool inwards, CurvePoint& corner);
-  bool corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+  bool grazing_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
                       CurvePoint& corner);
-  bool leave_corner(int sample, const Sides& sides, CurvePoint& corner);
+  bool leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& corner);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;
   Eigen::VectorXd scaled(const Eigen::VectorXd& tangent) const;
@@ -136,11 +140,11 @@ class ArcLength {
   CurvePoint point_, previous_;
   double step_ = 0.0;
   double last_step_ = 0.0;       // from previous_ to point_, along the tangent of previous_
-  Sides last_sides_;             // of the piece that both lie on; empty when it may be several
-  double watched_ = 0.0;         // the length of the long step that saw the last turn
-  double last_operation_ = 0.0;  // of the system, where this curve may not go on
-  double pieces_left_ = 0.0;     // arc length that is to be followed piece by piece
-  bool crossed_ = false;  // whether curves have crossed: the orientation then tells nothing on long steps
+  ActiveMask last_sides_;             // of the piece that both lie on; empty when it may be several
+  double reversal_step_ = 0.0;  // length of the last long step that contained a turning point
+  double operation_limit_ = 0.0;  // value of the operation counter at which the curve must stop
+  double piecewise_arc_length_ = 0.0;     // arc length that is to be followed piece by piece
+  bool orientation_unknown_ = false;  // whether curves have crossed, so that long steps cannot be judged by the orientation
   Eigen::VectorXd slope_, change_;
 };
 

@@ -46,7 +46,7 @@ struct FrequencySweepOptions {
   int output_points = 1024;  ///< of the period, for the maximum and the rms
   int max_points = 20000;
   /// Hz; turning points between which the frequency goes back by less are left out. 0 stands for a thousandth
-  /// of the interval. Those that long steps pass unseen are small, too; Corners::every in arc_length passes
+  /// of the interval. Those that long steps pass unseen are small, too; GrazingEvents::all in arc_length passes
   /// none.
   double smallest_return = 0.0;
   /// Arc length: displacement_scale 0 stands for the largest gap, or without contact the rms response at

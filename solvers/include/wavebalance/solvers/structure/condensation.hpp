@@ -26,7 +26,7 @@ struct CondensedPoint {
 };
 
 /// The three complex factors of M, C and K.
-using StiffnessFactors = std::array<std::complex<double>, 3>;
+using ImpedanceCoefficients = std::array<std::complex<double>, 3>;
 
 /// The same three factors for each k of a spectrum over translates.
 using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
@@ -66,7 +66,7 @@ class Condensation {
   CondensationMethod method() const { return chosen_; }
 
   /// Factors {s2, s1, s0} of M, C, K, and their rates {d2, d1, d0}. Throws SingularSystem.
-  CondensedPoint at(const StiffnessFactors& factors, const StiffnessFactors& rates);
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates);
 
   /// at() for all k at once, with results resized to fit. A bar that is loaded and touches at its last degree
   /// of freedom alone takes one forward recursion, vectorised over k. K times the cost of a point.
@@ -80,7 +80,7 @@ class Condensation {
 
   /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b
   /// (C).
-  Eigen::VectorXcd recover(const StiffnessFactors& factors, std::complex<double> load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                            const Eigen::VectorXcd& contact_forces);
 
   class Method;  ///< how one dynamic stiffness is solved; see condensation.cpp

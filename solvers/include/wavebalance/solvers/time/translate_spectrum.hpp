@@ -13,7 +13,7 @@ namespace wavebalance::solvers {
 /// The two index maps between a spectrum over M translates (k = 0..M/2 stored) and a spectrum over N samples
 /// (n = 0..N/2 stored) of real data: n belongs to k = n mod M. N is a multiple of M, or the factor that
 /// multiplies the spectrum over samples vanishes above M/2.
-struct TranslateIndex {
+struct AliasMap {
   int functions;  ///< M
   int points;     ///< N
 
@@ -48,7 +48,7 @@ class TrialEvaluator {
   Eigen::VectorXd operator()(const Eigen::VectorXcd& coefficients);
 
  private:
-  TranslateIndex index_;
+  AliasMap index_;
   int points_;
   int stride_;  // the transform runs on stride * points >= M points
   Eigen::VectorXcd generator_;

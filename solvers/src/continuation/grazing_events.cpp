@@ -20,7 +20,7 @@ int ArcLength::crossing_ahead(double& distance) const {
 }
 
 // The sample that leaves its side first on the way to the candidate; -1 when none does.
-int ArcLength::passed(const CurvePoint& candidate, const Sides& sides, double& fraction) const {
+int ArcLength::passed(const CurvePoint& candidate, const ActiveMask& sides, double& fraction) const {
   int first = -1;
   fraction = 1.0;
   for (int l = 0; l < sides.size(); ++l) {
@@ -37,7 +37,7 @@ int ArcLength::passed(const CurvePoint& candidate, const Sides& sides, double& f
 // Goes on within the piece of the curve that point_ lies on, to its end or by a step that ends within.
 bool ArcLength::step_in_piece() {
   constexpr double shortest = 1e-4;  // of the smallest step
-  const Sides sides = sides_of(point_);
+  const ActiveMask sides = sides_of(point_);
   CurvePoint candidate;
   for (double length = step_; length >= shortest * options_.min_step;) {
     double distance = length, fraction = 1.0;
@@ -53,7 +53,7 @@ bool ArcLength::step_in_piece() {
         }
       }
     }
-    if (sample >= 0 && distance > 0.0 && turn_corner(sample, distance, sides)) return true;
+    if (sample >= 0 && distance > 0.0 && pass_grazing_event(sample, distance, sides)) return true;
     length = 0.5 * (distance > 0.0 ? distance : length);
   }
   return false;
@@ -61,14 +61,14 @@ bool ArcLength::step_in_piece() {
 
 // Where another curve crosses this one within the piece the orientation changes; but then a short step will
 // do.
-bool ArcLength::step_smoothly(double step, const Sides& sides, CurvePoint& candidate) {
+bool ArcLength::step_smoothly(double step, const ActiveMask& sides, CurvePoint& candidate) {
   int corrections = 0;
   if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate)) return false;
   return candidate.orientation * point_.orientation >= 0 || step < 2.0 * options_.min_step;
 }
 
 // Ends the piece where a sample reaches its gap. False when the corner is not found or cannot be left.
-bool ArcLength::turn_corner(int sample, double distance, const Sides& sides) {
+bool ArcLength::pass_grazing_event(int sample, double distance, const ActiveMask& sides) {
   constexpr int attempts = 10;
   Plane plane{Eigen::VectorXd::Zero(sides.size()), 0.0, 0.0, 1e-9 * options_.displacement_scale};
   int corrections = 0;
@@ -81,7 +81,7 @@ bool ArcLength::turn_corner(int sample, double distance, const Sides& sides) {
     double fraction = 1.0;
     const int earlier = passed(corner, sides, fraction);
     if (earlier < 0) {
-      if (!arrives(sample, sides, corner) || !leave_corner(sample, sides, corner)) return false;
+      if (!arrives(sample, sides, corner) || !leave_grazing_event(sample, sides, corner)) return false;
       accept(std::move(corner), sides);
       step_ = std::clamp(1.6 * step_, options_.min_step, options_.max_step);
       return true;
@@ -95,7 +95,7 @@ bool ArcLength::turn_corner(int sample, double distance, const Sides& sides) {
 }
 
 // Whether the piece leads from point_ to the corner without turning far.
-bool ArcLength::arrives(int sample, const Sides& sides, CurvePoint corner) {
+bool ArcLength::arrives(int sample, const ActiveMask& sides, CurvePoint corner) {
   return tangent_through(sample, !sides[sample], corner) && is_ahead(corner);
 }
 
@@ -125,7 +125,7 @@ bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& corner) {
 
 // The tangent with `together`, the samples at their gaps, as stiff as `presses` says, along which each moves
 // to the side whose stiffness it has. False when there is none.
-bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+bool ArcLength::grazing_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
                                CurvePoint& corner) {
   bool onwards = true;
   for (std::size_t i = 0; i < together.size(); ++i) {
@@ -141,14 +141,14 @@ bool ArcLength::corner_tangent(int sample, const std::vector<int>& together, con
 
 // All samples at their gaps go on through together where they can, as one always does and those of symmetric
 // contacts do. Otherwise some of them turn back: of such ways the first that keeps the orientation.
-bool ArcLength::leave_corner(int sample, const Sides& sides, CurvePoint& corner) {
+bool ArcLength::leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& corner) {
   constexpr std::size_t most = 8;
   const std::vector<int> together = samples_at_gap(corner);
   for (const int l : together)
-    crossed_ = crossed_ || l / system_.problem().points() != sample / system_.problem().points();
+    orientation_unknown_ = orientation_unknown_ || l / system_.problem().points() != sample / system_.problem().points();
   std::vector<bool> through;
   for (const int l : together) through.push_back(is_at_gap(point_, l) ? sides[l] : !sides[l]);
-  if (corner_tangent(sample, together, through, corner))
+  if (grazing_tangent(sample, together, through, corner))
     return together.size() > 1 || corner.orientation * point_.orientation >= 0;
   if (together.size() > most) return false;
   const unsigned all = 1u << together.size();
@@ -157,7 +157,7 @@ bool ArcLength::leave_corner(int sample, const Sides& sides, CurvePoint& corner)
       std::vector<bool> presses = through;
       for (std::size_t i = 0; i < together.size(); ++i)
         if (back >> i & 1u) presses[i] = !presses[i];
-      if (!corner_tangent(sample, together, presses, corner)) continue;
+      if (!grazing_tangent(sample, together, presses, corner)) continue;
       if (!oriented || corner.orientation == point_.orientation) return true;
     }
   return false;

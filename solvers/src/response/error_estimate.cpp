@@ -1,4 +1,4 @@
-#include "response/rung_distance.hpp"
+#include "response/error_estimate.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -6,7 +6,7 @@ namespace {
 double relative(double value, double scale) { return value == 0.0 ? 0.0 : value / scale; }
 
 /// Below M/2 a harmonic's amplitude is its coefficient over M: those of the cardinal functions are samples.
-RungDistance harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_functions,
+LevelDifference harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_functions,
                                const Eigen::MatrixXcd& fine, int fine_functions) {
   double within = 0.0, beyond = 0.0, scale = 0.0;
   for (Eigen::Index n = 0; n < fine.rows(); ++n) {
@@ -23,7 +23,7 @@ RungDistance harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_functi
 
 }  // namespace
 
-RungDistance rung_distance(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
+LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
                            const CondensedProblem& fine, const PeriodicResponse& fine_response) {
   const TimePair& pair = fine.pair();
   const bool odd = pair.functions() % 2 == 1 && coarse.pair().functions() % 2 == 1;

@@ -6,7 +6,7 @@
 namespace wavebalance::solvers {
 
 /// How far two responses of one motion are apart, in relative rms of the contact displacement.
-struct RungDistance {
+struct LevelDifference {
   double within = 0.0;  ///< harmonics that the coarser one's functions hold
   double beyond = 0.0;  ///< harmonics beyond them
 
@@ -15,7 +15,7 @@ struct RungDistance {
 
 /// Pairs of Fourier functions are compared harmonic by harmonic, any others at the coarser one's points, all
 /// of it `beyond`. The points of the finer problem are a multiple of the coarser one's. O(M + N).
-RungDistance rung_distance(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
+LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
                            const CondensedProblem& fine, const PeriodicResponse& fine_response);
 
 /// Displacement, relative rms, by which sums over half the points would differ, contact left as it is: the
