@@ -6,7 +6,7 @@
 #include "program.hpp"
 #include "stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/table.hpp"

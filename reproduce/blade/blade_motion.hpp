@@ -2,17 +2,16 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "wavebalance/fem/blade.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/plot/surface.hpp"
+#include "wavebalance/fem/blade.hpp"
 
-/// What is measured of a blade's motions and how they are drawn.
+/// Measures of a blade's motions, and its surface for the pictures.
 namespace wavebalance::blade {
 
 /// Displacements of all nodes of the scene's blade, 3 x nodes (m), at `times` uniform times of a mode's
 /// period from t = 0 on. O(n r times), n unknowns and r coordinates of the reduced blade.
-std::vector<Eigen::Matrix3Xd> motion(const app::ModeStudy& study, const solvers::ModePoint& point,
-                                     int times);
+std::vector<Eigen::Matrix3Xd> motion(const app::ModeStudy& study, const solvers::ModePoint& point, int times);
 
 /// The rigid motion in planes z = const that is nearest to the displacements of the tip's contact nodes
 /// (least squares).
@@ -20,7 +19,7 @@ struct TipMotion {
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();  ///< m, of the nodes' centre
   double rotation = 0.0;                                  ///< rad, about z
   double radius = 0.0;                                    ///< m, of gyration of the nodes about their centre
-  /// Of the squared displacement of the rigid motion, the share that is rotation.
+  /// The share of rotation in the squared displacement of the rigid motion.
   double rotation_share() const;
 };
 /// displacements: 3 x nodes, m.
@@ -32,8 +31,8 @@ double twist_amplitude(const fem::Blade& blade, const std::vector<Eigen::Matrix3
 /// Which linear modes are torsion: those whose tip rotates more than it translates.
 std::vector<bool> torsion_modes(const app::ModeStudy& study);
 
-/// Of the kinetic energy of a motion, mean over its period, the share in the modes of `torsion`: linear modes
-/// are orthogonal, so that the energy is the sum over harmonics n and modes j of n^2 |a_jn|^2.
+/// The share of the modes of `torsion` in the kinetic energy, mean over the period. Linear modes are
+/// orthogonal, so that this energy is the sum over harmonics n and modes j of n^2 |a_jn|^2.
 double torsion_share(const std::vector<bool>& torsion, const solvers::ModePoint& point);
 
 /// Fractions of the period at which samples bear a force, at the contact nodes of either half of the chord.
@@ -46,7 +45,6 @@ EdgeContact edge_contact(const Eigen::MatrixXd& force);
 bool centred(const std::vector<double>& times, double centre, double sample);
 
 /// The blade's surface in mm. displacements: 3 x nodes, m, or empty; added `scale` times.
-app::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {},
-                           double scale = 0.0);
+app::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {}, double scale = 0.0);
 
 }  // namespace wavebalance::blade

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,8 +7,8 @@
 
 #include "figures.hpp"
 #include "rotating_blade.hpp"
-#include "wavebalance/report/artefact.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::blade {
 using app::Colour;
@@ -25,8 +27,7 @@ double rad_per_s(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 std::string column(double energy) { return "energy_" + report::number(energy); }
 
 /// Hz over rotation speed for each energy; missing where the branch was not found.
-app::Table campbell(const RotatingBlade& blade, const app::Scene& scene,
-                          std::string& interruptions) {
+app::Table campbell(const RotatingBlade& blade, const app::Scene& scene, std::string& interruptions) {
   std::vector<std::string> columns{"rotation_rpm", "linear_Hz"};
   for (const double energy : energies) columns.push_back(column(energy));
   app::Table table(columns);
@@ -35,9 +36,9 @@ app::Table campbell(const RotatingBlade& blade, const app::Scene& scene,
     const app::ModeStudy study(scene, blade.at(rad_per_s(rpm)));
     const auto curve = study.backbone();
     for (const auto& gap : curve.interruptions)
-      interruptions += (interruptions.empty() ? "" : ", ") + report::number(rpm, 5) +
-                       " 1/min: " + (gap.tongues.empty() ? gap.status : gap.tongues.front()) + " at " +
-                       report::number(gap.first_ratio, 4);
+      interruptions += fmt::format(
+          "{}{} 1/min: {} at {}", interruptions.empty() ? "" : ", ", report::number(rpm, 5),
+          gap.tongues.empty() ? gap.status : gap.tongues.front(), report::number(gap.first_ratio, 4));
     std::vector<app::Cell> row{rpm, study.linear_frequency()};
     for (const double energy : energies) {
       const auto point = study.at_energy(curve, energy);
@@ -62,7 +63,7 @@ app::Figure drawn(const app::Table& table) {
   panel.legend = app::Legend::right_of_panel;
   for (const double energy : energies) {
     app::Series series("energy " + report::number(energy) + (energy == 1.0 ? " (linear)" : ""), table,
-                             "rotation_rpm", column(energy), app::SeriesStyle::line_points);
+                       "rotation_rpm", column(energy), app::SeriesStyle::line_points);
     series.marker = 1;
     panel.add(series);
   }
@@ -105,23 +106,25 @@ void claims(report::Artefact& artefact, const app::Table& table) {
   }
   artefact.claim({"this project", "Centrifugal forces stiffen the blade.",
                   "the first linear frequency rises from each speed to the next",
-                  report::number(linear.front(), 5) + " Hz at rest, " + report::number(linear.back(), 5) +
-                      " Hz at " + report::number(largest_rpm, 5) + " 1/min",
+                  fmt::format("{} Hz at rest, {} Hz at {} 1/min", report::number(linear.front(), 5),
+                              report::number(linear.back(), 5), report::number(largest_rpm, 5)),
                   with_speed});
   artefact.claim({"this project", "Contact stiffens it at every speed.",
                   "at each speed the frequency rises from each energy to the next",
-                  std::to_string(found) + " of " + std::to_string(table.rows() * std::size(energies)) +
-                      " points found; " + report::number(table.numbers(column(10.4)).front(), 5) +
-                      " Hz at rest and energy 10.4",
+                  fmt::format("{} of {} points found; {} Hz at rest and energy 10.4", found,
+                              table.rows() * std::size(energies),
+                              report::number(table.numbers(column(10.4)).front(), 5)),
                   with_energy});
   const double still = crossing(table, 1.0, claimed_order), moved = crossing(table, 10.4, claimed_order);
-  artefact.claim({"this project",
-                  "A resonance with an engine order moves to another speed when the tip touches.",
-                  "engine order " + std::to_string(claimed_order) +
-                      " meets the mode of energy 10.4 at a speed at least 5 % above that of the linear mode",
-                  report::number(still, 5) + " 1/min without contact, " + report::number(moved, 5) +
-                      " 1/min at energy 10.4",
-                  moved > 1.05 * still});
+  artefact.claim(
+      {"this project", "A resonance with an engine order moves to another speed when the tip touches.",
+       fmt::format(
+           "engine order {} meets the mode of energy 10.4 at a speed at least 5 % above that of the linear "
+           "mode",
+           claimed_order),
+       fmt::format("{} 1/min without contact, {} 1/min at energy 10.4", report::number(still, 5),
+                   report::number(moved, 5)),
+       moved > 1.05 * still});
 }
 
 }  // namespace
@@ -135,21 +138,20 @@ void campbell_diagram(report::Artefact& artefact) {
                 {"energies over that of the linear mode that just touches at the same speed"});
   artefact.picture(drawn(table));
   artefact.caption(
-      "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the "
-      "open "
+      "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the open "
       "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
       "that just touches at the same speed; EO are engine orders.");
-  artefact.note(
-      "The gap is that of the turning blade. Its static displacement, up to " +
-      report::number(1e3 * blade.static_displacement(rad_per_s(largest_rpm)), 2) +
-      " mm at the largest speed, stiffens the blade but is not part of the motion; Coriolis forces are not "
-      "included. All speeds take the reduction at rest (" +
-      report::number(blade.at_rest().reduction_seconds, 2) + " s).");
+  artefact.note(fmt::format(
+      "The gap is that of the turning blade. Its static displacement, up to {} mm at the largest speed, "
+      "stiffens the blade but is not part of the motion; Coriolis forces are not included. All speeds take "
+      "the reduction at rest ({} s).",
+      report::number(1e3 * blade.static_displacement(rad_per_s(largest_rpm)), 2),
+      report::number(blade.at_rest().reduction_seconds, 2)));
   if (!interruptions.empty())
-    artefact.note(
-        "Branches interrupted by internal resonances (harmonic : linear mode) or unsolved, at "
-        "frequencies over the linear one: " +
-        interruptions + ".");
+    artefact.note(fmt::format(
+        "Branches interrupted by internal resonances (harmonic : linear mode) or unsolved, at frequencies "
+        "over the linear one: {}.",
+        interruptions));
   claims(artefact, table);
 }
 

@@ -1,5 +1,7 @@
 #include "forced_blade.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,14 +15,14 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Contact-major samples as one row a contact.
+/// Contact-major samples as one row per contact.
 Eigen::MatrixXd rows(const Eigen::VectorXd& samples, int contacts) {
   return Eigen::Map<const RowMajor>(samples.data(), contacts, samples.size() / contacts);
 }
 
 }  // namespace
 
-std::vector<BladeResponse> stepped(const app::Scene& scene, const app::StructureModel& model) {
+std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model) {
   const auto& analysis = scene.analysis;
   const double from = analysis.frequency_from, range = analysis.frequency_to - from;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(range) / analysis.largest_step - 1e-9)));
@@ -66,9 +68,9 @@ std::vector<double> largest_displacements(const std::vector<BladeResponse>& resp
 double rms_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const Eigen::Index common = std::min(a.cols(), b.cols());
   if (a.rows() != b.rows() || common == 0 || a.cols() % common != 0 || b.cols() % common != 0)
-    throw std::invalid_argument("rms_difference: " + std::to_string(a.rows()) + " x " +
-                                std::to_string(a.cols()) + " and " + std::to_string(b.rows()) + " x " +
-                                std::to_string(b.cols()) + " samples have no common times");
+    throw std::invalid_argument(
+        fmt::format("rms_difference: {} x {} and {} x {} samples have no common times", a.rows(), a.cols(),
+                    b.rows(), b.cols()));
   const auto thinned = [common](const Eigen::MatrixXd& samples) -> Eigen::MatrixXd {
     return samples(Eigen::all, Eigen::seqN(0, common, samples.cols() / common));
   };

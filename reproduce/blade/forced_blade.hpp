@@ -19,7 +19,7 @@ struct BladeResponse {
 /// apart, each from the one before, or where that branch ends from the contact-free response: upwards this
 /// stays on the branch of large responses, downwards on that of small ones. model: the scene's structure
 /// composed before. O(frequencies) periodic problems.
-std::vector<BladeResponse> stepped(const app::Scene& scene, const app::StructureModel& model);
+std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model);
 
 /// The scene with frequencies from frequency_to to frequency_from.
 app::Scene reversed(app::Scene scene);
@@ -27,7 +27,7 @@ app::Scene reversed(app::Scene scene);
 /// The one at `frequency` (Hz), to half a step. Throws std::out_of_range.
 const BladeResponse& at(const std::vector<BladeResponse>& responses, double frequency);
 
-/// Largest displacement of any contact, m, one a response; not a number where it did not converge.
+/// Largest displacement of any contact per response, m; NaN where it did not converge.
 std::vector<double> largest_displacements(const std::vector<BladeResponse>& responses);
 
 /// rms of the difference of two matrices of samples over the rms of the second. They have the same number of

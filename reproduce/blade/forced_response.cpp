@@ -1,11 +1,13 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "figures.hpp"
 #include "forced_blade.hpp"
-#include "wavebalance/report/artefact.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::blade {
 using app::Colour;
@@ -30,8 +32,8 @@ using Responses = std::vector<BladeResponse>;
 struct Study {
   app::Scene scene;
   Responses linear;               ///< without contact
-  app::Sweep traced;        ///< Fourier, by arc length
-  std::vector<Responses> curves;  ///< one a pair, upwards in steps
+  app::Sweep traced;              ///< Fourier, by arc length
+  std::vector<Responses> curves;  ///< one per pair, upwards in steps
   Responses down;                 ///< Fourier, downwards in steps
 
   double gap() const { return scene.contact.gap; }
@@ -41,7 +43,7 @@ struct Study {
 /// Thinner from one pair to the next, so that all show where they agree.
 double width(std::size_t pair) { return 2.8 - 0.9 * static_cast<double>(pair); }
 
-std::vector<std::string> of_pair(const Pair& pair) {
+std::vector<std::string> pair_overrides(const Pair& pair) {
   return {std::string("time.trial=\"") + pair.trial + "\"",
           std::string("time.weight=\"") + pair.weight + "\""};
 }
@@ -58,10 +60,9 @@ std::vector<double> frequencies(const Responses& responses) {
 }
 
 app::Series points_of(const std::string& label, const Responses& responses, double gap, Colour colour,
-                            int marker) {
-  app::Series series(label, frequencies(responses),
-                           over_gap(largest_displacements(responses), gap),
-                           app::SeriesStyle::points);
+                      int marker) {
+  app::Series series(label, frequencies(responses), over_gap(largest_displacements(responses), gap),
+                     app::SeriesStyle::points);
   series.colour = colour;
   series.marker = marker;
   return series;
@@ -77,7 +78,7 @@ void add_curves(app::Figure& figure, const Study& study) {
   panel.y.upper = 6.0;
   panel.legend = app::Legend::top_right;
   app::Series straight("without contact", frequencies(study.linear),
-                             over_gap(largest_displacements(study.linear), study.gap()));
+                       over_gap(largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
   straight.dash = app::Dash::dashed;
   panel.add(straight);
@@ -118,10 +119,10 @@ void add_map(app::Figure& figure, const BladeResponse& response) {
   panel.legend = app::Legend::none;
 }
 
-void add_history(app::Figure& figure, const std::vector<Responses>& curves, double gap,
-                 double frequency, bool force, bool leading) {
-  auto& panel = figure.add_panel(std::string(leading ? "leading" : "trailing") + " edge, " +
-                                 report::number(frequency, 4) + " Hz");
+void add_history(app::Figure& figure, const std::vector<Responses>& curves, double gap, double frequency,
+                 bool force, bool leading) {
+  auto& panel = figure.add_panel(fmt::format("{} edge, {} Hz", std::string(leading ? "leading" : "trailing"),
+                                             report::number(frequency, 4)));
   panel.x.label = "Time (fraction of a period)";
   panel.x.lower = 0.0;
   panel.x.upper = 1.0;
@@ -175,24 +176,25 @@ void claims(report::Artefact& artefact, const Study& study) {
     const auto& peak = curves[i][peak_of(curves[i])];
     const double height = peak.displacement.maxCoeff() / gap;
     higher = higher && peak.frequency > free.frequency && height < free_height;
-    peaks += (i == 0 ? "" : ", ") + std::string(pairs[i].label) + " " + report::number(peak.frequency, 4) +
-             " Hz and " + report::number(height, 3);
+    peaks += fmt::format("{}{} {} Hz and {}", i == 0 ? "" : ", ", std::string(pairs[i].label),
+                         report::number(peak.frequency, 4), report::number(height, 3));
     if (i == 0) continue;
-    const double difference = rms_difference(at(curves[i], frequency).displacement,
-                                                    at(curves[0], frequency).displacement);
+    const double difference =
+        rms_difference(at(curves[i], frequency).displacement, at(curves[0], frequency).displacement);
     largest = std::max(largest, difference);
     differences += (i == 1 ? "" : ", ") + std::string(pairs[i].label) + " " + report::percent(difference, 2);
   }
   artefact.claim({"this project", "Contact at the tip stiffens the blade and limits its motion.",
                   "in each pair the peak of the upward steps is at a higher frequency than without contact, "
                   "and lower",
-                  peaks + " gaps; without contact " + report::number(free.frequency, 4) + " Hz and " +
-                      report::number(free_height, 3) + " gaps",
+                  fmt::format("{} gaps; without contact {} Hz and {} gaps", peaks,
+                              report::number(free.frequency, 4), report::number(free_height, 3)),
                   higher});
   artefact.claim(
       {"this project", "Wavelet pairs give the response of Fourier.",
-       "at " + report::number(frequency, 4) +
-           " Hz the motions of all 24 contacts differ from those by Fourier by less than 5 % (rms)",
+       fmt::format(
+           "at {} Hz the motions of all 24 contacts differ from those by Fourier by less than 5 % (rms)",
+           report::number(frequency, 4)),
        differences, largest < 0.05});
 }
 
@@ -200,17 +202,17 @@ void notes(report::Artefact& artefact, const Study& study) {
   std::size_t unsolved = 0;
   for (const auto& curve : study.curves)
     for (const auto& response : curve) unsolved += response.converged ? 0 : 1;
-  artefact.note(std::to_string(unsolved) + " of " +
-                std::to_string(study.curves.size() * study.curves[0].size()) +
-                " stepped responses did not converge and are missing.");
+  artefact.note(fmt::format("{} of {} stepped responses did not converge and are missing.", unsolved,
+                            study.curves.size() * study.curves[0].size()));
   std::string turns;
   for (const auto& turn : study.traced.curve.turning_points)
     turns += (turns.empty() ? "" : ", ") + report::number(turn.frequency, 5) + " Hz";
-  artefact.note("The curve by arc length (" + std::string(to_string(study.traced.curve.status)) + ", " +
-                std::to_string(study.traced.curve.points.size()) + " points) turns at " +
-                (turns.empty() ? "no frequency" : turns) +
-                ". It takes an odd number of functions: an even one, as wavelets have, leaves its Nyquist "
-                "coefficient undamped, whose resonances no curve passes; steps do.");
+  artefact.note(fmt::format(
+      "The curve by arc length ({}, {} points) turns at {}. It takes an odd number of functions: an even "
+      "one, as wavelets have, leaves its Nyquist coefficient undamped, whose resonances no curve passes; "
+      "steps do.",
+      to_string(study.traced.curve.status), study.traced.curve.points.size(),
+      turns.empty() ? "no frequency" : turns));
 }
 
 Study solved(report::Artefact& artefact) {
@@ -219,15 +221,15 @@ Study solved(report::Artefact& artefact) {
   study.scene = artefact.scene(file);
   const auto model = app::make_model(study.scene);
   // A gap of 1 m is never closed; without contact eight functions are as good as any.
-  study.linear = stepped(
+  study.linear = stepped_sweep(
       artefact.scene(file, {"contact.gap=1.0", "time.functions=8", "analysis.largest_step=1.0"}), model);
   study.traced = app::frequency_sweep(
       artefact.scene(file, {"time.functions=31", "time.quadrature_points=64", "analysis.first_step=0.2",
                             "analysis.largest_step=2.5", "analysis.output_points=256"}),
       model);
   for (const Pair& pair : pairs)
-    study.curves.push_back(stepped(artefact.scene(file, of_pair(pair)), model));
-  study.down = stepped(reversed(study.scene), model);
+    study.curves.push_back(stepped_sweep(artefact.scene(file, pair_overrides(pair)), model));
+  study.down = stepped_sweep(reversed(study.scene), model);
   return study;
 }
 
@@ -246,10 +248,12 @@ void write_data(report::Artefact& artefact, const Study& study) {
   artefact.more_data("without_contact", free, "Hz; largest radial displacement of a contact node in m");
   artefact.more_data("curve", app::sweep_table(study.traced.curve),
                      "Hz, m; Fourier by arc length, points in their order along the curve");
-  artefact.more_data("histories", histories(study.curves, study.frequency()),
-                     "one period at " + report::number(study.frequency(), 4) +
-                         " Hz: radial displacement in m and contact force in N at the first node of the "
-                         "leading and the last of the trailing edge");
+  artefact.more_data(
+      "histories", histories(study.curves, study.frequency()),
+      fmt::format(
+          "one period at {} Hz: radial displacement in m and contact force in N at the first node of the "
+          "leading and the last of the trailing edge",
+          report::number(study.frequency(), 4)));
 }
 
 app::Figure drawn(const Study& study) {
@@ -271,14 +275,12 @@ void forced_response(report::Artefact& artefact) {
   const Study study = solved(artefact);
   write_data(artefact, study);
   artefact.picture(drawn(study));
-  artefact.caption(
+  artefact.caption(fmt::format(
       "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
-      "functions and 64 points, and each pair in steps of the frequency with " +
-      std::to_string(study.scene.time.functions) + " functions and " +
-      std::to_string(study.scene.time.quadrature_points) +
-      " points a period: what JL14 names as its next step. Steps go up, each response from the one before, "
-      "and down again; dotted lines mark the gap and the frequency of the histories, whose colours are "
-      "those of (a).");
+      "functions and 64 points, and each pair in steps of the frequency with {} functions and {} points a "
+      "period: what JL14 names as its next step. Steps go up, each response from the one before, and down "
+      "again; dotted lines mark the gap and the frequency of the histories, whose colours are those of (a).",
+      study.scene.time.functions, study.scene.time.quadrature_points));
   claims(artefact, study);
   notes(artefact, study);
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::blade {
 
@@ -10,12 +10,12 @@ namespace wavebalance::blade {
 /// projected on the coordinates of the blade at rest, which one prestress solve gives for all speeds.
 class RotatingBlade {
  public:
-  /// The scene's blade, which must not turn, about the axis of the scene. Throws std::invalid_argument.
+  /// The scene's blade, which must be at rest, about the axis of the scene. Throws std::invalid_argument.
   explicit RotatingBlade(const app::Scene& scene);
 
   const app::StructureModel& at_rest() const { return at_rest_; }
   /// The reduced blade at `speed`, rad/s. Its load, gaps and damping are those at rest: the gap is what the
-  /// turning blade has. O(r^2).
+  /// rotating blade has. O(r^2).
   app::StructureModel at(double speed) const;
   /// Largest static displacement under the centrifugal load at `speed`, m.
   double static_displacement(double speed) const { return speed * speed * unit_displacement_; }

@@ -1,10 +1,12 @@
 #include "convergence.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/nyquist_resonances.hpp"
 
 namespace wavebalance::jl14 {
@@ -131,10 +133,10 @@ void note_nyquist_resonances(report::Artefact& artefact) {
           nearest = frequency;
           where = one.label + " with " + std::to_string(functions) + " functions";
         }
-    artefact.note("At " + study.frequency_text() +
-                  ": the Nyquist coefficient of an even number of functions is undamped "
-                  "in the Galerkin pairs; of its resonances the nearest to the forcing is that of " +
-                  where + ", at " + report::number(nearest, 6) + " Hz.");
+    artefact.note(fmt::format(
+        "At {}: the Nyquist coefficient of an even number of functions is undamped in the Galerkin pairs; of "
+        "its resonances the nearest to the forcing is that of {}, at {} Hz.",
+        study.frequency_text(), where, report::number(nearest, 6)));
   }
 }
 

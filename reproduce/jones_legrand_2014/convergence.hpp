@@ -32,7 +32,7 @@ class Convergence {
   double order(int case_number, const std::string& pair_name, int smallest = 8) const;
   /// The results with `change` applied to each.
   Convergence mapped(const std::function<double(double)>& change) const;
-  /// Two panels, 150 Hz and 1275 Hz, one curve a pair.
+  /// Two panels, 150 Hz and 1275 Hz, one curve per pair.
   app::Figure figure(const std::string& label, bool logarithmic) const;
 
  private:
@@ -40,7 +40,7 @@ class Convergence {
   Table table_;
 };
 
-/// Notes, a case each, which pair and number of functions has a resonance of its own Nyquist coefficient (see
+/// Notes for each case which pair and number of functions has a resonance of its own Nyquist coefficient (see
 /// app::nyquist_resonances) nearest to the forcing frequency.
 void note_nyquist_resonances(report::Artefact& artefact);
 

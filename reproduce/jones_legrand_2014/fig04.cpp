@@ -1,7 +1,9 @@
+#include <fmt/format.h>
+
+#include "curve_measures.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/analysis/curve_measures.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
 
 namespace wavebalance::jl14 {
@@ -33,19 +35,16 @@ void claim_levels(report::Artefact& artefact) {
 
 void claim_shape(report::Artefact& artefact) {
   const auto phi = wavelets::ScalingFunction::daubechies(6);
-  const auto gain = [&](int level) {
-    return app::refinement_gain(phi.values(level), phi.values(level + 1));
-  };
+  const auto gain = [&](int level) { return refinement_gain(phi.values(level), phi.values(level + 1)); };
   const double first = gain(2), middle = gain(6), last = gain(10);
   artefact.claim(
       {"section 3.4",
        "as one increases the resolution of the functions, the shape does not converge but rather continues "
-       "to "
-       "increase in complexity",
+       "to increase in complexity",
        "what a doubling of the resolution adds to the polygon through the values does not shrink (threshold: "
        "by less than half over four doublings)",
-       "it adds " + report::number(first) + " after 2 levels, " + report::number(middle) + " after 6, " +
-           report::number(last) + " after 10: the values converge",
+       fmt::format("it adds {} after 2 levels, {} after 6, {} after 10: the values converge",
+                   report::number(first), report::number(middle), report::number(last)),
        last > 0.5 * middle});
 }
 

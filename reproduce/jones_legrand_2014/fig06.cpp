@@ -1,6 +1,8 @@
+#include <fmt/format.h>
+
+#include "curve_measures.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
-#include "wavebalance/app/analysis/curve_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -9,26 +11,25 @@ namespace {
 constexpr double millimetres = 1e3;
 
 Eigen::VectorXd on_plateau(const Case& study, const Eigen::VectorXd& values, bool inside = true) {
-  const Eigen::VectorXd force = half_turn(study.reference().contact_force);
-  return app::select(half_turn(values), (force.array() > 0.0) == inside);
+  const Eigen::VectorXd force = shifted_by_half_a_period(study.reference().contact_force);
+  return select(shifted_by_half_a_period(values), (force.array() > 0.0) == inside);
 }
 
 void claim_hbm(report::Artefact& artefact, const Case& study, const solvers::PeriodSamples& hbm) {
   const auto& reference = study.reference();
   const Eigen::VectorXd difference = on_plateau(study, hbm.displacement - reference.displacement);
-  const int changes = app::sign_changes(difference);
+  const int changes = sign_changes(difference);
   const double swing =
       (difference.maxCoeff() - difference.minCoeff()) / (reference.displacement.maxCoeff() - study.gap());
   artefact.claim({"section 5.1",
                   "close examination of the contact plateau for the 150 Hz case shows oscillations due to "
                   "Gibbs phenomenon",
                   "on the plateau the difference from time stepping changes sign four times or more",
-                  std::to_string(changes) + " changes of sign, swing " + report::percent(swing) +
-                      " of the largest penetration",
+                  fmt::format("{} changes of sign, swing {} of the largest penetration", changes,
+                              report::percent(swing)),
                   changes >= 4});
   const int steps = reference.points() / 128;
-  const double kink =
-      app::largest_change(hbm.velocity, steps) / app::largest_change(reference.velocity, steps);
+  const double kink = largest_change(hbm.velocity, steps) / largest_change(reference.velocity, steps);
   artefact.claim(
       {"section 5.1", "and rounding off of the sharp gradient changes",
        "the largest change of velocity within 1/128 of the period is smaller than in time stepping",
@@ -59,9 +60,8 @@ void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& 
   artefact.claim({"section 5.1",
                   "However, the contact plateau is well represented by the constant Haar scaling functions.",
                   "Haar:Fourier is within 2 % of the gap of time stepping on at least 90 % of the plateau",
-                  "on " + report::percent(share) +
-                      " of it (with exact inner products in place of the 256-point sums on " +
-                      report::percent(exact) + ")",
+                  fmt::format("on {} of it (with exact inner products in place of the 256-point sums on {})",
+                              report::percent(share), report::percent(exact)),
                   share >= 0.9});
 }
 
@@ -74,9 +74,10 @@ void claim_bspline(report::Artefact& artefact, const Case& study, const Eigen::V
       {"section 5.5",
        "a localized error which was found to develop at the end of the contact plateau (see Fig. 6(d))",
        "B-spline:B-spline: the error is larger in the last quarter of the plateau than in its middle half",
-       report::number(end) + " mm in the last quarter, " +
-           report::number(millimetres * difference.segment(cells, 2 * cells).maxCoeff()) +
-           " mm in the middle half (and " + report::number(start) + " mm in the first quarter)",
+       fmt::format("{} mm in the last quarter, {} mm in the middle half (and {} mm in the first quarter)",
+                   report::number(end),
+                   report::number(millimetres * difference.segment(cells, 2 * cells).maxCoeff()),
+                   report::number(start)),
        end > millimetres * difference.segment(cells, 2 * cells).maxCoeff()});
 }
 
@@ -89,18 +90,17 @@ void fig06(report::Artefact& artefact) {
   const Eigen::VectorXd& reference = study.reference().displacement;
   artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                 {"64 functions; reference: time stepping"});
-  artefact.picture(pair_figure({"Tip displacement at 150 Hz, 64 functions",
-                                      axis("Displacement (mm)", -1.6, 1.2), -0.5, millimetres,
-                                      reference, u, study.gap(), Zoom{-0.17, 0.17, 0.97, 1.03, {}}}));
+  artefact.picture(
+      pair_figure({"Tip displacement at 150 Hz, 64 functions", axis("Displacement (mm)", -1.6, 1.2), -0.5,
+                   millimetres, reference, u, study.gap(), Zoom{-0.17, 0.17, 0.97, 1.03, {}}}));
   artefact.caption(
-      "64 functions at 150 Hz; dashed: time stepping; dotted: the gap. The force F cos 2πft puts the "
-      "contact about t = 0, which stands in the middle. The panels follow the letters that the text "
-      "gives.");
+      "64 functions at 150 Hz; dashed: time stepping; dotted: the gap. The force F cos 2πft puts the contact "
+      "about t = 0, which stands in the middle. The panels follow the letters that the text gives.");
   const double error = app::relative_rms_error(u[0], reference);
   artefact.claim(
       {"section 5.1",
-       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "
-       "at both 150 Hz and 1275 Hz compared to the time-stepping solution.",
+       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
+       "both 150 Hz and 1275 Hz compared to the time-stepping solution.",
        "at 150 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
   claim_hbm(artefact, study, responses[0].samples);
   claim_haar(artefact, study, u[3], u[0]);

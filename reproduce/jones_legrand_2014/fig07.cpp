@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -27,9 +29,9 @@ void claim_haar(report::Artefact& artefact, Case& study) {
   artefact.claim(
       {"section 5.1", "as the contact plateau is smaller and not as flat",
        "the contact takes less of the period than at 150 Hz, and its penetration is a larger part of the gap",
-       "contact during " + report::percent(share) + " against " + report::percent(other_share) +
-           " of the period, penetration " + report::percent(penetration(study)) + " against " +
-           report::percent(penetration(other)) + " of the gap",
+       fmt::format("contact during {} against {} of the period, penetration {} against {} of the gap",
+                   report::percent(share), report::percent(other_share), report::percent(penetration(study)),
+                   report::percent(penetration(other))),
        share < other_share && penetration(study) > penetration(other)});
 }
 
@@ -42,16 +44,15 @@ void fig07(report::Artefact& artefact) {
   const Eigen::VectorXd& reference = study.reference().displacement;
   artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                 {"64 functions; reference: time stepping"});
-  artefact.picture(
-      pair_figure({"Tip displacement at 1275 Hz, 64 functions",
-                         axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
-                         study.gap(), Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
+  artefact.picture(pair_figure({"Tip displacement at 1275 Hz, 64 functions",
+                                axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
+                                study.gap(), Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
   artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
   const double error = app::relative_rms_error(u[0], reference);
   artefact.claim(
       {"section 5.1",
-       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well "
-       "at both 150 Hz and 1275 Hz compared to the time-stepping solution.",
+       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
+       "both 150 Hz and 1275 Hz compared to the time-stepping solution.",
        "at 1275 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
   claim_haar(artefact, study);
 }

@@ -1,6 +1,8 @@
+#include <fmt/format.h>
+
+#include "curve_measures.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
-#include "wavebalance/app/analysis/curve_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -8,8 +10,7 @@ namespace {
 
 double share_in_contact(const Eigen::VectorXd& force) { return (force.array() > 0.0).cast<double>().mean(); }
 
-void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference,
-                    const Values& forces) {
+void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference, const Values& forces) {
   std::vector<double> shares;
   double largest = 0.0;
   for (const auto& force : forces) {
@@ -20,15 +21,14 @@ void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference
       {"section 5.3",
        "Notice the time duration of the contact forces coincide with the tip displacement plateaus of Fig. 6",
        "the time in contact differs from that of time stepping by at most 2/64 of the period, one cell at "
-       "its "
-       "start and one at its end",
-       "time stepping " + report::percent(share_in_contact(reference)) + " of the period; " +
-           listed(pairs(), shares),
+       "its start and one at its end",
+       fmt::format("time stepping {} of the period; {}", report::percent(share_in_contact(reference)),
+                   listed(pairs(), shares)),
        largest <= 2.0 / 64});
 }
 
 void claim_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference, const Values& forces) {
-  const auto excess = measured(forces, reference, &app::excess_variation);
+  const auto excess = measured(forces, reference, &excess_variation);
   artefact.claim(
       {"section 5.3", "The effect of Gibbs phenomenon can be seen in the HBM and Galerkin B-spline cases.",
        "the force of both varies more over the period than that of time stepping, by more than 10 %",
@@ -43,9 +43,9 @@ void claim_accuracy(report::Artefact& artefact, const std::vector<double>& rms,
       "the other cases.";
   const auto claim = [&](const std::string& name, const std::vector<double>& errors) {
     const auto& best = lowest(errors);
-    artefact.claim(
-        {"section 5.3", quote, "the lowest " + name + " is that of a pair with DB6 trial functions",
-         "lowest: " + best.label + "; " + listed(pairs(), errors), best.trial == "daubechies6"});
+    artefact.claim({"section 5.3", quote,
+                    "the lowest " + name + " is that of a pair with DB6 trial functions",
+                    "lowest: " + best.label + "; " + listed(pairs(), errors), best.trial == "daubechies6"});
   };
   claim("relative rms error", rms);
   claim("mean absolute error", mean);
@@ -65,8 +65,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const std::vector<doubl
       {"section 5.3",
        "The cases where Haar trial functions are used approximate the contact force relatively well.",
        "both Haar pairs have a relative rms error at most twice that of Fourier:Fourier",
-       listed(pairs_named({"fourier_fourier", "haar_fourier", "haar_bspline"}),
-                    {rms[0], rms[3], rms[5]}) +
+       listed(pairs_named({"fourier_fourier", "haar_fourier", "haar_bspline"}), {rms[0], rms[3], rms[5]}) +
            "; with exact inner products in place of the 256-point sums: " +
            listed(haar, measured(exact, reference, &app::relative_rms_error)),
        std::max(rms[3], rms[5]) < 2.0 * rms[0]});
@@ -84,20 +83,20 @@ void fig09(report::Artefact& artefact) {
                 "time in periods, contact forces divided by the amplitude F of the external force",
                 {"64 functions; reference: time stepping"});
   artefact.picture(pair_figure({"Contact force at 150 Hz, 64 functions",
-                                      axis("Contact force f_c/F (-)", 0.0, 0.7),
-                                      -0.5,
-                                      1.0,
-                                      reference,
-                                      forces,
-                                      {},
-                                      Zoom{-0.17, 0.17, 0.0, 0.4, {}}}));
+                                axis("Contact force f_c/F (-)", 0.0, 0.7),
+                                -0.5,
+                                1.0,
+                                reference,
+                                forces,
+                                {},
+                                Zoom{-0.17, 0.17, 0.0, 0.4, {}}}));
   artefact.caption(
       "64 functions at 150 Hz; dashed: time stepping. The force is eq. (5) of the predicted displacement.");
   claim_duration(artefact, reference, forces);
   claim_ringing(artefact, reference, forces);
   const auto rms = measured(forces, reference, &app::relative_rms_error);
   claim_haar(artefact, study, rms);
-  claim_accuracy(artefact, rms, measured(forces, reference, &app::relative_mean_error));
+  claim_accuracy(artefact, rms, measured(forces, reference, &relative_mean_error));
 }
 
 }  // namespace wavebalance::jl14

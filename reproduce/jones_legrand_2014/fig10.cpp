@@ -1,5 +1,7 @@
-#include "figures.hpp"
+#include <fmt/format.h>
+
 #include "convergence.hpp"
+#include "figures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -8,8 +10,9 @@ namespace {
 void claim_convergence(report::Artefact& artefact, const Convergence& off) {
   const auto all = pairs();
   const auto compared = [&](int functions) {
-    return "largest deviation " + report::percent(off.largest(1, all, functions)) + " at 150 Hz, " +
-           report::percent(off.largest(2, all, functions)) + " at 1275 Hz";
+    return fmt::format("largest deviation {} at 150 Hz, {} at 1275 Hz",
+                       report::percent(off.largest(1, all, functions)),
+                       report::percent(off.largest(2, all, functions)));
   };
   artefact.claim(
       {"section 5.4",
@@ -28,15 +31,15 @@ void claim_convergence(report::Artefact& artefact, const Convergence& off) {
 void claim_smooth_pairs(report::Artefact& artefact, const Convergence& off) {
   const auto smooth = pairs_named({"fourier_fourier", "bspline_bspline"});
   const auto claim = [&](int number, const std::string& quote) {
-    artefact.claim({"section 5.4", quote, "with 8 and with 16 functions both ratios are within 5 % of 1",
-                    "deviation with 8: " + listed(smooth, off.at(number, smooth, 8)) +
-                        "; with 16: " + listed(smooth, off.at(number, smooth, 16)),
-                    std::max(off.largest(number, smooth, 8), off.largest(number, smooth, 16)) < 0.05});
+    artefact.claim(
+        {"section 5.4", quote, "with 8 and with 16 functions both ratios are within 5 % of 1",
+         fmt::format("deviation with 8: {}; with 16: {}", listed(smooth, off.at(number, smooth, 8)),
+                     listed(smooth, off.at(number, smooth, 16))),
+         std::max(off.largest(number, smooth, 8), off.largest(number, smooth, 16)) < 0.05});
   };
   claim(1,
         "At 150 Hz, the HBM and Galerkin B-spline approaches show energy norms close to unity even using "
-        "relatively "
-        "few basis functions.");
+        "relatively few basis functions.");
   claim(2,
         "In this case the HBM and Galerkin B-spline approaches again converge quickly to the time-stepping "
         "solution.");
@@ -70,8 +73,8 @@ void claim_daubechies(report::Artefact& artefact, const Convergence& off) {
   const double gain = galerkin / fourier;
   const double gain_high = deviation(2, "daubechies6_daubechies6") / deviation(2, "daubechies6_fourier");
   const auto both = [&](int number) {
-    return "DB6:Fourier " + off.text(number, "daubechies6_fourier") + "; DB6:DB6 " +
-           off.text(number, "daubechies6_daubechies6");
+    return fmt::format("DB6:Fourier {}; DB6:DB6 {}", off.text(number, "daubechies6_fourier"),
+                       off.text(number, "daubechies6_daubechies6"));
   };
   artefact.claim(
       {"section 5.4",
@@ -84,23 +87,21 @@ void claim_daubechies(report::Artefact& artefact, const Convergence& off) {
        "Finally, it is less obvious now that DB6:Fourier combination outperforms the DB6:DB6 method at fewer "
        "basis functions.",
        "the mean deviation with 8, 16 and 32 functions is reduced by a smaller factor than at 150 Hz",
-       "by a factor of " + report::number(gain_high) + " against " + report::number(gain) +
-           "; deviations: " + both(2),
+       fmt::format("by a factor of {} against {}; deviations: {}", report::number(gain_high),
+                   report::number(gain), both(2)),
        gain_high < gain});
 }
 
 }  // namespace
 
 void fig10(report::Artefact& artefact) {
-  const Convergence ratio(artefact, "energy_norm_ratio", true,
-                          [](Case& study, const app::Response& response) {
-                            return app::energy_norm(study.scene(), response.samples) /
-                                   app::rms(study.reference_energy());
-                          });
+  const Convergence ratio(
+      artefact, "energy_norm_ratio", true, [](Case& study, const app::Response& response) {
+        return app::energy_norm(study.scene(), response.samples) / app::rms(study.reference_energy());
+      });
   const Convergence off = ratio.mapped([](double value) { return std::abs(value - 1.0); });
-  artefact.data(
-      ratio.table(), "ratio without unit",
-      {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of time stepping"});
+  artefact.data(ratio.table(), "ratio without unit",
+                {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of time stepping"});
   auto figure = ratio.figure("Energy norm ratio (-)", false);
   for (auto& panel : off.figure("|ratio − 1| (-)", true).panels) {
     panel.legend = app::Legend::none;

@@ -1,6 +1,6 @@
-#include "figures.hpp"
+#include "curve_measures.hpp"
 #include "fig11_claims.hpp"
-#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "figures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -12,9 +12,8 @@ void fig11(report::Artefact& artefact) {
       });
   const Convergence midpoints(
       artefact, "midpoint_error", false, [](Case& study, const app::Response& response) {
-        return app::relative_rms_error(
-            app::cell_midpoints(response.samples.displacement, response.unknowns),
-            app::cell_midpoints(study.reference().displacement, response.unknowns));
+        return app::relative_rms_error(cell_midpoints(response.samples.displacement, response.unknowns),
+                                       cell_midpoints(study.reference().displacement, response.unknowns));
       });
   artefact.data(errors.table(), "ratio without unit",
                 {"rms_relative_error: rms over 1024 points of (u - u_ref) divided by the rms of u_ref"});

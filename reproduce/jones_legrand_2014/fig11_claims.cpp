@@ -1,5 +1,7 @@
 #include "fig11_claims.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,20 +23,19 @@ void claim_bspline(report::Artefact& artefact, const Convergence& errors) {
   const auto hbm = errors.of(1, "fourier_fourier"), spline = errors.of(1, "bspline_bspline");
   artefact.claim({"section 5.5",
                   "As the number of basis functions is increased, the Galerkin B-spline case does not "
-                  "perform as well as "
-                  "the HBM method.",
+                  "perform as well as the HBM method.",
                   "at 150 Hz the error is above that of Fourier:Fourier with 16, 32, 64 and 128 functions",
-                  "B-spline:B-spline " + errors.text(1, "bspline_bspline") + "; Fourier:Fourier " +
-                      errors.text(1, "fourier_fourier"),
+                  fmt::format("B-spline:B-spline {}; Fourier:Fourier {}", errors.text(1, "bspline_bspline"),
+                              errors.text(1, "fourier_fourier")),
                   spline[1] > hbm[1] && spline[2] > hbm[2] && spline[3] > hbm[3] && spline[4] > hbm[4]});
   const double order = errors.order(2, "bspline_bspline", 32);
   artefact.claim(
       {"section 5.5",
        "as the unknowns are increased from 32 to 128, the relative error stays reasonably constant",
        "at 1275 Hz the observed order of B-spline:B-spline over 32, 64 and 128 functions is below 1/2",
-       "order " + report::number(order, 2) + " (Fourier:Fourier " +
-           report::number(errors.order(2, "fourier_fourier", 32), 2) + "); " +
-           errors.text(2, "bspline_bspline"),
+       fmt::format("order {} (Fourier:Fourier {}); {}", report::number(order, 2),
+                   report::number(errors.order(2, "fourier_fourier", 32), 2),
+                   errors.text(2, "bspline_bspline")),
        order < 0.5});
 }
 
@@ -63,10 +64,9 @@ void claim_haar(report::Artefact& artefact, const Convergence& errors) {
       {"section 5.5",
        "The relative error using Haar trial functions is highest out of the combinations investigated.",
        "both Haar pairs are above the four others for every number of functions in both cases, DB6:DB6 with "
-       "16 "
-       "functions at 150 Hz aside, which the paper calls poor itself",
-       "so for " + std::to_string(highest) + " of " + std::to_string(rows) + "; Haar:Fourier at 150 Hz " +
-           errors.text(1, "haar_fourier"),
+       "16 functions at 150 Hz aside, which the paper calls poor itself",
+       fmt::format("so for {} of {}; Haar:Fourier at 150 Hz {}", highest, rows,
+                   errors.text(1, "haar_fourier")),
        highest == rows});
 }
 
@@ -86,11 +86,10 @@ void claim_midpoints(report::Artefact& artefact, const Convergence& midpoints, c
                   "however the mid-points of the Haar functions match very well to the trend of the "
                   "time-stepping solution",
                   "Haar:Fourier at 150 Hz with 64 functions: the error at the middle of the cells is below "
-                  "half of that at "
-                  "all points",
-                  "middle of the cells: " + midpoints.text(1, "haar_fourier") +
-                      "; all points: " + errors.text(1, "haar_fourier") +
-                      "; at 1275 Hz in the middle: " + midpoints.text(2, "haar_fourier"),
+                  "half of that at all points",
+                  fmt::format("middle of the cells: {}; all points: {}; at 1275 Hz in the middle: {}",
+                              midpoints.text(1, "haar_fourier"), errors.text(1, "haar_fourier"),
+                              midpoints.text(2, "haar_fourier")),
                   middle < 0.5 * all});
 }
 
@@ -112,8 +111,7 @@ void claim_abstract(report::Artefact& artefact, const Convergence& errors) {
   }
   artefact.claim({"abstract", "with similar convergence rates",
                   "at 150 Hz the observed orders of the three Petrov-Galerkin pairs over 8..128 functions "
-                  "are within 1/2 of "
-                  "Fourier:Fourier's",
+                  "are within 1/2 of Fourier:Fourier's",
                   measured, largest < 0.5});
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "figures.hpp"
 #include "sweeps.hpp"
 
@@ -7,7 +9,7 @@ namespace {
 const char* units = "SI; a column's name ends in its unit; points in their order along the curve";
 
 app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonance& second,
-                        const Resonance& near) {
+                  const Resonance& near) {
   app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 560;
@@ -23,8 +25,8 @@ app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonanc
   figure.panels[1].x = axis("Forcing frequency (Hz)", 1215.0, 1355.0);
   figure.panels[1].y = axis("Largest tip displacement (mm)", 13.5, 16.0);
   for (const auto* resonance : {&second, &near}) {
-    auto panel = sweep_panel("second resonance, gap " + report::number(1e3 * resonance->gap) + " mm",
-                                   *resonance);
+    auto panel =
+        sweep_panel("second resonance, gap " + report::number(1e3 * resonance->gap) + " mm", *resonance);
     panel.y.upper = 1.3;
     figure.panels.push_back(panel);
   }
@@ -49,32 +51,30 @@ void claim_agreement(report::Artefact& artefact, const Resonance& first, const R
        "the stiffening behaviour of the unilateral contact condition is captured by both trial:weighting "
        "function combinations",
        "the turning points of Haar:Fourier are within 1 Hz of those of Fourier:Fourier",
-       "Fourier:Fourier " + turns_text(first.sweeps[0]) + ", Haar:Fourier " +
-           turns_text(first.sweeps[1]),
-       turns_spread(first.sweeps) < 1.0});
+       fmt::format("Fourier:Fourier {}, Haar:Fourier {}", turning_points_text(first.sweeps[0]),
+                   turning_points_text(first.sweeps[1])),
+       turning_points_spread(first.sweeps) < 1.0});
   std::string measured;
   bool all_through = true;
   for (std::size_t i = 0; i < all.sweeps.size(); ++i) {
-    measured += (i == 0 ? "" : ", ") + all.pairs[i].label + " " + turns_text(all.sweeps[i]);
+    measured += (i == 0 ? "" : ", ") + all.pairs[i].label + " " + turning_points_text(all.sweeps[i]);
     all_through = all_through && all.sweeps[i].converged();
   }
   artefact.claim(
       {"section 5.6", "other combinations showed similar approximations",
        "the curves of all six pairs pass the interval, their turning points within 1 Hz of Fourier:Fourier's",
-       measured, all_through && turns_spread(all.sweeps) < 1.0});
+       measured, all_through && turning_points_spread(all.sweeps) < 1.0});
 }
 
-void note_every_turn(report::Artefact& artefact) {
+void note_all_turning_points(report::Artefact& artefact) {
   std::string text;
   for (const auto& pair : pairs_named({"haar_fourier", "haar_bspline", "daubechies6_fourier"}))
-    text += (text.empty() ? "" : ", ") + every_turn_text(artefact, "case2_sweep.toml", pair);
-  artefact.note(
+    text += (text.empty() ? "" : ", ") + all_turning_points_text(artefact, "case2_sweep.toml", pair);
+  artefact.note(fmt::format(
       "Turning points leave out returns of the frequency below a thousandth of the interval. Each of the 256 "
-      "points "
-      "that begins or ends to touch makes a corner, and near the fold the balance itself turns to and fro at "
-      "such "
-      "corners. With every corner solved for, the turning points are: " +
-      text + ".");
+      "points that begins or ends to touch makes a corner, and near the fold the balance itself turns to and "
+      "fro at such corners. With every corner solved for, the turning points are: {}.",
+      text));
 }
 
 void claim_second(report::Artefact& artefact, const Resonance& second, const Resonance& near) {
@@ -85,19 +85,18 @@ void claim_second(report::Artefact& artefact, const Resonance& second, const Res
        "Frequency response function over the second fundamental frequency of the unilateral contact system",
        "with the constants of case 2 there is contact at the second resonance: without contact the tip would "
        "pass the gap",
-       "without contact the peak is " + report::number(1e3 * free.max_displacement, 4) + " mm at " +
-           frequency + ", the gap " + report::number(1e3 * second.gap, 4) +
-           " mm. Section 5.6 says the fundamental frequency.",
+       fmt::format("without contact the peak is {} mm at {}, the gap {} mm. Section 5.6 says the fundamental "
+                   "frequency.",
+                   report::number(1e3 * free.max_displacement, 4), frequency,
+                   report::number(1e3 * second.gap, 4)),
        free.max_displacement > second.gap});
-  artefact.note(
+  artefact.note(fmt::format(
       "Caption and text disagree on the resonance, so both are drawn. With case 2's gap the second one has "
-      "no "
-      "contact (c). In (d) the gap is " +
-      report::number(1e3 * near.gap, 4) +
-      " mm, the same half of the peak without contact that 14.5 mm is at the first resonance: the peak moves "
-      "from " +
-      frequency + " to " + report::number(peak(near.sweeps[0]).frequency, 5) + " Hz; turning points: " +
-      turns_text(near.sweeps[0]) + "; the damping ratio grows with the frequency.");
+      "no contact (c). In (d) the gap is {} mm, the same half of the peak without contact that 14.5 mm is at "
+      "the first resonance: the peak moves from {} to {} Hz; turning points: {}; the damping ratio grows "
+      "with the frequency.",
+      report::number(1e3 * near.gap, 4), frequency, report::number(peak(near.sweeps[0]).frequency, 5),
+      turning_points_text(near.sweeps[0])));
 }
 
 }  // namespace
@@ -118,7 +117,7 @@ void fig12(report::Artefact& artefact) {
   note_nyquist_resonances(artefact, "case2_sweep.toml", full);
   claim_stiffening(artefact, first);
   claim_agreement(artefact, first, all);
-  note_every_turn(artefact);
+  note_all_turning_points(artefact);
   claim_second(artefact, second, near);
 }
 

@@ -1,12 +1,14 @@
 #include "jl14.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::jl14 {
 
@@ -71,9 +73,9 @@ app::Response Case::solve(const Pair& pair, int functions, bool full_history) {
   options.full_history = full_history;
   auto response = app::weighted_residual_response(scene_for(pair, functions), options);
   if (!response.converged)
-    artefact_.note(pair.label + " with " + std::to_string(functions) + " functions at " + frequency_text() +
-                   " did not converge (" + response.status + ", residual " +
-                   report::number(response.residual) + ") and is not drawn.");
+    artefact_.note(fmt::format(
+        "{} with {} functions at {} did not converge ({}, residual {}) and is not drawn.", pair.label,
+        functions, frequency_text(), response.status, report::number(response.residual)));
   return response;
 }
 
@@ -87,8 +89,7 @@ std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen) {
   return responses;
 }
 
-Values drawn(const std::vector<app::Response>& responses,
-             Eigen::VectorXd solvers::PeriodSamples::*quantity) {
+Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd solvers::PeriodSamples::*quantity) {
   Values values;
   for (const auto& response : responses) {
     values.push_back(response.samples.*quantity);
@@ -112,7 +113,7 @@ std::vector<double> measured(const Values& values, const Eigen::VectorXd& refere
   return results;
 }
 
-Eigen::VectorXd half_turn(const Eigen::VectorXd& values) {
+Eigen::VectorXd shifted_by_half_a_period(const Eigen::VectorXd& values) {
   Eigen::VectorXd turned = values;
   std::rotate(turned.begin(), turned.begin() + turned.size() / 2, turned.end());
   return turned;

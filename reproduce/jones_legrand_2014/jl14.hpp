@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/report/artefact.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 /// What the figures of Jones & Legrand (2014), doi:10.1115/DETC2014-34725, share.
 namespace wavebalance::jl14 {
@@ -57,8 +57,7 @@ class Case {
   /// All of `chosen` with the scene's number of functions.
   std::vector<app::Response> solve_all(const std::vector<Pair>& chosen);
   /// The scene that solve() solves.
-  app::Scene scene_for(const Pair& pair, int functions,
-                             const std::string& inner_products = "quadrature");
+  app::Scene scene_for(const Pair& pair, int functions, const std::string& inner_products = "quadrature");
 
  private:
   report::Artefact& artefact_;
@@ -71,8 +70,7 @@ class Case {
 
 /// The tip's samples of one kind of every response; missing values where it has not converged.
 using Values = std::vector<Eigen::VectorXd>;
-Values drawn(const std::vector<app::Response>& responses,
-             Eigen::VectorXd solvers::PeriodSamples::*quantity);
+Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd solvers::PeriodSamples::*quantity);
 /// In the order of `to`, what is in the order of `from`.
 Values reordered(const Values& values, const std::vector<Pair>& from, const std::vector<Pair>& to);
 /// A measure of each of `values` against the reference.
@@ -87,23 +85,23 @@ Series periodic_series(const std::string& label, const Eigen::VectorXd& values, 
 /// The reference's look: black and dashed.
 Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 
-/// time_fraction, reference and a column a pair, `values` in the order of pairs().
+/// time_fraction, reference and one column per pair, `values` in the order of pairs().
 Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference, const Values& values);
 
 /// A part of the period drawn again on its own axes.
 struct Zoom {
   double from = 0.0, to = 1.0;      ///< t/T
-  double lower = 0.0, upper = 1.0;  ///< of the ordinate
+  double lower = 0.0, upper = 1.0;  ///< limits of the ordinate
   std::vector<double> ticks;        ///< t/T; chosen by gnuplot when empty
 };
 
-/// Six panels, one a pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a
+/// Six panels, one per pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a
 /// second panel below each.
 struct PairPanels {
   std::string title;
   app::Axis y;
   double from = 0.0;   ///< t/T at the left edge
-  double scale = 1.0;  ///< of reference, values and level on the ordinate, 1e3 for mm
+  double scale = 1.0;  ///< factor on reference, values and level, 1e3 for mm
   Eigen::VectorXd reference;
   Values values;                ///< in the order of pairs()
   std::optional<double> level;  ///< an ordinate to mark, such as the gap
@@ -111,8 +109,8 @@ struct PairPanels {
 };
 app::Figure pair_figure(const PairPanels& content);
 
-/// `values` from t/T = 1/2 round to 1/2, so that what happens about t = 0 stands together.
-Eigen::VectorXd half_turn(const Eigen::VectorXd& values);
+/// `values` over t/T = -1/2 to 1/2, so that the contact about t = 0 is not split. O(n).
+Eigen::VectorXd shifted_by_half_a_period(const Eigen::VectorXd& values);
 
 /// Pairs of Table 2 by name.
 std::vector<Pair> pairs_named(const std::vector<std::string>& names);

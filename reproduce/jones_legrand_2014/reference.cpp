@@ -1,4 +1,6 @@
 // The time-stepping reference of one case, which Figs. 6-11 read.
+#include <fmt/format.h>
+
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
@@ -24,8 +26,8 @@ void reference(report::Artefact& artefact, int case_number) {
   auto table = app::response_table(stepping.samples);
   table.add_column("system_energy_J", app::system_energy(scene, stepping.samples));
   artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
-  artefact.caption("The last of " + std::to_string(stepping.iterations) +
-                   " periods, computed once and read by Figs. 6-11.");
+  artefact.caption(
+      fmt::format("The last of {} periods, computed once and read by Figs. 6-11.", stepping.iterations));
   artefact.claim(
       {"section 4",
        "the solution is deemed to have converged to its periodic state when the rms of the relative error "
@@ -35,10 +37,11 @@ void reference(report::Artefact& artefact, int case_number) {
        stepping.residual < 1e-7});
   const double difference =
       app::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
-  artefact.note("An independent shooting solution differs from it by " + report::number(difference) +
-                " (relative rms of the tip displacement); largest displacement " +
-                report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7) + " mm, in contact for " +
-                report::percent(app::contact_fraction(stepping.samples), 4) + " of the period.");
+  artefact.note(fmt::format(
+      "An independent shooting solution differs from it by {} (relative rms of the tip displacement); "
+      "largest displacement {} mm, in contact for {} of the period.",
+      report::number(difference), report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7),
+      report::percent(app::contact_fraction(stepping.samples), 4)));
 }
 
 }  // namespace wavebalance::jl14

@@ -1,4 +1,6 @@
 // The step that JL14 names as its next one: the same bar against a rigid obstacle, beside the penalty law.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "figures.hpp"
@@ -27,8 +29,8 @@ Study studied(report::Artefact& artefact, int number) {
     study.rigid.push_back(app::weighted_residual_response(
         artefact.scene(name + "_rigid.toml", {"time.trial=" + pair.trial, "time.weight=" + pair.weight})));
     if (!study.rigid.back().converged)
-      artefact.note("Case " + std::to_string(number) + ", " + pair.label + " did not converge (" +
-                    study.rigid.back().status + ") and is not drawn.");
+      artefact.note(fmt::format("Case {}, {} did not converge ({}) and is not drawn.", number, pair.label,
+                                study.rigid.back().status));
   }
   return study;
 }
@@ -72,8 +74,7 @@ void add_panels(app::Figure& figure, const Study& study) {
 
 void append(Table& table, const Study& study) {
   const double amplitude = study.scene.forcing.amplitude, gap = study.scene.contact.gap;
-  const auto add = [&](const std::string& contact, const Pair& pair,
-                       const app::Response& response) {
+  const auto add = [&](const std::string& contact, const Pair& pair, const app::Response& response) {
     const auto& samples = response.samples;
     const double missing = std::nan("");
     table.append_row({std::int64_t{study.number}, contact, pair.trial, pair.weight, response.converged,
@@ -94,8 +95,8 @@ void rigid_plateau(report::Artefact& artefact) {
   figure.panel_width = 520;
   figure.panel_height = 360;
   Table table({"case", "contact", "trial", "weight", "converged", "largest_penetration_over_gap",
-                     "penetration_at_quadrature_points_over_gap", "mean_force_over_amplitude",
-                     "largest_force_over_amplitude", "contact_fraction"});
+               "penetration_at_quadrature_points_over_gap", "mean_force_over_amplitude",
+               "largest_force_over_amplitude", "contact_fraction"});
   for (const int number : {1, 2}) {
     const Study study = studied(artefact, number);
     add_panels(figure, study);
@@ -103,20 +104,19 @@ void rigid_plateau(report::Artefact& artefact) {
     double worst = 0.0;
     for (const auto& response : study.rigid)
       worst = std::max(worst, response.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0);
-    artefact.note(
-        "Case " + std::to_string(number) + ": the exponential law lets the tip " +
-        report::percent(study.penalty.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0, 2) +
-        " of the gap beyond it, the rigid obstacle between the quadrature points up to " +
-        report::percent(worst, 2) + ", at them less than 1e-4 %.");
+    artefact.note(fmt::format(
+        "Case {}: the exponential law lets the tip {} of the gap beyond it, the rigid obstacle between the "
+        "quadrature points up to {}, at them less than 1e-4 %.",
+        number,
+        report::percent(study.penalty.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0, 2),
+        report::percent(worst, 2)));
   }
   artefact.data(table, "without unit");
   artefact.picture(figure);
   artefact.caption(
       "The paper's next step, rigid (Signorini) contact as complementarity, with the six pairs (64 "
-      "functions, 64 "
-      "points, the tip's mass moved to its neighbour) beside the exponential law of the paper. The force "
-      "is known "
-      "at the points and drawn as held between them.");
+      "functions, 64 points, the tip's mass moved to its neighbour) beside the exponential law of the paper. "
+      "The force is known at the points and drawn as held between them.");
 }
 
 }  // namespace wavebalance::jl14

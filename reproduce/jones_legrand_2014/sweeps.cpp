@@ -1,11 +1,13 @@
 #include "sweeps.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
@@ -47,7 +49,7 @@ app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::stri
       artefact.scene(file, {"time.functions=63", "analysis.first_step=0.5", "analysis.largest_step=1.0"}));
 }
 
-std::string every_turn_text(report::Artefact& artefact, const std::string& file, const Pair& pair) {
+std::string all_turning_points_text(report::Artefact& artefact, const std::string& file, const Pair& pair) {
   const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
   auto problem = app::make_problem(scene, app::make_model(scene));
   solvers::FrequencySweepOptions options;
@@ -71,8 +73,7 @@ Series sweep_series(const std::string& label, const app::Sweep& sweep) {
   return curve(label, sweep.curve.points);
 }
 
-void note_nyquist_resonances(report::Artefact& artefact, const std::string& file,
-                             const app::Sweep& full) {
+void note_nyquist_resonances(report::Artefact& artefact, const std::string& file, const app::Sweep& full) {
   std::string text;
   for (const auto& pair : pairs()) {
     const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
@@ -82,15 +83,12 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
       listed += (listed.empty() ? " " : ", ") + report::number(frequency, 6);
     if (!listed.empty()) text += (text.empty() ? "" : "; ") + pair.label + listed + " Hz";
   }
-  artefact.note(
+  artefact.note(fmt::format(
       "An even number of functions leaves the coefficient of the Nyquist function without damping in some "
-      "pairs; "
-      "the contact force excites it near frequencies that mean nothing to the bar: " +
-      text +
-      ". A kink of a curve near one of them is such a resonance; steps of a few Hz pass them, steps of 1 Hz "
-      "may "
-      "follow them away. Fourier:Fourier with 63 functions (31 full harmonics) has none: turning points " +
-      turns_text(full) + ".");
+      "pairs; the contact force excites it near frequencies that mean nothing to the bar: {}. A kink of a "
+      "curve near one of them is such a resonance; steps of a few Hz pass them, steps of 1 Hz may follow "
+      "them away. Fourier:Fourier with 63 functions (31 full harmonics) has none: turning points {}.",
+      text, turning_points_text(full)));
 }
 
 solvers::SweepPoint peak(const app::Sweep& sweep) {
@@ -100,14 +98,14 @@ solvers::SweepPoint peak(const app::Sweep& sweep) {
   });
 }
 
-std::string turns_text(const app::Sweep& sweep) {
+std::string turning_points_text(const app::Sweep& sweep) {
   std::string text;
   for (const auto& turn : sweep.curve.turning_points)
     text += (text.empty() ? "" : " and ") + report::number(turn.frequency, 7) + " Hz";
   return text.empty() ? "none" : text;
 }
 
-double turns_spread(const std::vector<app::Sweep>& sweeps) {
+double turning_points_spread(const std::vector<app::Sweep>& sweeps) {
   double largest = 0.0;
   const auto& first = sweeps.at(0).curve.turning_points;
   for (const auto& sweep : sweeps) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -16,9 +18,7 @@ app::Time time_of(const std::string& trial, const std::string& weight) {
   return time;
 }
 
-double exponent(const std::string& basis) {
-  return app::make_basis(basis, functions).sobolev_exponent();
-}
+double exponent(const std::string& basis) { return app::make_basis(basis, functions).sobolev_exponent(); }
 
 std::string shown(double exponent) { return std::isfinite(exponent) ? report::number(exponent, 5) : "∞"; }
 
@@ -40,8 +40,8 @@ void note_inadmissible(report::Artefact& artefact) {
                                       std::pair{"daubechies4", "daubechies4"}}) {
     const auto pairing = app::pair_admissibility(time_of(trial, weight));
     if (!pairing.admissible)
-      artefact.note(std::string("Not in the paper's list, and rightly so: ") + trial + ":" + weight + ". " +
-                    pairing.reason);
+      artefact.note(
+          fmt::format("Not in the paper's list, and rightly so: {}:{}. {}", trial, weight, pairing.reason));
   }
 }
 
@@ -49,12 +49,12 @@ void note_inadmissible(report::Artefact& artefact) {
 
 void tab02(report::Artefact& artefact) {
   Table data({"trial", "weight", "trial_sobolev_exponent", "weight_sobolev_exponent", "sobolev_sum",
-                    "admissible", "inner_products"});
-  Table printed({"Trial function", "Weighting function", "s_q", "s_p", "s_q + s_p",
-                       "admissible (> 2)", "inner products"});
+              "admissible", "inner_products"});
+  Table printed({"Trial function", "Weighting function", "s_q", "s_p", "s_q + s_p", "admissible (> 2)",
+                 "inner products"});
   for (const auto& pair : pairs()) append(data, printed, pair);
   artefact.data(data, "Sobolev exponents without unit", {"admissible: the exponents sum to more than 2"});
-  artefact.markdown(printed);
+  artefact.printed(printed);
   artefact.caption(
       "The Sobolev exponents s_q, s_p of trial and weighting functions and whether their pairing with two "
       "time derivatives exists are computed; the paper lists the first two columns.");

@@ -1,5 +1,7 @@
 #include "blade.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -7,12 +9,11 @@
 
 namespace wavebalance::ll10 {
 
-solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve,
-                               double energy_ratio) {
+solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio) {
   auto point = study.at_energy(curve, energy_ratio);
   if (!point.accepted())
-    throw report::NotConverged("energy ratio " + report::number(energy_ratio) + ": " +
-                               std::string(to_string(point.status)));
+    throw report::NotConverged(
+        fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
   return point;
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 
 #include "figures.hpp"
@@ -78,12 +80,12 @@ void fig02(report::Artefact& artefact) {
   artefact.data(table, "units of the rod's length");
   artefact.picture(drawn(lines));
   const auto& rod = artefact.scene("rod.toml").structure;
-  artefact.caption(
-      "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = " +
-      report::number(rod.youngs_modulus) + " Pa, density " + report::number(rod.density, 4) +
-      " kg/m³, area " + report::number(rod.area) + " m², length " + report::number(rod.length) +
-      " m. The displacement towards the obstacle is positive; compression there is -EA u_x, where "
-      "the paper has EA u_x as a stress.");
+  artefact.caption(fmt::format(
+      "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = {} Pa, density {} "
+      "kg/m³, area {} m², length {} m. The displacement towards the obstacle is positive; compression there "
+      "is -EA u_x, where the paper has EA u_x as a stress.",
+      report::number(rod.youngs_modulus), report::number(rod.density, 4), report::number(rod.area),
+      report::number(rod.length)));
 }
 
 }  // namespace wavebalance::ll10

@@ -1,8 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "figures.hpp"
 #include "curves.hpp"
+#include "figures.hpp"
 
 namespace wavebalance::ll10 {
 using app::Colour;
@@ -16,7 +18,7 @@ constexpr int published_harmonics = 2;
 /// A column of one formulation as a curve, from its `first` row on; a step above `gap` in energy interrupts
 /// it.
 app::Series curve(const std::string& label, const Table& table, const std::string& formulation,
-                        const std::string& column, Colour colour, Dash dash, std::size_t first) {
+                  const std::string& column, Colour colour, Dash dash, std::size_t first) {
   const auto rows = table.where("formulation", formulation);
   const auto energy = rows.numbers("energy_ratio"), value = rows.numbers(column);
   std::vector<double> x(energy.begin() + static_cast<std::ptrdiff_t>(first), energy.end());
@@ -27,8 +29,7 @@ app::Series curve(const std::string& label, const Table& table, const std::strin
   return series;
 }
 
-app::Figure drawn(const app::ModeStudy& study, const app::Backbone& backbone,
-                        const Table& table) {
+app::Figure drawn(const app::ModeStudy& study, const app::Backbone& backbone, const Table& table) {
   app::Figure figure;
   figure.panel_width = 760;
   figure.panel_height = 460;
@@ -75,16 +76,17 @@ void claim_onset(report::Artefact& artefact, const app::Backbone& backbone) {
   for (const auto& point : backbone.points)
     if (point.accepted()) least = std::min(least, point.energy_ratio);
   const double exact = contact::ExactBarMode::onset_energy(1, contact::EnergyMeasure::modal);
-  artefact.claim({"section 5.1", "Contact occurs as soon as the modal energy reaches unity.",
-                  "no motion with contact has an energy below 1 (less 1 %)",
-                  "motions with contact from " + report::number(least, 4) +
-                      " on; the exact branch starts at 8/π² = " + report::number(exact, 4) +
-                      ". The linear mode does reach the obstacle at 1.",
-                  least > 0.99});
+  artefact.claim(
+      {"section 5.1", "Contact occurs as soon as the modal energy reaches unity.",
+       "no motion with contact has an energy below 1 (less 1 %)",
+       fmt::format(
+           "motions with contact from {} on; the exact branch starts at 8/π² = {}. The linear mode does "
+           "reach the obstacle at 1.",
+           report::number(least, 4), report::number(exact, 4)),
+       least > 0.99});
 }
 
-void claim_hardening(report::Artefact& artefact, const app::ModeStudy& study,
-                     const app::Backbone& backbone) {
+void claim_hardening(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& backbone) {
   bool rising = true;
   std::string measured;
   double before = 1.0;
@@ -100,8 +102,7 @@ void claim_hardening(report::Artefact& artefact, const app::ModeStudy& study,
        measured, rising});
 }
 
-void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
-                    const app::Backbone& backbone) {
+void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& backbone) {
   const auto point = study.at_energy(backbone, 10.0);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   const auto exact = exact_mode(study.scene(), 10.0);
@@ -110,32 +111,32 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
        "Nonlinear eigenvectors are defined as critical points of this Rayleigh quotient and the associated "
        "eigenvalues are such that ω² = r(û).",
        "at energy ratio 10 the root of r is within 1 % of omega",
-       "omega " + report::number(point.omega / linear, 5) + ", root of r " + report::number(root, 5) +
-           " of the linear frequency; exact " + report::number(exact.frequency_ratio(), 5) + " and " +
-           report::number(exact.rayleigh_frequency_ratio(), 5) +
-           ". Stationarity gives omega² = r + <force> gap / m: met to " +
-           report::number(point.identity_defect, 2) + ".",
+       fmt::format(
+           "omega {}, root of r {} of the linear frequency; exact {} and {}. Stationarity gives omega² = r + "
+           "<force> gap / m: met to {}.",
+           report::number(point.omega / linear, 5), report::number(root, 5),
+           report::number(exact.frequency_ratio(), 5), report::number(exact.rayleigh_frequency_ratio(), 5),
+           report::number(point.identity_defect, 2)),
        std::abs(root * linear / point.omega - 1.0) < 0.01});
 }
 
-void claim_work(report::Artefact& artefact, const app::ModeStudy& study,
-                const app::Backbone& backbone) {
+void claim_work(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& backbone) {
   const auto motion = study.samples(study.at_energy(backbone, 10.0), study.scene().analysis.samples, false);
   const auto mean = [&](const Eigen::VectorXd& values) {
     return motion.contact_force.cwiseProduct(values).mean() /
            (motion.contact_force.mean() * values.cwiseAbs().maxCoeff());
   };
-  artefact.claim({"section 3.2",
-                  "since nonlinear forces arise from contact boundary conditions, their work is identically "
-                  "zero; hence the "
-                  "use of an unmodified Rayleigh quotient to define the respective eigenvalues",
-                  "at energy ratio 10 the mean power of the contact force is below 1e-10 of mean force times "
-                  "largest velocity",
-                  report::number(mean(motion.velocity), 2) +
-                      "; but the mean of force times displacement, which is what enters the quotient, is " +
-                      report::number(mean(motion.displacement), 2) +
-                      " of mean force times largest displacement",
-                  std::abs(mean(motion.velocity)) < 1e-10});
+  artefact.claim(
+      {"section 3.2",
+       "since nonlinear forces arise from contact boundary conditions, their work is identically zero; hence "
+       "the use of an unmodified Rayleigh quotient to define the respective eigenvalues",
+       "at energy ratio 10 the mean power of the contact force is below 1e-10 of mean force times largest "
+       "velocity",
+       fmt::format(
+           "{}; but the mean of force times displacement, which is what enters the quotient, is {} of mean "
+           "force times largest displacement",
+           report::number(mean(motion.velocity), 2), report::number(mean(motion.displacement), 2)),
+       std::abs(mean(motion.velocity)) < 1e-10});
 }
 
 void claim_published(report::Artefact& artefact, const std::vector<solvers::LagrangianPoint>& published) {
@@ -148,15 +149,15 @@ void claim_published(report::Artefact& artefact, const std::vector<solvers::Lagr
        "the mode normalization of Eq. (24c) through a prescribed kinetic energy controls the amplitude of "
        "the nonlinear mode",
        "with h as printed in (24c), without n², the energy of (12) is that prescribed to 1 %",
-       "prescribed " + report::number(last.prescribed_ratio) + ", found " +
-           report::number(last.energy_ratio, 4) + " (" + std::string(to_string(last.status)) + ", N = " +
-           std::to_string(published_harmonics) + ", Algorithm 2); the equation of motion is met to " +
-           report::percent(defect, 2) + " only, at no frequency",
+       fmt::format(
+           "prescribed {}, found {} ({}, N = {}, Algorithm 2); the equation of motion is met to {} only, at "
+           "no frequency",
+           report::number(last.prescribed_ratio), report::number(last.energy_ratio, 4),
+           to_string(last.status), published_harmonics, report::percent(defect, 2)),
        std::abs(last.energy_ratio / last.prescribed_ratio - 1.0) < 0.01});
 }
 
-void notes(report::Artefact& artefact, const app::ModeStudy& study,
-           const app::Backbone& backbone) {
+void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& backbone) {
   const auto distance = exact_distance(study, backbone);
   std::string errors;
   for (const double energy : {1.2, 1.8, 3.0, 5.0, 10.0}) {
@@ -165,17 +166,15 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study,
     errors += (errors.empty() ? "" : ", ") + report::percent(ratio / exact - 1.0, 2) + " at " +
               report::number(energy);
   }
-  artefact.note("Consistent against exact, omega: " + errors + "; over the " +
-                std::to_string(distance.points) + " accepted points at energy ratios 1.2 to 10 median " +
-                report::percent(distance.median, 2) + ", largest " + report::percent(distance.largest, 2) +
-                ".");
-  const auto agreement =
-      lagrangian_agreement(study, backbone, {1.1, 1.2, 1.5, 1.8, 2.4, 3, 4, 5, 7, 10});
-  artefact.note(
-      "The augmented Lagrangian (consistent, Algorithm 1), started from the condensed solution, agrees "
-      "with it to " +
-      report::number(agreement.largest, 2) + " in omega at " + std::to_string(agreement.points) +
-      " energies. From a cold start it runs with N <= 2.");
+  artefact.note(fmt::format(
+      "Consistent against exact, omega: {}; over the {} accepted points at energy ratios 1.2 to 10 median "
+      "{}, largest {}.",
+      errors, distance.points, report::percent(distance.median, 2), report::percent(distance.largest, 2)));
+  const auto agreement = lagrangian_agreement(study, backbone, {1.1, 1.2, 1.5, 1.8, 2.4, 3, 4, 5, 7, 10});
+  artefact.note(fmt::format(
+      "The augmented Lagrangian (consistent, Algorithm 1), started from the condensed solution, agrees with "
+      "it to {} in omega at {} energies. From a cold start it runs with N <= 2.",
+      report::number(agreement.largest, 2), agreement.points));
   double residual = 0.0, identity = 0.0, penetration = 0.0, force = 0.0;
   for (std::size_t i = 0; i < backbone.points.size(); ++i)
     if (const auto& point = backbone.points[i]; point.accepted()) {
@@ -184,14 +183,13 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study,
       penetration = std::max(penetration, point.max_penetration);
       force = std::min(force, point.min_force);
     }
-  artefact.note("Accepted points: equation of motion to " + report::number(residual, 2) + ", identity to " +
-                report::number(identity, 2) + ", least force " + report::number(force, 2) +
-                " N, penetration between the samples up to " + report::percent(penetration, 2) +
-                " of the gap. " + std::to_string(backbone.points.size()) + " points in " +
-                report::number(1e3 * backbone.wall_seconds, 3) + " ms; " +
-                std::to_string(backbone.count(solvers::ModeStatus::tongue)) + " on internal resonances, " +
-                std::to_string(backbone.count(solvers::ModeStatus::cycling)) +
-                " beside them unsolved (cycling).");
+  artefact.note(fmt::format(
+      "Accepted points: equation of motion to {}, identity to {}, least force {} N, penetration between the "
+      "samples up to {} of the gap. {} points in {} ms; {} on internal resonances, {} beside them unsolved "
+      "(cycling).",
+      report::number(residual, 2), report::number(identity, 2), report::number(force, 2),
+      report::percent(penetration, 2), backbone.points.size(), report::number(1e3 * backbone.wall_seconds, 3),
+      backbone.count(solvers::ModeStatus::tongue), backbone.count(solvers::ModeStatus::cycling)));
   artefact.note(
       "Half consistent, half lumped mass instead of eq. (28): the consistent one puts omega_2/omega_1 at "
       "3.0062, and an internal resonance 3:1 just above omega_1 ends the branch near grazing. The mixture "
@@ -214,8 +212,8 @@ void fig03(report::Artefact& artefact) {
   artefact.picture(drawn(study, backbone, table));
   artefact.caption(
       "First nonlinear mode of the rod: exact, computed from consistent equations, and as published. "
-      "Published is the augmented Lagrangian of the printed equations, which runs with N = 2; the "
-      "paper does not state its N.");
+      "Published is the augmented Lagrangian of the printed equations, which runs with N = 2; the paper does "
+      "not state its N.");
   claim_linear(artefact);
   claim_onset(artefact, backbone);
   claim_hardening(artefact, study, backbone);

@@ -1,9 +1,11 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
-#include "figures.hpp"
 #include "curves.hpp"
-#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "figures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
@@ -38,8 +40,8 @@ Row row_of(report::Artefact& artefact, int harmonics, int elements, double lumpe
 
 Table table_of(const std::vector<Row>& rows) {
   Table table({"harmonics", "samples", "elements", "lumped_mass_fraction", "median_frequency_error",
-                     "largest_frequency_error", "points_compared", "accepted_share", "linear_frequency_error",
-                     "frequency_at_1.8_against_160_elements"});
+               "largest_frequency_error", "points_compared", "accepted_share", "linear_frequency_error",
+               "frequency_at_1.8_against_160_elements"});
   for (const Row& row : rows)
     table.append_row({std::int64_t{row.harmonics}, std::int64_t{2 * row.harmonics},
                       std::int64_t{row.elements}, row.lumped, row.distance.median, row.distance.largest,
@@ -104,27 +106,25 @@ void fig03_convergence(report::Artefact& artefact) {
   figure.columns = 3;
   figure.panel_width = 400;
   figure.panel_height = 420;
-  add_panel(figure, "80 elements, half-lumped mass", "Harmonics N, m = 2N samples", over_harmonics,
-            harmonics, false);
+  add_panel(figure, "80 elements, half-lumped mass", "Harmonics N, m = 2N samples", over_harmonics, harmonics,
+            false);
   add_panel(figure, "N = 5, half-lumped mass", "Elements", over_elements, elements, true);
   add_panel(figure, "N = 5, consistent mass", "Elements", over_elements_consistent, elements, true);
   artefact.picture(figure);
   artefact.caption(
-      "Errors of omega against the exact curve at the energies of the accepted points between energy "
-      "ratios 1.2 and 10, 200 frequencies asked for. m = 2N samples.");
-  artefact.note("Observed orders (least squares). In N with 80 elements: median " +
-                report::number(order(over_harmonics, harmonics, median), 2) + ", largest " +
-                report::number(order(over_harmonics, harmonics, largest), 2) +
-                " (it stands at the edges of internal resonances, which more harmonics do not remove). "
-                "Against the exact "
-                "curve the N of the series sets a floor in the elements; against 160 elements with the "
-                "same N the order at "
-                "energy 1.8 is " +
-                report::number(order(over_elements, elements, in_space), 3) + " (half-lumped) and " +
-                report::number(order(over_elements_consistent, elements, in_space), 3) +
-                " (consistent), that of the linear frequency " +
-                report::number(order(over_elements, elements, linear_error), 3) + " and " +
-                report::number(order(over_elements_consistent, elements, linear_error), 3) + ".");
+      "Errors of omega against the exact curve at the energies of the accepted points between energy ratios "
+      "1.2 and 10, 200 frequencies asked for. m = 2N samples.");
+  artefact.note(fmt::format(
+      "Observed orders (least squares). In N with 80 elements: median {}, largest {} (it stands at the edges "
+      "of internal resonances, which more harmonics do not remove). Against the exact curve the N of the "
+      "series sets a floor in the elements; against 160 elements with the same N the order at energy 1.8 is "
+      "{} (half-lumped) and {} (consistent), that of the linear frequency {} and {}.",
+      report::number(order(over_harmonics, harmonics, median), 2),
+      report::number(order(over_harmonics, harmonics, largest), 2),
+      report::number(order(over_elements, elements, in_space), 3),
+      report::number(order(over_elements_consistent, elements, in_space), 3),
+      report::number(order(over_elements, elements, linear_error), 3),
+      report::number(order(over_elements_consistent, elements, linear_error), 3)));
 }
 
 }  // namespace wavebalance::ll10

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -19,10 +21,9 @@ std::vector<double> row(const Eigen::MatrixXd& values, Eigen::Index index) {
 
 Eigen::Index middle(const Motion& motion) { return (motion.position.size() - 1) / 2; }
 
-app::Series orbit(const std::string& label, const Motion& motion, Eigen::Index node,
-                        Colour colour, Dash dash) {
-  app::Series series(label, row(motion.displacement, middle(motion)),
-                           row(motion.velocity, middle(motion)));
+app::Series orbit(const std::string& label, const Motion& motion, Eigen::Index node, Colour colour,
+                  Dash dash) {
+  app::Series series(label, row(motion.displacement, middle(motion)), row(motion.velocity, middle(motion)));
   series.z = row(motion.displacement, node);
   series.colour = colour;
   series.dash = dash;
@@ -54,13 +55,14 @@ double steepest(const Motion& motion) {
          (v.maxCoeff() - v.minCoeff());
 }
 
-}  // namespace
+/// The motions that are drawn, over one period.
+struct Motions {
+  Motion low;    ///< energy 0.7, without contact
+  Motion high;   ///< energy 1.8
+  Motion exact;  ///< energy 1.8, closed form
+};
 
-void fig04(report::Artefact& artefact) {
-  const app::ModeStudy study(artefact.scene("rod.toml"));
-  const auto low = computed_motion(study, 0.7, times),
-             high = computed_motion(study, 1.8, times);
-  const auto exact = exact_motion(study.scene(), 1.8, times);
+app::Figure drawn(const Motions& motions) {
   app::Figure figure;
   figure.title = "Energy 0.7 (blue) and 1.8 (orange), exact at 1.8 (dashed)";
   figure.columns = 2;
@@ -75,24 +77,25 @@ void fig04(report::Artefact& artefact) {
     panel.y.ticks = {-1.0, 0.0, 1.0};
     panel.z->ticks = last ? std::vector<double>{-1.0, 0.0, 1.0} : std::vector<double>{-0.1, 0.0, 0.1};
     panel.legend = app::Legend::none;
-    const Eigen::Index node = last ? low.position.size() - 1 : 1;
-    panel.add(orbit("energy 1.8, exact", exact, node, Colour::black, Dash::dashed));
-    panel.add(orbit("energy 0.7", low, node, Colour::sky_blue, Dash::solid));
-    panel.add(orbit("energy 1.8", high, node, Colour::vermillion, Dash::solid));
+    const Eigen::Index node = last ? motions.low.position.size() - 1 : 1;
+    panel.add(orbit("energy 1.8, exact", motions.exact, node, Colour::black, Dash::dashed));
+    panel.add(orbit("energy 0.7", motions.low, node, Colour::sky_blue, Dash::solid));
+    panel.add(orbit("energy 1.8", motions.high, node, Colour::vermillion, Dash::solid));
   }
-  artefact.picture(figure);
+  return figure;
+}
+
+Table motions_table(const Motions& motions) {
   Table table;
-  table.add_column("time_fraction", low.time);
-  add_columns(table, "energy_0.7", low);
-  add_columns(table, "energy_1.8", high);
-  add_columns(table, "energy_1.8_exact", exact);
-  artefact.data(table, "displacement over the gap, velocity over gap times linear frequency (rad/s)",
-                {discretisation(study.scene())});
-  artefact.caption(
-      "Displacements of the last (a) and of the first (b) node over displacement and velocity of the "
-      "middle one, " +
-      discretisation(study.scene()) + ". The paper does not state its energies.");
-  const double below = beyond_ellipse(low), above = beyond_ellipse(high);
+  table.add_column("time_fraction", motions.low.time);
+  add_columns(table, "energy_0.7", motions.low);
+  add_columns(table, "energy_1.8", motions.high);
+  add_columns(table, "energy_1.8_exact", motions.exact);
+  return table;
+}
+
+void claims(report::Artefact& artefact, const Motions& motions) {
+  const double below = beyond_ellipse(motions.low), above = beyond_ellipse(motions.high);
   artefact.claim(
       {"section 5.1",
        "While the former typically features elliptic trajectories in the phase space, the latter is much "
@@ -104,9 +107,26 @@ void fig04(report::Artefact& artefact) {
       {"section 5.1", "with velocity singularities and quick changes in displacements",
        "the middle node's velocity changes by more of its range within 1/64 of a period with contact than "
        "without",
-       report::percent(steepest(high)) + " against " + report::percent(steepest(low)) +
-           " (exact: " + report::percent(steepest(exact)) + ", a jump)",
-       steepest(high) > steepest(low)});
+       fmt::format("{} against {} (exact: {}, a jump)", report::percent(steepest(motions.high)),
+                   report::percent(steepest(motions.low)), report::percent(steepest(motions.exact))),
+       steepest(motions.high) > steepest(motions.low)});
+}
+
+}  // namespace
+
+void fig04(report::Artefact& artefact) {
+  const app::ModeStudy study(artefact.scene("rod.toml"));
+  const Motions motions{computed_motion(study, 0.7, times), computed_motion(study, 1.8, times),
+                        exact_motion(study.scene(), 1.8, times)};
+  artefact.picture(drawn(motions));
+  artefact.data(motions_table(motions),
+                "displacement over the gap, velocity over gap times linear frequency (rad/s)",
+                {discretisation(study.scene())});
+  artefact.caption(fmt::format(
+      "Displacements of the last (a) and of the first (b) node over displacement and velocity of the middle "
+      "one, {}. The paper does not state its energies.",
+      discretisation(study.scene())));
+  claims(artefact, motions);
 }
 
 }  // namespace wavebalance::ll10

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +21,7 @@ app::HeatMap map_of(const Motion& motion, const Eigen::MatrixXd& values, double 
   return map;
 }
 
-void add_pair(app::Figure& figure, const std::string& title, const Motion& motion, double u,
-              double v) {
+void add_pair(app::Figure& figure, const std::string& title, const Motion& motion, double u, double v) {
   for (const bool velocity : {false, true}) {
     auto& panel = figure.add_panel((velocity ? "velocity, " : "displacement, ") + title);
     panel.x = axis("Time (fraction of a period)", 0.0, 1.0);
@@ -93,23 +94,23 @@ void claims(report::Artefact& artefact, const Motion& linear, const Motion& cont
        "amplitudes are simultaneously reached.",
        "energy 0.7: all nodes reach their largest velocity within 1 % of a period, and one shape holds all "
        "but 1e-9 of the squared displacement",
-       "within " + report::percent(below) + "; outside one shape " +
-           report::number(std::max(0.0, beyond_one_shape(linear.displacement)), 2),
+       fmt::format("within {}; outside one shape {}", report::percent(below),
+                   report::number(std::max(0.0, beyond_one_shape(linear.displacement)), 2)),
        below < 0.01 && beyond_one_shape(linear.displacement) < 1e-9});
   artefact.claim(
       {"section 5.1",
        "a traveling wave, as displayed in Fig. 5(c)-(d). Displacement and velocity fields are no more "
        "algebraically related to each other.",
        "energy 1.8: the nodes' largest velocities (x/L > 1/4) are more than 5 % of a period apart",
-       report::percent(above) + " of a period apart; one shape leaves out " +
-           report::percent(beyond_one_shape(contact.velocity), 2) + " of the squared velocity",
+       fmt::format("{} of a period apart; one shape leaves out {} of the squared velocity",
+                   report::percent(above), report::percent(beyond_one_shape(contact.velocity), 2)),
        above > 0.05});
   artefact.claim(
       {"section 5.1",
        "the expected symmetry in time and space of generic travelling waves is also retrieved by the "
        "algorithm as pictured in Fig. 5c while no assumptions were made on the displacement field",
-       "energy 1.8, full Fourier series: the displacement is even in time about the middle of the contact "
-       "to 1e-6 (relative rms)",
+       "energy 1.8, full Fourier series: the displacement is even in time about the middle of the contact to "
+       "1e-6 (relative rms)",
        report::number(asymmetry(contact.displacement), 2), asymmetry(contact.displacement) < 1e-6});
 }
 
@@ -118,10 +119,8 @@ void claims(report::Artefact& artefact, const Motion& linear, const Motion& cont
 void fig05(report::Artefact& artefact) {
   const app::ModeStudy study(artefact.scene("rod.toml"));
   const auto& scene = study.scene();
-  const auto low = computed_motion(study, 0.7, times),
-             high = computed_motion(study, 1.8, times);
-  const auto exact_low = exact_motion(scene, 0.7, times),
-             exact_high = exact_motion(scene, 1.8, times);
+  const auto low = computed_motion(study, 0.7, times), high = computed_motion(study, 1.8, times);
+  const auto exact_low = exact_motion(scene, 0.7, times), exact_high = exact_motion(scene, 1.8, times);
   app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 460;
@@ -141,15 +140,17 @@ void fig05(report::Artefact& artefact) {
       "position over length, time over period with the middle of the contact at 1/2, displacement over the "
       "gap, velocity over gap times the linear frequency of the continuous rod (rad/s)",
       {discretisation(scene)});
-  artefact.caption("One period with the middle of the contact at 1/2, computed (" +
-                   discretisation(scene) +
-                   ") and exact; below contact the exact motion is the linear mode and looks as (a), (b).");
-  artefact.note("Relative rms distance from the exact motion: displacement " +
-                report::percent(distance(low.displacement, exact_low.displacement), 2) + ", velocity " +
-                report::percent(distance(low.velocity, exact_low.velocity), 2) + " at energy 0.7; " +
-                report::percent(distance(high.displacement, exact_high.displacement), 2) + " and " +
-                report::percent(distance(high.velocity, exact_high.velocity), 2) +
-                " at 1.8, where the exact velocity jumps at fronts that 10 harmonics round off.");
+  artefact.caption(fmt::format(
+      "One period with the middle of the contact at 1/2, computed ({}) and exact; below contact the exact "
+      "motion is the linear mode and looks as (a), (b).",
+      discretisation(scene)));
+  artefact.note(fmt::format(
+      "Relative rms distance from the exact motion: displacement {}, velocity {} at energy 0.7; {} and {} at "
+      "1.8, where the exact velocity jumps at fronts that 10 harmonics round off.",
+      report::percent(distance(low.displacement, exact_low.displacement), 2),
+      report::percent(distance(low.velocity, exact_low.velocity), 2),
+      report::percent(distance(high.displacement, exact_high.displacement), 2),
+      report::percent(distance(high.velocity, exact_high.velocity), 2)));
   claims(artefact, low, high);
 }
 

@@ -1,7 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "figures.hpp"
 #include "blade.hpp"
+#include "figures.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
@@ -25,8 +27,7 @@ std::vector<int> held_nodes(const fem::Blade& blade) {
 }
 
 /// One panel: the blade from one side, limited to a window around the tip if `tip_only`.
-void add_view(app::Figure& figure, const fem::Blade& blade, double azimuth, double elevation,
-              bool tip_only) {
+void add_view(app::Figure& figure, const fem::Blade& blade, double azimuth, double elevation, bool tip_only) {
   auto& panel = figure.add_panel(tip_only ? "contact interface at the tip" : "model, arrows 15 mm");
   auto& view = panel.surface.emplace();
   view.surfaces = {blade::surface(blade)};
@@ -68,11 +69,10 @@ void fig06(report::Artefact& artefact) {
                 "contact nodes from the leading to the trailing edge; metres",
                 {"node numbers of the mesh from 1; eta = -1 and 1 are the two faces of the blade"});
   const auto& mesh = blade.model.mesh;
-  artefact.caption("An open blade of titanium in place of the paper's proprietary one: " +
-                   std::to_string(mesh.elements.cols()) + " hexahedra of 20 nodes, " +
-                   std::to_string(study.model().unknowns) +
-                   " unknowns, clamped at the root; contact in the radial direction z at the corner nodes "
-                   "of the tip.");
+  artefact.caption(fmt::format(
+      "An open blade of titanium in place of the paper's proprietary one: {} hexahedra of 20 nodes, {} "
+      "unknowns, clamped at the root; contact in the radial direction z at the corner nodes of the tip.",
+      mesh.elements.cols(), study.model().unknowns));
   const double error = reduction_error(study);
   const auto coordinates = study.model().size();
   artefact.claim(
@@ -82,11 +82,11 @@ void fig06(report::Artefact& artefact) {
        "surface Γ_C complemented by 40 component normal modes.",
        "24 contact nodes, 112 coordinates, and the eight lowest frequencies within 5e-4 of those of the "
        "whole blade",
-       std::to_string(blade.contact_nodes.size()) + " contact nodes, " + std::to_string(coordinates) +
-           " coordinates from " + std::to_string(study.model().unknowns) +
-           " unknowns; eight frequencies within " + report::number(error, 2) + "; first " +
-           report::number(study.linear_frequency(), 5) + " Hz; assembled and reduced in " +
-           report::number(study.model().reduction_seconds, 3) + " s",
+       fmt::format(
+           "{} contact nodes, {} coordinates from {} unknowns; eight frequencies within {}; first {} Hz; "
+           "assembled and reduced in {} s",
+           blade.contact_nodes.size(), coordinates, study.model().unknowns, report::number(error, 2),
+           report::number(study.linear_frequency(), 5), report::number(study.model().reduction_seconds, 3)),
        blade.contact_nodes.size() == 24 && coordinates == 112 && error < 5e-4});
 }
 

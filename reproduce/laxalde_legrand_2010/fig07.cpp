@@ -1,28 +1,30 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "figures.hpp"
 #include "blade.hpp"
+#include "figures.hpp"
 
 namespace wavebalance::ll10 {
 using app::Colour;
 
 namespace {
 
-app::Series drawn(const std::string& label, const Table& rows, const std::string& column,
-                        Colour colour, app::Dash dash) {
+app::Series drawn(const std::string& label, const Table& rows, const std::string& column, Colour colour,
+                  app::Dash dash) {
   app::Series series(label, rows, "energy_ratio", column);
   series.colour = colour;
   series.dash = dash;
   return series;
 }
 
-void add_backbones(app::Figure& figure, const app::ModeStudy& study,
-                   const app::Backbone& curve, const Table& table) {
+void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::Backbone& curve,
+                   const Table& table) {
   using app::Dash;
   auto& panel =
-      figure.add_panel("first nonlinear mode, " + std::to_string(study.scene().analysis.harmonics) +
-                       " harmonics, " + std::to_string(study.scene().analysis.samples) + " samples");
+      figure.add_panel(fmt::format("first nonlinear mode, {} harmonics, {} samples",
+                                   study.scene().analysis.harmonics, study.scene().analysis.samples));
   panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = axis("Frequency over the linear one", 0.98, 1.3);
   panel.legend = app::Legend::top_left;
@@ -66,14 +68,12 @@ void add_torsion(app::Figure& figure, const Table& measures) {
   panel.add(share).mark_x(1.0);
 }
 
-void claim_listed(report::Artefact& artefact, const app::ModeStudy& study,
-                  const app::Backbone& curve) {
+void claim_listed(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve) {
   std::string measured;
   double largest = 0.0, before = 1.0;
   bool rising = true;
   for (const auto& listed : listed_points) {
-    const double ratio =
-        accepted_at(study, curve, listed.energy_ratio).omega / study.mode().linear_omega();
+    const double ratio = accepted_at(study, curve, listed.energy_ratio).omega / study.mode().linear_omega();
     largest = std::max(largest, std::abs(ratio - listed.frequency_ratio));
     rising = rising && ratio > before;
     before = ratio;
@@ -92,8 +92,7 @@ void claim_listed(report::Artefact& artefact, const app::ModeStudy& study,
                   rising});
 }
 
-void claim_contact(report::Artefact& artefact, const app::ModeStudy& study,
-                   const app::Backbone& curve) {
+void claim_contact(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve) {
   const double sample = 1.0 / study.scene().analysis.samples;
   bool edges = true;
   std::string measured;
@@ -101,10 +100,10 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study,
     const auto contact = blade::edge_contact(accepted_at(study, curve, energy).force);
     edges = edges && blade::centred(contact.leading, 0.0, sample) &&
             blade::centred(contact.trailing, 0.5, sample);
-    measured += (measured.empty() ? "" : "; ") + std::string("energy ") + report::number(energy) +
-                ": leading half " + report::percent(static_cast<double>(contact.leading.size()) * sample) +
-                " of the period, trailing half " +
-                report::percent(static_cast<double>(contact.trailing.size()) * sample);
+    measured += fmt::format("{}energy {}: leading half {} of the period, trailing half {}",
+                            measured.empty() ? "" : "; ", report::number(energy),
+                            report::percent(static_cast<double>(contact.leading.size()) * sample),
+                            report::percent(static_cast<double>(contact.trailing.size()) * sample));
   }
   double leading = 1e300, trailing = 1e300;
   for (const auto& point : curve.points) {
@@ -119,13 +118,12 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study,
        "trailing edges of the contact interface.",
        "no contact below energy 1; at 4.7 and 10.4 the leading half of the tip touches about t = 0 and the "
        "trailing half about t = T/2, each symmetrically and not all period long",
-       measured + ". Leading edge from energy " + report::number(leading, 4) + ", trailing edge from " +
-           report::number(trailing, 4),
+       fmt::format("{}. Leading edge from energy {}, trailing edge from {}", measured,
+                   report::number(leading, 4), report::number(trailing, 4)),
        edges && leading > 1.0 && trailing > 1.0});
 }
 
-void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
-                    const app::Backbone& curve) {
+void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve) {
   const auto point = accepted_at(study, curve, 10.4);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   double identity = 0.0, residual = 0.0;
@@ -134,34 +132,34 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study,
       identity = std::max(identity, curve.points[i].identity_defect);
       residual = std::max(residual, curve.residuals[i]);
     }
-  artefact.claim({"section 3.1", "the associated eigenvalues are such that ω² = r(û)",
-                  "at energy 10.4 the root of r is within 1 % of omega",
-                  "omega " + report::number(point.omega / linear, 5) + ", root of r " +
-                      report::number(root, 5) +
-                      " of the linear frequency. Stationarity gives omega² = r + <force> gap / m: met to " +
-                      report::number(identity, 2) + " along the curve, the equation of motion to " +
-                      report::number(residual, 2),
-                  std::abs(root * linear / point.omega - 1.0) < 0.01});
+  artefact.claim(
+      {"section 3.1", "the associated eigenvalues are such that ω² = r(û)",
+       "at energy 10.4 the root of r is within 1 % of omega",
+       fmt::format(
+           "omega {}, root of r {} of the linear frequency. Stationarity gives omega² = r + <force> gap / m: "
+           "met to {} along the curve, the equation of motion to {}",
+           report::number(point.omega / linear, 5), report::number(root, 5), report::number(identity, 2),
+           report::number(residual, 2)),
+       std::abs(root * linear / point.omega - 1.0) < 0.01});
 }
 
 void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve,
            const std::vector<solvers::LagrangianPoint>& published) {
   const auto& last = published.back();
-  artefact.note(
-      "The curve, " + std::to_string(curve.points.size()) + " points, took " +
-      report::number(1e3 * curve.wall_seconds, 3) + " ms after assembly and reduction in " +
-      report::number(study.model().reduction_seconds, 3) + " s. " +
-      std::to_string(curve.count(solvers::ModeStatus::tongue)) + " points on internal resonances, " +
-      std::to_string(static_cast<int>(curve.points.size()) - curve.count(solvers::ModeStatus::tongue) -
-                     curve.count(solvers::ModeStatus::converged)) +
-      " unsolved.");
-  artefact.note(
+  artefact.note(fmt::format(
+      "The curve, {} points, took {} ms after assembly and reduction in {} s. {} points on internal "
+      "resonances, {} unsolved.",
+      curve.points.size(), report::number(1e3 * curve.wall_seconds, 3),
+      report::number(study.model().reduction_seconds, 3), curve.count(solvers::ModeStatus::tongue),
+      static_cast<int>(curve.points.size()) - curve.count(solvers::ModeStatus::tongue) -
+          curve.count(solvers::ModeStatus::converged)));
+  artefact.note(fmt::format(
       "Published is Algorithm 2 on the printed equations, all 112 coordinates and two harmonics, which is as "
-      "many as it runs with; it ended at energy " +
-      report::number(last.prescribed_ratio, 3) + " (" + std::string(to_string(last.status)) +
-      ") and misses the equation of motion by " + report::percent(last.equation_residual, 2) +
-      ". At higher energies the dashed line, the root of r of the consistent motions, is what the paper's "
-      "formula would call frequency.");
+      "many as it runs with; it ended at energy {} ({}) and misses the equation of motion by {}. At higher "
+      "energies the dashed line, the root of r of the consistent motions, is what the paper's formula would "
+      "call frequency.",
+      report::number(last.prescribed_ratio, 3), to_string(last.status),
+      report::percent(last.equation_residual, 2)));
 }
 
 }  // namespace
@@ -171,8 +169,7 @@ void fig07(report::Artefact& artefact) {
   const auto curve = study.backbone();
   if (!curve.converged()) throw report::NotConverged("backbone: " + curve.status());
   const auto scene = artefact.scene("blade_published.toml");
-  const auto published =
-      app::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
+  const auto published = app::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
   const auto table = blade_backbones(study, curve, published);
   const auto measures = blade_measures(study, curve);
   artefact.data(table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",

@@ -1,5 +1,7 @@
 #include "ll10.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -59,8 +61,8 @@ Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int tim
   const auto& scene = study.scene();
   const auto point = study.at_energy(energy_ratio);
   if (!point.accepted())
-    throw report::NotConverged("energy ratio " + report::number(energy_ratio) + ": " +
-                               std::string(to_string(point.status)));
+    throw report::NotConverged(
+        fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
   const auto samples = study.samples(point, times, true);
   const double gap = scene.contact.gap;
   return {node_positions(scene.structure.elements), times_of(times), centred(samples.displacements) / gap,
@@ -85,8 +87,8 @@ Motion exact_motion(const app::Scene& scene, double energy_ratio, int times) {
 }
 
 std::string discretisation(const app::Scene& scene) {
-  return std::to_string(scene.analysis.harmonics) + " harmonics, " + std::to_string(scene.analysis.samples) +
-         " samples, " + std::to_string(scene.structure.elements) + " elements";
+  return fmt::format("{} harmonics, {} samples, {} elements", scene.analysis.harmonics,
+                     scene.analysis.samples, scene.structure.elements);
 }
 
 app::Axis axis(const std::string& label, double lower, double upper) {

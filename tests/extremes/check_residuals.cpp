@@ -1,5 +1,7 @@
 #include "check_residuals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -151,8 +153,7 @@ bool is_slow(const Scene& scene) {
 bool is_stiff(const Scene& scene, double displacement) {
   const auto& bar = scene.structure;
   const double element = bar.youngs_modulus * bar.area / bar.length * bar.elements;
-  return !(app::make_law(scene.contact).tangent(std::max(displacement, scene.contact.gap)) <=
-           1e4 * element);
+  return !(app::make_law(scene.contact).tangent(std::max(displacement, scene.contact.gap)) <= 1e4 * element);
 }
 
 bool can_be_stepped(const Scene& scene, const solvers::PeriodSamples& samples, int stepped_elements) {
@@ -170,8 +171,8 @@ double periodicity(const Scene& scene, const solvers::PeriodSamples& samples) {
   options.initial_displacement = samples.displacements.col(0);
   options.initial_velocity = samples.velocities.col(0);
   try {
-    const auto result = solvers::shoot(app::make_model(scene).structure,
-                                       app::make_law(scene.contact), scene.forcing.frequency, options);
+    const auto result = solvers::shoot(app::make_model(scene).structure, app::make_law(scene.contact),
+                                       scene.forcing.frequency, options);
     return result.residual_history.empty() ? missing : result.residual_history.front();
   } catch (const std::invalid_argument&) {
     return missing;  // an undamped structure at a natural frequency of its own
@@ -238,8 +239,9 @@ bool led_to_what_it_must(const Case& item, const CheckResult& result) {
   if (result.outcome != item.must) return false;
   if (item.must == Outcome::solved) return result.text.empty();
   if (item.named.empty())
-    throw std::invalid_argument("extremes: \"" + item.group + "\", " + item.scene + ": must end with " +
-                                to_string(item.must) + ", but gives no words that the text must hold");
+    throw std::invalid_argument(
+        fmt::format("extremes: \"{}\", {}: must end with {}, but gives no words that the text must hold",
+                    item.group, item.scene, to_string(item.must)));
   return result.text.find(item.named) != std::string::npos;
 }
 

@@ -97,7 +97,7 @@ Vector exact_filter(const Eigen::VectorXd& start) {
                            std::to_string(p.size()) + " coefficients");
 }
 
-/// Turns two columns in their plane until they are orthogonal. Returns whether they were not.
+/// Rotates two columns in their plane until they are orthogonal. Returns whether a rotation was needed.
 bool orthogonalize(Eigen::Ref<Eigen::VectorXd> a, Eigen::Ref<Eigen::VectorXd> b) {
   const double inner = a.dot(b), first = a.squaredNorm(), second = b.squaredNorm();
   if (std::abs(inner) <= std::numeric_limits<double>::epsilon() * std::sqrt(first * second)) return false;
@@ -110,8 +110,9 @@ bool orthogonalize(Eigen::Ref<Eigen::VectorXd> a, Eigen::Ref<Eigen::VectorXd> b)
   return true;
 }
 
-/// The largest over the smallest singular value, by one-sided Jacobi rotations (Hestenes, 1958), which keep even the
-/// smallest ones accurate and compile in a fraction of the time of Eigen's decompositions. O(n^3) per sweep.
+/// The largest over the smallest singular value, by one-sided Jacobi rotations (Hestenes, 1958), which keep
+/// even the smallest ones accurate and compile in a fraction of the time of Eigen's decompositions. O(n^3)
+/// per sweep.
 double condition(const Matrix& matrix) {
   Eigen::MatrixXd values(matrix.size(), matrix[0].size());
   for (Eigen::Index i = 0; i < values.rows(); ++i)

@@ -3,7 +3,7 @@
 
 namespace wavebalance::extremes {
 
-/// What double precision makes of the Daubechies filter of `coefficients` (even, 2..40), against quadruple
+/// Errors of the Daubechies filter of `coefficients` (even, 2..40) in double precision, from quadruple
 /// precision.
 struct FilterAccuracy {
   int coefficients = 0;
@@ -11,9 +11,9 @@ struct FilterAccuracy {
   double relative_error = 0.0;  ///< max |p_l - exact| / |p_l|: the smallest coefficients, too
   double orthogonality =
       0.0;  ///< max over m of |sum_l p_l p_{l+2m} - 2 delta_m|, the double filter, summed exactly
-  double condition = 0.0;         ///< of the equations that define the filter, 2-norm
+  double condition = 0.0;         ///< condition number of the equations of the filter, 2-norm
   double values_error = 0.0;      ///< max |phi(k) - exact| at the integers, over the largest
-  double values_condition = 0.0;  ///< of the equations for phi at the integers
+  double values_condition = 0.0;  ///< condition number of the equations for phi at the integers
 };
 
 /// The filter by Newton's method, in quadruple precision, on the equations that define it,

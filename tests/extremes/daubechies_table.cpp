@@ -23,13 +23,11 @@ void daubechies_table(report::Artefact& artefact) {
   }
   artefact.caption(
       "Errors of the double precision filter against Newton's method in quadruple precision on the equations "
-      "that "
-      "define it, relative to its largest coefficient and, for the smallest, to itself; its orthogonality at "
-      "even "
-      "shifts; the values of the scaling function at the integers; condition numbers of both systems of "
-      "equations.");
+      "that define it, relative to its largest coefficient and, for the smallest, to itself; its "
+      "orthogonality at even shifts; the values of the scaling function at the integers; condition numbers "
+      "of both systems of equations.");
   artefact.data(std::move(table), "1; condition numbers in the 2-norm");
-  artefact.markdown(rounded);
+  artefact.printed(rounded);
 }
 
 }  // namespace wavebalance::extremes

@@ -1,4 +1,6 @@
 // The table of the extremes: an input, what must happen, what happened, what the solution leaves.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "family.hpp"
@@ -19,7 +21,7 @@ std::string must_text(const Case& item) {
 
 std::string happened_text(const CheckResult& result) {
   return result.outcome == Outcome::solved ? to_string(result.outcome)
-                                                      : to_string(result.outcome) + ": " + result.text;
+                                           : to_string(result.outcome) + ": " + result.text;
 }
 
 const std::vector<std::string> columns{"group",       "input",           "must",
@@ -29,7 +31,8 @@ const std::vector<std::string> columns{"group",       "input",           "must",
 void append(app::Table& table, const Case& item, const CheckResult& result) {
   const auto& found = result.residuals;
   table.append_row({item.group, input_text(item), must_text(item), happened_text(result), found.motion,
-                    found.complementarity, found.periodicity, result.seconds, led_to_what_it_must(item, result)});
+                    found.complementarity, found.periodicity, result.seconds,
+                    led_to_what_it_must(item, result)});
 }
 
 /// The same with three digits, for reading.
@@ -74,14 +77,14 @@ void family_table(report::Artefact& artefact) {
     longest = std::max(longest, result.seconds);
   }
   append_units(table, rounded, scenes);
-  artefact.caption(
-      std::to_string(holding) + " of " + std::to_string(table.rows() - 1) +
-      " inputs led to what they must, the longest in " + report::number(longest, 2) +
-      " s. Residuals are computed from the samples of the response, apart from the solver: the equation of "
-      "motion of every degree of freedom; force and penetration; the change of the state over one "
-      "period of time stepping, where the error of the time basis shows.");
+  artefact.caption(fmt::format(
+      "{} of {} inputs led to what they must, the longest in {} s. Residuals are computed from the samples "
+      "of the response, apart from the solver: the equation of motion of every degree of freedom; force and "
+      "penetration; the change of the state over one period of time stepping, where the error of the time "
+      "basis shows.",
+      holding, table.rows() - 1, report::number(longest, 2)));
   artefact.data(std::move(table), "residuals are relative; processor seconds of one run, checks included");
-  artefact.markdown(rounded);
+  artefact.printed(rounded);
 }
 
 }  // namespace wavebalance::extremes

@@ -42,6 +42,20 @@ double contact_fraction(const solvers::PeriodSamples& samples) {
   return (samples.contact_force.array() > 0.0).cast<double>().mean();
 }
 
+double observed_order(std::span<const double> sizes, std::span<const double> errors) {
+  if (sizes.size() != errors.size())
+    throw std::invalid_argument("observed_order: there are " + std::to_string(sizes.size()) + " sizes and " +
+                                std::to_string(errors.size()) + " errors; their numbers must be equal");
+  if (sizes.size() < 2) throw std::invalid_argument("observed_order: there must be at least two entries");
+  const auto n = static_cast<Eigen::Index>(sizes.size());
+  const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(sizes.data(), n).log();
+  const Eigen::ArrayXd y = Eigen::Map<const Eigen::ArrayXd>(errors.data(), n).log();
+  if (!x.isFinite().all() || !y.isFinite().all())
+    throw std::invalid_argument("observed_order: sizes and errors must be positive and finite");
+  const Eigen::ArrayXd centred = x - x.mean();
+  return -(centred * y).sum() / centred.square().sum();
+}
+
 Eigen::VectorXd time_fractions(int points) {
   return Eigen::VectorXd::LinSpaced(points, 0.0, static_cast<double>(points - 1)) /
          static_cast<double>(points);

@@ -9,8 +9,8 @@
 #include "forced_blade.hpp"
 #include "paper_results.hpp"
 #include "rotating_blade.hpp"
-#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::blade {
 namespace {
@@ -105,7 +105,7 @@ TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
                                            "analysis.frequency_to=690.0", "analysis.largest_step=20.0"};
   const auto scene = scene_of("forced_response.toml", overrides);
   const auto model = app::make_model(scene);
-  const auto up = stepped(scene, model), down = stepped(reversed(scene), model);
+  const auto up = stepped_sweep(scene, model), down = stepped_sweep(reversed(scene), model);
   ASSERT_EQ(up.size(), 9u);
   ASSERT_EQ(down.size(), 9u);
   const double gap = scene.contact.gap, tolerance = 1e-6 * gap;

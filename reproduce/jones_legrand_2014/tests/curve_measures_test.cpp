@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "curve_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <vector>
 
-namespace wavebalance::app {
+namespace wavebalance::jl14 {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -71,16 +70,6 @@ TEST(SignChanges, SkipsZerosAndDoesNotJoinTheEnds) {
   EXPECT_EQ(sign_changes(values), 2);
 }
 
-TEST(ObservedOrder, OfAPowerLawIsItsExponent) {
-  const std::vector<double> sizes{8, 16, 32, 64};
-  std::vector<double> errors;
-  for (const double size : sizes) errors.push_back(7.0 * std::pow(size, -3.0));
-  EXPECT_NEAR(observed_order(sizes, errors), 3.0, 100 * eps);
-  errors[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(observed_order(sizes, errors), std::invalid_argument);
-  EXPECT_THROW(observed_order(sizes, std::vector<double>{1.0}), std::invalid_argument);
-}
-
 TEST(RefinementGain, FallsByFourForASmoothFunction) {
   const auto polygon = [](int intervals) {
     return Eigen::VectorXd::LinSpaced(intervals + 1, 0.0, 1.0).array().square().matrix().eval();
@@ -92,4 +81,4 @@ TEST(RefinementGain, FallsByFourForASmoothFunction) {
 }
 
 }  // namespace
-}  // namespace wavebalance::app
+}  // namespace wavebalance::jl14

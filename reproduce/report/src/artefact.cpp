@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::report {
 
@@ -21,9 +21,7 @@ app::Scene Artefact::scene(const std::string& name, const std::vector<std::strin
   return app::load_scene(scenes_ / name, overrides);
 }
 
-app::Table Artefact::result(const std::string& file) const {
-  return app::read_csv(output_ / file);
-}
+app::Table Artefact::result(const std::string& file) const { return app::read_csv(output_ / file); }
 
 app::CsvHeading Artefact::heading(std::string units, std::vector<std::string> notes) const {
   return {record_.identity.number + ": " + record_.identity.title, std::move(units), "", std::move(notes)};
@@ -46,10 +44,10 @@ void Artefact::attach(const std::string& name, std::string contents, bool listed
 
 void Artefact::picture(app::Figure figure) { figure_ = std::move(figure); }
 
-void Artefact::markdown(const app::Table& table) {
-  record_.table = markdown_text(table);
-  texts_[record_.identity.stem + ".md"] =
-      "# " + record_.identity.number + ": " + record_.identity.title + "\n\n" + record_.table;
+void Artefact::printed(const app::Table& table) {
+  record_.table = text_table(table);
+  texts_[record_.identity.stem + ".md"] = fmt::format("# {}: {}\n\n{}", record_.identity.number,
+                                                      record_.identity.title, markdown_text(record_.table));
 }
 
 void Artefact::write(double wall_seconds) {
@@ -76,16 +74,23 @@ void Artefact::write(double wall_seconds) {
   records.commit();
 }
 
-std::string markdown_text(const app::Table& table) {
-  std::string text = "|", rule = "|";
-  for (const auto& name : table.columns()) {
-    text += " " + name + " |";
-    rule += " --- |";
-  }
-  text += "\n" + rule + "\n";
+TextTable text_table(const app::Table& table) {
+  TextTable text{table.columns()};
   for (std::size_t i = 0; i < table.rows(); ++i) {
+    auto& row = text.emplace_back();
+    for (const auto& cell : table.row(i)) row.push_back(app::cell_text(cell));
+  }
+  return text;
+}
+
+std::string markdown_text(const TextTable& table) {
+  if (table.empty()) return "";
+  std::string text;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    text += fmt::format("| {} |\n", fmt::join(table[i], " | "));
+    if (i > 0) continue;
     text += "|";
-    for (const auto& cell : table.row(i)) text += " " + app::cell_text(cell) + " |";
+    for (std::size_t column = 0; column < table[0].size(); ++column) text += " --- |";
     text += "\n";
   }
   return text;

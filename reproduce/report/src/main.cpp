@@ -1,16 +1,16 @@
-// Gathers the records below a results folder into its index.html.
+// Gathers the records below a results folder into its index.html, and into the pages that it links to.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "wavebalance/report/page.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/report/page.hpp"
 
 using namespace wavebalance;
 
 int main(int argc, char** argv) {
   std::string results = "results";
   CLI::App app("Writes index.html over the results of the papers");
-  app.add_option("--results", results, "folder that holds a folder a paper")->capture_default_str();
+  app.add_option("--results", results, "folder with one folder per paper")->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -23,6 +23,10 @@ int main(int argc, char** argv) {
       if (std::filesystem::is_directory(folder)) sections.push_back({paper, report::read_records(folder)});
     }
     if (sections.empty()) throw app::IoError(results, "holds no results of a paper");
+    for (const auto& section : sections)
+      if (section.paper.own_page)
+        app::write_file(std::filesystem::path(results) / section.paper.folder / "index.html",
+                        report::own_page_html(section));
     app::write_file(std::filesystem::path(results) / "index.html", report::page_html(sections));
     return 0;
   } catch (const std::exception& error) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "wavebalance/app/files/output.hpp"
 
@@ -35,8 +34,7 @@ std::string verdict(const Claim& claim) {
 std::string claims_table(const std::vector<Claim>& claims, const char* who) {
   if (claims.empty()) return "";
   std::string text = std::string("<table><tr><th>") + who +
-                     "</th><th>Measured, and what decides</th><th>Found in this "
-                     "run</th><th></th></tr>\n";
+                     "</th><th>Measured, and what decides</th><th>Found in this run</th><th></th></tr>\n";
   for (const Claim& claim : claims)
     text +=
         fmt::format("<tr><td><q>{}</q> <span class=\"place\">({})</span></td><td>{}</td><td>{}</td>{}</tr>\n",
@@ -45,37 +43,31 @@ std::string claims_table(const std::vector<Claim>& claims, const char* who) {
   return text + "</table>\n";
 }
 
-std::string table_row(const std::string& line, const char* tag) {
+std::string table_row(const std::vector<std::string>& cells, const char* tag) {
   std::string text = "<tr>";
-  std::istringstream cells(line.substr(1));  // the first | opens the row
-  for (std::string cell; std::getline(cells, cell, '|');)
-    text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  for (const auto& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
   return text + "</tr>\n";
 }
 
-/// A Markdown table as markdown_text() writes it.
-std::string data_table(const std::string& markdown) {
-  if (markdown.empty()) return "";
-  std::istringstream lines(markdown);
+std::string data_table(const TextTable& table) {
+  if (table.empty()) return "";
   std::string text = "<table>\n";
-  int number = 0;
-  for (std::string line; std::getline(lines, line); ++number)
-    if (number != 1 && !line.empty()) text += table_row(line, number == 0 ? "th" : "td");
+  for (std::size_t i = 0; i < table.size(); ++i) text += table_row(table[i], i == 0 ? "th" : "td");
   return text + "</table>\n";
 }
 
-std::string picture(const Record& record) {
+/// `folder` is that of the results as seen from the page: "extremes/", or empty on a page beside them.
+std::string picture(const Record& record, const std::string& folder) {
   const std::string svg = record.identity.stem + ".svg", png = record.identity.stem + ".png";
   if (std::find(record.files.begin(), record.files.end(), svg) == record.files.end()) return "";
-  const std::string folder = record.identity.paper + "/";
   return fmt::format("<a href=\"{0}{1}\"><img src=\"{0}{2}\" alt=\"{3}\" loading=\"lazy\"></a>\n", folder,
                      svg, png, escaped(record.identity.number + ": " + record.identity.title));
 }
 
-std::string origins(const Record& record) {
+std::string origins(const Record& record, const std::string& folder) {
   std::string text = "<p class=\"files\">";
   for (const auto& file : record.files)
-    text += fmt::format("<a href=\"{0}/{1}\">{1}</a> ", record.identity.paper, escaped(file));
+    text += fmt::format("<a href=\"{0}{1}\">{1}</a> ", folder, escaped(file));
   if (!record.scenes.empty()) {
     text += "· scenes:";
     for (const auto& scene : record.scenes) text += " " + escaped(scene);
@@ -83,16 +75,16 @@ std::string origins(const Record& record) {
   return text + fmt::format(" · {:.2f} s</p>\n", record.wall_seconds);
 }
 
-/// Who says what is held against the figures.
+/// The heading of the statements that are compared with the results.
 const char* speaker(const Paper& paper) { return paper.link.empty() ? "Statement" : "The paper says"; }
 
-std::string artefact_section(const Record& record, const Paper& paper) {
+std::string artefact_section(const Record& record, const Paper& paper, const std::string& folder) {
   std::string text = fmt::format("<section id=\"{}\">\n<h3>{}: {}</h3>\n", record.identity.stem,
                                  escaped(record.identity.number), escaped(record.identity.title));
-  text += picture(record) + "<p>" + escaped(record.caption) + "</p>\n" + data_table(record.table);
+  text += picture(record, folder) + "<p>" + escaped(record.caption) + "</p>\n" + data_table(record.table);
   text += claims_table(record.claims, speaker(paper));
   for (const auto& note : record.notes) text += "<p class=\"note\">" + escaped(note) + "</p>\n";
-  return text + origins(record) + "</section>\n";
+  return text + origins(record, folder) + "</section>\n";
 }
 
 std::string differing(const Section& section) {
@@ -132,15 +124,33 @@ std::string overview(const Section& section) {
       claims - holding, links);
 }
 
-std::string paper_section(const Section& section) {
+std::string paper_section(const Section& section, const std::string& folder) {
   std::string text = fmt::format("<h2>{}</h2>\n", escaped(section.paper.citation));
   if (!section.paper.link.empty())
     text += fmt::format(
         "<p class=\"place\">Text: <a href=\"{}\">{}</a>. Sentences are quoted from it under {}.</p>\n",
         section.paper.link, escaped(section.paper.link), escaped(section.paper.licence));
   text += overview(section) + differing(section);
-  for (const Record& record : section.records) text += artefact_section(record, section.paper);
+  for (const Record& record : section.records) text += artefact_section(record, section.paper, folder);
   return text;
+}
+
+/// The captions of a section that has its own page, and the link to it.
+std::string linked_section(const Section& section) {
+  std::string text = fmt::format("<h2>{}</h2>\n", escaped(section.paper.citation));
+  for (const Record& record : section.records)
+    text += fmt::format("<p><a href=\"{}/index.html#{}\">{}: {}</a>. {}</p>\n", section.paper.folder,
+                        record.identity.stem, escaped(record.identity.number), escaped(record.identity.title),
+                        escaped(record.caption));
+  return text;
+}
+
+std::string html(const std::string& title, const std::string& body) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n<style>{}</style>\n</head>\n"
+      "<body>\n{}</body>\n</html>\n",
+      escaped(title), style, body);
 }
 
 }  // namespace
@@ -149,15 +159,14 @@ const std::vector<Paper>& papers() {
   static const std::vector<Paper> all{
       {"jones_legrand_2014",
        "Jones & Legrand 2014, Vibrations of an axial bar experiencing periodic unilateral contact using the "
-       "wavelet "
-       "balance method",
+       "wavelet balance method",
        "https://hal.science/hal-01403614", "CC BY 4.0"},
       {"laxalde_legrand_2010",
        "Laxalde & Legrand 2010, Nonlinear modal analysis of mechanical systems with frictionless contact "
        "interfaces (preprint, version 1)",
        "https://hal.science/hal-00492775", "the right of quotation"},
       {"blade", "The blade further: beyond the papers", "", ""},
-      {"extremes", "Extremes: inputs at the edge of what numbers, structures and bases can be", "", ""},
+      {"extremes", "Extremes: inputs at the edge of what numbers, structures and bases can be", "", "", true},
   };
   return all;
 }
@@ -180,17 +189,20 @@ std::string escaped(const std::string& text) {
 }
 
 std::string page_html(const std::vector<Section>& sections) {
-  std::string text =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width\">\n<title>Wavebalance: results</title>\n<style>" +
-      std::string(style) + "</style>\n</head>\n<body>\n<h1>Wavebalance: papers regenerated</h1>\n";
-  text += fmt::format(
-      "<p>Every figure and table below was computed from scene files by Wavebalance {}. Each statement "
-      "of a paper stands beside the figures of this run; the verdict is computed from them by the "
-      "threshold that is given.</p>\n",
+  std::string body = fmt::format(
+      "<h1>Wavebalance: papers regenerated</h1>\n"
+      "<p>Every figure and table below was computed from scene files by Wavebalance {}. Each statement of a paper stands "
+      "beside the values of this run; the verdict is computed from them by the threshold that is given.</p>\n",
       app::version());
-  for (const Section& section : sections) text += paper_section(section);
-  return text + "</body>\n</html>\n";
+  for (const Section& section : sections)
+    body +=
+        section.paper.own_page ? linked_section(section) : paper_section(section, section.paper.folder + "/");
+  return html("Wavebalance: results", body);
+}
+
+std::string own_page_html(const Section& section) {
+  return html("Wavebalance: " + section.paper.folder,
+              "<p><a href=\"../index.html\">All results</a></p>\n" + paper_section(section, ""));
 }
 
 }  // namespace wavebalance::report

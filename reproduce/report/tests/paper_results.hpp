@@ -28,8 +28,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// What the steps of a paper wrote, each made once: by CTest in the folder that the variable WAVEBALANCE_RESULTS
-/// names, before any test; or, where a test program is started by hand, here in a temporary folder.
+/// What the steps of a paper wrote, each made once: by CTest in the folder that the variable
+/// WAVEBALANCE_RESULTS names, before any test; or, where a test program is started by hand, here in a
+/// temporary folder.
 class PaperResults {
  public:
   explicit PaperResults(const std::vector<Step>& steps) : steps_(steps) {
@@ -42,9 +43,7 @@ class PaperResults {
     for (const auto& name : names)
       if (made_.insert(name).second) run_step(steps_, name, folder());
   }
-  std::filesystem::path folder() const {
-    return made_by_ctest_.empty() ? temporary_.path() : made_by_ctest_;
-  }
+  std::filesystem::path folder() const { return made_by_ctest_.empty() ? temporary_.path() : made_by_ctest_; }
   app::Table read(const std::string& file) const { return app::read_csv(folder() / file); }
   bool has(const std::string& file) const { return std::filesystem::is_regular_file(folder() / file); }
   Record record(const std::string& stem) const {

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/report/page.hpp"
-#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::report {
 namespace {
@@ -19,7 +19,7 @@ Record example() {
   record.notes = {"a note"};
   record.claims = {{"section 1", "holds", "x < 1", "0.5", true},
                    {"section 2", "fails", "x < 1", "1.5", false}};
-  record.table = "| a | b |\n| --- | --- |\n| 1 | 2 |\n";
+  record.table = {{"a", "b"}, {"1 | <2>", "3"}};
   record.wall_seconds = 0.25;
   record.version = "0.1.0";
   return record;
@@ -92,10 +92,25 @@ TEST(Artefact, AttachedFilesAreWrittenAndOnlyListedOnesAreLinked) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Markdown, HoldsARowALine) {
+TEST(Markdown, HoldsOneRowPerLine) {
   app::Table table({"a", "b"});
   table.append_row({std::string("x"), 0.5});
-  EXPECT_EQ(markdown_text(table), "| a | b |\n| --- | --- |\n| x | 0.5 |\n");
+  EXPECT_EQ(markdown_text(text_table(table)), "| a | b |\n| --- | --- |\n| x | 0.5 |\n");
+}
+
+TEST(Page, ShowsEveryCellOfATableAsItIs) {
+  EXPECT_NE(page().find("<tr><th>a</th><th>b</th></tr>"), std::string::npos);
+  EXPECT_NE(page().find("<tr><td>1 | &lt;2&gt;</td><td>3</td></tr>"), std::string::npos);
+}
+
+TEST(Page, LinksToASectionWithItsOwnPageInPlaceOfShowingIt) {
+  const Section section{{"some_paper", "Further", "", "", true}, {example()}};
+  const std::string index = page_html({section}), own = own_page_html(section);
+  EXPECT_NE(index.find("href=\"some_paper/index.html#fig01_example\""), std::string::npos);
+  EXPECT_EQ(index.find("<td>3</td>"), std::string::npos);
+  EXPECT_NE(own.find("<td>3</td>"), std::string::npos);
+  EXPECT_NE(own.find("href=\"../index.html\""), std::string::npos);
+  EXPECT_NE(own.find("href=\"fig01_example.csv\""), std::string::npos);
 }
 
 TEST(Numbers, AreShort) {

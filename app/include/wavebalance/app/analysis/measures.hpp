@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
 
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/reference/period_samples.hpp"
@@ -24,6 +25,11 @@ double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples);
 
 /// Share of the samples with a contact force.
 double contact_fraction(const solvers::PeriodSamples& samples);
+
+/// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
+/// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not
+/// positive.
+double observed_order(std::span<const double> sizes, std::span<const double> errors);
 
 /// 0, 1/points, ... as a column of time.
 Eigen::VectorXd time_fractions(int points);

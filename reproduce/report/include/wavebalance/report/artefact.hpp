@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/report/record.hpp"
+#include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/report/record.hpp"
 
 namespace wavebalance::report {
 
-/// A computation that an artefact cannot do without did not converge; ends the program with exit code 3.
+/// A computation that an artefact needs did not converge; the program ends with exit code 3.
 class NotConverged : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -40,7 +40,8 @@ class Artefact {
   /// Any other file beside stem.csv; the page links it if `listed`.
   void attach(const std::string& name, std::string contents, bool listed = true);
   void picture(app::Figure figure);
-  void markdown(const app::Table& table);
+  /// The table that the page shows, and stem.md.
+  void printed(const app::Table& table);
   void caption(std::string text) { record_.caption = std::move(text); }
   void note(std::string text) { record_.notes.push_back(std::move(text)); }
   void claim(Claim claim) { record_.claims.push_back(std::move(claim)); }
@@ -61,8 +62,11 @@ class Artefact {
   std::optional<app::Figure> figure_;
 };
 
-/// `table` in Markdown, numbers as the CSV file has them.
-std::string markdown_text(const app::Table& table);
+/// The cells of `table`, numbers as the CSV file has them.
+TextTable text_table(const app::Table& table);
+
+/// `table` in Markdown.
+std::string markdown_text(const TextTable& table);
 
 /// `value` with `digits` significant digits, "1.23e-05" where that is shorter.
 std::string number(double value, int digits = 3);

@@ -6,12 +6,13 @@
 
 namespace wavebalance::report {
 
-/// What the page says of a paper as a whole, or of results of this project's own.
+/// The heading of a section: a paper, or results of this project's own.
 struct Paper {
-  std::string folder;    ///< below results/ and reproduce/scenes/
-  std::string citation;  ///< authors, title, where and when
-  std::string link;      ///< to its text; empty: results of this project's own
-  std::string licence;   ///< of the sentences quoted
+  std::string folder;     ///< below results/ and reproduce/scenes/
+  std::string citation;   ///< authors, title, where and when
+  std::string link;       ///< to its text; empty: results of this project's own
+  std::string licence;    ///< of the sentences quoted
+  bool own_page = false;  ///< shown on results/<folder>/index.html, to which results/index.html links
 };
 
 /// The papers that are regenerated, in the order of the page.
@@ -23,8 +24,12 @@ struct Section {
   std::vector<Record> records;
 };
 
-/// The whole page, HTML and CSS without scripts; pictures and data are linked relative to its folder.
+/// results/index.html: the sections, and links to those that have their own page. HTML and CSS without
+/// scripts; pictures and data are linked relative to the folder of the page.
 std::string page_html(const std::vector<Section>& sections);
+
+/// results/<folder>/index.html of a section that has its own page.
+std::string own_page_html(const Section& section);
 
 /// `text` with &, <, > and " as entities.
 std::string escaped(const std::string& text);

@@ -5,7 +5,7 @@
 
 namespace wavebalance::report {
 
-/// A statement of a paper held against the figures of this run.
+/// A statement of a paper and its verdict by the values of this run.
 struct Claim {
   std::string place;      ///< "section 5.5"
   std::string quote;      ///< the paper's own words
@@ -14,7 +14,7 @@ struct Claim {
   bool holds = false;     ///< the criterion is met
 };
 
-/// What an artefact is called and where it belongs.
+/// Names of an artefact and of its paper.
 struct Identity {
   std::string paper;   ///< folder below results/, "jones_legrand_2014"
   std::string number;  ///< "JL14 Fig. 6"
@@ -22,7 +22,10 @@ struct Identity {
   std::string stem;    ///< of its files, "fig06_tip_displacement_case1"
 };
 
-/// What the report page says of an artefact, besides its picture.
+/// A table as text, its first row the names of the columns.
+using TextTable = std::vector<std::vector<std::string>>;
+
+/// The text of an artefact on the report page.
 struct Record {
   Identity identity;
   std::string caption;
@@ -30,7 +33,7 @@ struct Record {
   std::vector<std::string> scenes;  ///< names of the scene files it comes from
   std::vector<std::string> notes;   ///< choices made, and what is missing
   std::vector<Claim> claims;
-  std::string table;  ///< Markdown, shown on the page; empty for figures
+  TextTable table;  ///< shown on the page; empty for figures
   double wall_seconds = 0.0;
   std::string version;  ///< of wavebalance
 };

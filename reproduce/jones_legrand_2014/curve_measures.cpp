@@ -1,16 +1,18 @@
-#include "wavebalance/app/analysis/curve_measures.hpp"
+#include "curve_measures.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace wavebalance::app {
+namespace wavebalance::jl14 {
 namespace {
 
 void require_equal(Eigen::Index a, Eigen::Index b, const char* function) {
   if (a != b)
-    throw std::invalid_argument(std::string(function) + ": the lengths are " + std::to_string(a) + " and " +
-                                std::to_string(b) + "; they must be equal");
+    throw std::invalid_argument(
+        fmt::format("{}: the lengths are {} and {}; they must be equal", std::string(function), a, b));
 }
 
 }  // namespace
@@ -31,8 +33,8 @@ double excess_variation(const Eigen::VectorXd& values, const Eigen::VectorXd& re
 double largest_change(const Eigen::VectorXd& values, int steps) {
   const Eigen::Index n = values.size();
   if (steps < 1 || steps >= n)
-    throw std::invalid_argument("largest_change: steps is " + std::to_string(steps) + "; it must be in 1.." +
-                                std::to_string(n - 1));
+    throw std::invalid_argument(
+        fmt::format("largest_change: steps is {}; it must be in 1..{}", steps, n - 1));
   double largest = 0.0;
   for (Eigen::Index i = 0; i < n; ++i)
     largest = std::fmax(largest, std::abs(values[(i + steps) % n] - values[i]));
@@ -55,8 +57,8 @@ double relative_mean_error(const Eigen::VectorXd& values, const Eigen::VectorXd&
 
 Eigen::VectorXd cell_midpoints(const Eigen::VectorXd& values, int cells) {
   if (cells < 1 || values.size() % (2 * cells) != 0)
-    throw std::invalid_argument("cell_midpoints: cells is " + std::to_string(cells) +
-                                "; twice that must divide " + std::to_string(values.size()) + " values");
+    throw std::invalid_argument(
+        fmt::format("cell_midpoints: cells is {}; twice that must divide {} values", cells, values.size()));
   const Eigen::Index width = values.size() / cells;
   return Eigen::VectorXd::NullaryExpr(cells, [&](Eigen::Index j) { return values[j * width + width / 2]; });
 }
@@ -72,19 +74,6 @@ int sign_changes(const Eigen::VectorXd& values) {
   return changes;
 }
 
-double observed_order(std::span<const double> sizes, std::span<const double> errors) {
-  require_equal(static_cast<Eigen::Index>(sizes.size()), static_cast<Eigen::Index>(errors.size()),
-                "observed_order");
-  if (sizes.size() < 2) throw std::invalid_argument("observed_order: there must be two entries at least");
-  const auto n = static_cast<Eigen::Index>(sizes.size());
-  const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(sizes.data(), n).log();
-  const Eigen::ArrayXd y = Eigen::Map<const Eigen::ArrayXd>(errors.data(), n).log();
-  if (!x.isFinite().all() || !y.isFinite().all())
-    throw std::invalid_argument("observed_order: sizes and errors must be positive and finite");
-  const Eigen::ArrayXd centred = x - x.mean();
-  return -(centred * y).sum() / centred.square().sum();
-}
-
 double refinement_gain(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine) {
   require_equal(2 * coarse.size() - 1, fine.size(), "refinement_gain");
   double gain = 0.0;
@@ -93,4 +82,4 @@ double refinement_gain(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fin
   return gain;
 }
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::jl14

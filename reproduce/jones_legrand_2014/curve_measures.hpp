@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
-#include <span>
 
-namespace wavebalance::app {
+/// What the statements of JL14 on curves are decided by.
+namespace wavebalance::jl14 {
 
 /// Sum of |v[i+1] - v[i]| round the period: twice the range for a curve that rises once and falls once, more
 /// for every oscillation. Zero for fewer than two values. O(n).
@@ -19,7 +19,7 @@ double largest_change(const Eigen::VectorXd& values, int steps);
 /// lengths differ.
 Eigen::VectorXd select(const Eigen::VectorXd& values, const Eigen::Array<bool, Eigen::Dynamic, 1>& where);
 
-/// mean |values - reference| / mean |reference|: like relative_rms_error(), but short spikes weigh less.
+/// mean |values - reference| / mean |reference|. Short spikes weigh less than in app::relative_rms_error().
 /// Throws std::invalid_argument if the lengths differ.
 double relative_mean_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
 
@@ -30,14 +30,9 @@ Eigen::VectorXd cell_midpoints(const Eigen::VectorXd& values, int cells);
 /// Sign changes of consecutive entries, zeros skipped, ends not joined.
 int sign_changes(const Eigen::VectorXd& values);
 
-/// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
-/// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not
-/// positive.
-double observed_order(std::span<const double> sizes, std::span<const double> errors);
-
 /// max |fine[2i+1] - (coarse[i] + coarse[i+1]) / 2|: what a refinement adds to the polygon through `coarse`,
 /// n values, when `fine`, 2n - 1 values, has a further one in the middle of each interval. Throws
 /// std::invalid_argument when the lengths do not fit.
 double refinement_gain(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine);
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::jl14
