@@ -14,7 +14,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// To the right, up, and to the eye: a rotation.
+/// Rows: the directions to the right, upwards and towards the viewer. A rotation.
 Eigen::Matrix3d directions(const SurfaceView& view) {
   const double azimuth = view.azimuth * std::numbers::pi / 180.0;
   const double elevation = view.elevation * std::numbers::pi / 180.0;
@@ -31,16 +31,16 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-/// A face turned to the eye.
+/// A face turned towards the viewer.
 struct Facet {
   Polygon ring;
-  double depth = 0.0;  // of its middle, larger is nearer
+  double depth = 0.0;  // of its centre, larger is nearer
   double light = 1.0;  // cosine to the light
   bool valued = false;
   int layer = 0;
 };
 
-/// Twice the area by corners of a polygon in space, outwards.
+/// Twice the area vector of a polygon in space, outwards.
 Eigen::Vector3d area_of(const Eigen::Matrix3Xd& vertices, const std::vector<int>& face) {
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < face.size(); ++i) {
@@ -51,7 +51,8 @@ Eigen::Vector3d area_of(const Eigen::Matrix3Xd& vertices, const std::vector<int>
   return area;
 }
 
-/// Without vertices that lie on the line between their neighbours to `tolerance`, midpoints of edges mostly.
+/// The polygon without the vertices that lie on the line between their neighbours to `tolerance`, mostly midpoints of
+/// edges.
 Polygon simplified(const Polygon& ring, double tolerance) {
   Polygon result;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -77,7 +78,7 @@ Polygon above(const Polygon& polygon, double level) {
   return result;
 }
 
-/// True if some edge of a separates the two, which may touch up to `margin`.
+/// True if an edge of `a` separates the two polygons, which may overlap by `margin`.
 bool separated(const Polygon& a, const Polygon& b, double margin) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Eigen::Vector2d edge = a[(i + 1) % a.size()].at - a[i].at;
@@ -93,8 +94,8 @@ bool overlap(const Facet& a, const Facet& b, double margin) {
   return !separated(a.ring, b.ring, margin) && !separated(b.ring, a.ring, margin);
 }
 
-/// Facets from the back to the front; each in the lowest layer above all behind it that it hides in part, so
-/// that a layer's lines can be drawn at once.
+/// Sorts facets from the back to the front. Each goes to the lowest layer above those that it hides in part, so that the
+/// lines of a layer can be drawn at once. O(n^2) pairs of facets.
 void order(std::vector<Facet>& facets, double margin) {
   std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
   for (std::size_t i = 0; i < facets.size(); ++i)
@@ -191,7 +192,7 @@ class Edges {
   std::string text_;
 };
 
-/// The facet in the colour of its lowest band, and over it the parts above each further level: no gaps show.
+/// The facet in the colour of its lowest band, and over it the parts above each further level, so that no gaps show.
 std::string filled(const Facet& facet, const SurfaceView& view, double resolution) {
   if (!facet.valued) {
     const double brightness = 235.0 * (1.0 - view.shading * (1.0 - facet.light));
@@ -214,7 +215,7 @@ std::string block(const std::string& name, const std::string& rows) {
   return name + " << END\n" + rows + "END\n";
 }
 
-/// Edges where the surface turns by more than 40 degrees.
+/// Edges where the normal changes by more than 40 degrees.
 std::string sharp_edges(const Surface& surface, const Eigen::Matrix3d& turn) {
   std::map<std::pair<int, int>, Eigen::Vector3d> normals;
   std::string text;
@@ -237,7 +238,7 @@ std::string sharp_edges(const Surface& surface, const Eigen::Matrix3d& turn) {
   return text;
 }
 
-/// The marked vertices that lie on a face turned to the eye.
+/// The marked vertices that lie on a face turned towards the viewer.
 std::string marked(const Surface& surface, const SurfaceMarks& marks, const Eigen::Matrix3d& turn) {
   std::set<int> seen;
   for (const auto& face : surface.faces)
@@ -313,7 +314,7 @@ void check(const SurfaceView& view) {
     const auto count = static_cast<std::size_t>(surface.vertices.cols());
     if (!surface.values.empty() && surface.values.size() != count)
       fail("a surface of " + std::to_string(count) + " vertices has " +
-           std::to_string(surface.values.size()) + " values; it needs one a vertex, or none");
+           std::to_string(surface.values.size()) + " values; it needs one per vertex, or none");
     const auto check_numbers = [&](const std::vector<int>& vertices) {
       for (const int vertex : vertices)
         if (vertex < 0 || static_cast<std::size_t>(vertex) >= count)

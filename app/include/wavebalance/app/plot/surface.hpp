@@ -20,7 +20,7 @@ struct SurfaceMarks {
 struct Surface {
   Eigen::Matrix3Xd vertices;
   std::vector<std::vector<int>> faces;  ///< vertex numbers anticlockwise seen from outside
-  std::vector<double> values;           ///< one a vertex, shown as bands of colour; empty: light grey
+  std::vector<double> values;           ///< one per vertex, shown as bands of colour; empty: light grey
   bool outline = false;                 ///< only its sharp edges, dashed
   std::vector<SurfaceMarks> marks;
 };
@@ -43,8 +43,8 @@ struct ColourBands {
 /// from the back, so that nearer ones hide what is behind them; outlines lie behind all faces.
 struct SurfaceView {
   std::vector<Surface> surfaces;
-  double azimuth = -60.0;   ///< degrees, from x to y: where the eye stands
-  double elevation = 25.0;  ///< degrees above the x-y plane, -90..90
+  double azimuth = -60.0;   ///< of the viewer, degrees from x to y
+  double elevation = 25.0;  ///< of the viewer, degrees above the x-y plane, -90..90
   ColourBands colours;
   double shading = 0.3;  ///< 0..1, how dark faces turned from the light become; values are never shaded
   double axes = 0.0;     ///< length of the three arrows that show the axes, in units of the vertices; 0: none
