@@ -1,6 +1,7 @@
 // Daubechies filters of 2 to 40 coefficients in double precision, against quadruple precision.
 #include "daubechies_reference.hpp"
 #include "tables.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::extremes {
 

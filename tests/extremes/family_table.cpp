@@ -5,6 +5,7 @@
 
 #include "family.hpp"
 #include "tables.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::extremes {
 namespace {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <iostream>
 
+#include "wavebalance/report/artefact.hpp"
+
 namespace wavebalance::report {
 namespace {
 

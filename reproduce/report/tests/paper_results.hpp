@@ -6,6 +6,7 @@
 #include <string>
 
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/report/artefact.hpp"
 #include "wavebalance/report/program.hpp"
 
 namespace wavebalance::report {

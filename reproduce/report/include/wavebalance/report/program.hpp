@@ -1,11 +1,14 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "wavebalance/report/artefact.hpp"
+#include "wavebalance/report/record.hpp"
 
 namespace wavebalance::report {
+
+class Artefact;
 
 /// One figure, table or reference solution of a paper, and the function that makes it.
 struct Step {
@@ -14,13 +17,14 @@ struct Step {
   std::function<void(Artefact&)> make;
 };
 
-/// The main function of a paper's program, `program NAME [--output DIR] [--scenes DIR]`: makes and writes the step
-/// of that name. Returns the exit code: 0; 2 for bad input and for files that cannot be written, nothing being
-/// written; 3 for NotConverged. Messages go to stderr. `steps` must not be empty and belong to one paper.
+/// The main function of a paper's program, `program NAME [--output DIR] [--scenes DIR]`: makes and writes the
+/// step of that name. Returns the exit code: 0; 2 for bad input and for files that cannot be written, nothing
+/// being written; 3 for NotConverged. Messages go to stderr. `steps` must not be empty and belong to one
+/// paper.
 int run_program(int argc, const char* const* argv, const std::vector<Step>& steps);
 
-/// Makes the step `name` from the scenes of the paper into `output`. Throws std::out_of_range for an unknown name,
-/// and what the step throws.
+/// Makes the step `name` from the scenes of the paper into `output`. Throws std::out_of_range for an unknown
+/// name, and what the step throws.
 void run_step(const std::vector<Step>& steps, const std::string& name, const std::filesystem::path& output);
 
 }  // namespace wavebalance::report
