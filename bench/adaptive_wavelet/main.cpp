@@ -1,5 +1,6 @@
 // How many unknowns adaptive wavelet balance needs for a given error, beside the uniform one: both cases of
 // [JL14] and a rigid obstacle. Writes adaptive_wavelet.csv, .svg, .png and adaptive_wavelet_selection.csv.
+#include "data_file.hpp"
 #include "program.hpp"
 #include "study.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -116,12 +117,12 @@ const auto& first_below(const Rounds& rounds, double bound, const Error& error) 
 void write(const std::filesystem::path& folder, const app::Table& table,
            const app::Table& selection, const app::Figure& figure) {
   const std::string units = "study, basis, method; functions, cells; errors relative to the rms displacement";
-  app::write_csv(folder / "adaptive_wavelet.csv", table,
+  bench::write_data(folder, "adaptive_wavelet", table,
                        {"Error of the tip displacement over the number of unknowns, adaptive and uniform",
                         units,
                         "jones_legrand_2014/case1.toml, case2.toml, case1_rigid.toml, case2_rigid.toml",
                         {"cpu_ms: processor time, for adaptive methods of all rounds up to this one"}});
-  app::write_csv(folder / "adaptive_wavelet_selection.csv", selection,
+  bench::write_data(folder, "adaptive_wavelet_selection", selection,
                        {"Where the functions that were selected lie, and of which block they are",
                         "fractions of the period",
                         "jones_legrand_2014/case2.toml",

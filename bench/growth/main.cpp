@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "data_file.hpp"
 #include "memory.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
@@ -215,14 +216,13 @@ void run(const Program& program) {
     draw(figure.add_panel("Time"), all, results, variable, "seconds", "Solve time (processor seconds)");
     draw(figure.add_panel("Memory"), all, results, variable, "peak_bytes", "Peak memory (bytes)");
   }
-  write_csv(program.output / "growth.csv", results.points,
+  write_data(program.output, "growth", results.points,
             {"Time and memory of one solve over functions and elements",
              "SI; a column's name ends in its unit",
              "reproduce/scenes/jones_legrand_2014",
              {"seconds: from the contact-free response, condensation included, plans made before",
               "peak_bytes: resident memory that construction and solve add"}});
-  write_csv(
-      program.output / "growth_slopes.csv", results.slopes,
+  write_data(program.output, "growth_slopes", results.slopes,
       {"Slopes of growth.csv on logarithmic axes, upper half of each ladder",
        {},
        {},

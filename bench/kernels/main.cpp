@@ -1,5 +1,6 @@
 #include <array>
 
+#include "data_file.hpp"
 #include "limits.hpp"
 #include "program.hpp"
 
@@ -20,8 +21,7 @@ void run(const Program& program) {
   LimitReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   const app::Table table = reporter.table();
-  write_csv(
-      program.output / "kernels.csv", table,
+  write_data(program.output, "kernels", table,
       {"Time of the kernels over their limit",
        "seconds of the processor, operations and bytes of one call",
        {},

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "data_file.hpp"
 #include "program.hpp"
 #include "study.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -148,7 +149,7 @@ void run(const Program& program) {
   }
   app::Table table = empty_table();
   for (const auto& motion : motions) append_motion(table, motion, sizes, tolerances);
-  app::write_csv(program.output / "tolerance.csv", table,
+  write_data(program.output, "tolerance", table,
                        {"Scenes with a tolerance beside the cheapest fixed choice of the same true error",
                         "s of processor time; errors are relative rms of the contact displacement",
                         "reproduce/scenes/tolerance",

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "data_file.hpp"
 #include "program.hpp"
 #include "random_motions.hpp"
 #include "stopwatch.hpp"
@@ -61,8 +62,7 @@ void run(const Program& program) {
   app::Table table = empty_table();
   for (const double tolerance : {1e-2, 1e-4, 1e-6})
     for (std::uint64_t seed = first_seed; seed < first_seed + motions; ++seed) append(table, seed, tolerance);
-  app::write_csv(
-      program.output / "tolerance_random.csv", table,
+  write_data(program.output, "tolerance_random", table,
       {"Random bars against stops to a tolerance, beside shooting from the motion that was found",
        "SI; s of processor time; errors are relative rms of the contact displacement",
        "tests/tolerance/random_motions.hpp",

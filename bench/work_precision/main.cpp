@@ -2,6 +2,7 @@
 
 #include "ladder.hpp"
 #include "picture.hpp"
+#include "data_file.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
 #include "wavebalance/app/files/table.hpp"
@@ -82,7 +83,7 @@ class Results {
       notes_.push_back("reference of " + study.name + ": " + study.reference_text + ", own error about " +
                        app::cell_text(study.reference_error));
       report(study, points, processor_seconds() - start);
-      write_csv(program_.output / "work_precision.csv", table_,
+      write_data(program_.output, "work_precision", table_,
                 {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
                  "reproduce/scenes", notes_});
     }

@@ -13,18 +13,6 @@
 namespace wavebalance::app {
 namespace {
 
-std::string scene_label(const RunArguments& arguments) {
-  std::string label = arguments.scene.string();
-  for (const auto& text : arguments.overrides) label += " --set " + text;
-  return label;
-}
-
-CsvHeading heading(const std::string& what, const RunArguments& arguments, const Record& record) {
-  CsvHeading result{what, "SI; a column's name ends in its unit", scene_label(arguments), {}};
-  if (!record.converged) result.notes.push_back("NOT CONVERGED (" + record.status + ")");
-  return result;
-}
-
 /// A missing gnuplot must not cost the numbers: the picture is left out, and that is said.
 std::string picture(const Figure& figure) {
   try {
@@ -35,37 +23,53 @@ std::string picture(const Figure& figure) {
   }
 }
 
-std::vector<std::string> stage(OutputFiles& files, const Scene& scene, const Record& record,
-                               const RunArguments& arguments) {
-  std::vector<std::string> names;
-  const auto add = [&](const std::string& name, const std::string& contents) {
-    files.add(name, contents);
-    names.push_back(name);
-  };
-  add("scene.toml", write_scene(scene));
-  add("summary.json", json_text(record.summary));
-  if (!record.response.empty())
-    add("response.csv",
-        csv_text(record.response,
-                 heading("Motion of the contact degree of freedom over one period", arguments, record)));
-  if (!record.contacts.empty())
-    add("contacts.csv", csv_text(record.contacts, heading("Every contact degree of freedom over one period; "
-                                                          "displacements towards the obstacles",
-                                                          arguments, record)));
-  for (const RecordFile& file : record.files) add(file.name, file.contents);
-  if (!record.sweep.empty())
-    add("sweep.csv", csv_text(record.sweep, heading("Periodic responses along the frequency response curve",
-                                                    arguments, record)));
-  if (!record.backbone.empty())
-    add("backbone.csv",
-        csv_text(record.backbone, heading("A nonlinear mode over its energy", arguments, record)));
-  if (record.figure.panels.empty()) return names;
-  const std::string drawn = picture(record.figure);
+/// A file of the results and one sentence about it.
+struct ResultFile {
+  std::string name;
+  std::string contents;
+  std::string about;
+};
+
+void append_table(std::vector<ResultFile>& files, const std::string& name, const Table& table,
+                  const std::string& about) {
+  if (!table.empty()) files.push_back({name, csv_text(table), about});
+}
+
+void append_picture(std::vector<ResultFile>& files, const Record& record) {
+  if (record.figure.panels.empty()) return;
   const std::string stem = !record.sweep.empty()      ? "sweep"
                            : !record.backbone.empty() ? "backbone"
                                                       : "response";
-  if (!drawn.empty()) add(stem + ".svg", drawn);
-  return names;
+  const std::string drawn = picture(record.figure);
+  if (!drawn.empty()) files.push_back({stem + ".svg", drawn, "the picture"});
+}
+
+std::vector<ResultFile> result_files(const Scene& scene, const Record& record) {
+  std::vector<ResultFile> files;
+  files.push_back({"scene.toml", write_scene(scene), "the scene as it was solved"});
+  append_table(files, "response.csv", record.response,
+               "motion of the leading contact degree of freedom over one period");
+  append_table(files, "contacts.csv", record.contacts,
+               "every contact degree of freedom over one period; displacements towards the obstacles");
+  for (const RecordFile& file : record.files)
+    files.push_back({file.name, file.contents, "motion of the whole structure"});
+  append_table(files, "sweep.csv", record.sweep, "periodic responses along the frequency response curve");
+  append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
+  append_picture(files, record);
+  return files;
+}
+
+/// The record's summary with where it comes from and which files belong to it.
+Summary whole_summary(const RunArguments& arguments, const Record& record,
+                      const std::vector<ResultFile>& files) {
+  Summary summary = record.summary;
+  summary.emplace_back("scene", arguments.scene.string());
+  summary.emplace_back("set", arguments.overrides);
+  summary.emplace_back("version", std::string(version()));
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
+  return summary;
 }
 
 std::string shown_value(const Cell& value) { return cell_text(value); }
@@ -93,12 +97,12 @@ std::string summary_text(const Summary& summary) {
   return text;
 }
 
-void report(const RunArguments& arguments, const Record& record, const std::vector<std::string>& names) {
+void report(const RunArguments& arguments, const Record& record, const std::vector<ResultFile>& files) {
   if (!arguments.quiet) {
     std::fputs(summary_text(record.summary).c_str(), stdout);
-    std::string list;
-    for (const auto& name : names)
-      if (!name.ends_with(".vtu")) list += (list.empty() ? "" : ", ") + name;
+    std::string list = "summary.json";
+    for (const ResultFile& file : files)
+      if (!file.name.ends_with(".vtu")) list += ", " + file.name;
     std::printf("written to %s: %s\n", arguments.output.c_str(), list.c_str());
   }
   for (const auto& warning : record.warnings)
@@ -121,9 +125,11 @@ int run_scene(const RunArguments& arguments) {
     };
   const Record record = analyse(scene, observer);
   bar.finish();
-  const auto names = stage(files, scene, record, arguments);
+  const std::vector<ResultFile> results = result_files(scene, record);
+  for (const ResultFile& file : results) files.add(file.name, file.contents);
+  files.add("summary.json", json_text(whole_summary(arguments, record, results)));
   files.commit();
-  report(arguments, record, names);
+  report(arguments, record, results);
   return record.converged ? solved : not_converged;
 }
 

@@ -8,17 +8,10 @@ namespace wavebalance::app {
 namespace {
 
 std::string quoted_if_needed(const std::string& text) {
-  if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + "\"";
-}
-
-/// A comment stays one line whatever a scene's path contains.
-std::string comment(const std::string& label, std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  return text.empty() ? "" : "# " + label + text + "\n";
 }
 
 using Fields = std::vector<std::pair<std::string, bool>>;  // text, and whether it stood in quotes
@@ -83,11 +76,11 @@ class CsvReader {
     throw IoError(file_, "line " + std::to_string(number_) + ": " + reason);
   }
 
-  /// The next line that is neither empty nor a comment.
+  /// The next line that is not empty.
   bool next(Fields& fields) {
     for (std::string line; std::getline(stream_, line);) {
       ++number_;
-      if (line.empty() || line.front() == '#') continue;
+      if (line.empty()) continue;
       if (!split(line, fields)) fail("a quote is not closed");
       return true;
     }
@@ -114,11 +107,8 @@ std::string csv_cell(const Cell& cell) {
 
 }  // namespace
 
-std::string csv_text(const Table& table, const CsvHeading& heading) {
-  std::string text =
-      comment("", heading.what) + comment("units: ", heading.units) + comment("scene: ", heading.scene);
-  for (const auto& note : heading.notes) text += comment("", note);
-  text += "# wavebalance " + std::string(version()) + "\n";
+std::string csv_text(const Table& table) {
+  std::string text;
   std::vector<std::string> cells;
   for (const auto& name : table.columns()) cells.push_back(quoted_if_needed(name));
   append_line(text, cells);
@@ -130,8 +120,8 @@ std::string csv_text(const Table& table, const CsvHeading& heading) {
   return text;
 }
 
-void write_csv(const std::filesystem::path& file, const Table& table, const CsvHeading& heading) {
-  write_file(file, csv_text(table, heading));
+void write_csv(const std::filesystem::path& file, const Table& table) {
+  write_file(file, csv_text(table));
 }
 
 Table read_csv(const std::filesystem::path& file) { return CsvReader(file).read(); }

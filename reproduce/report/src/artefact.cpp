@@ -23,18 +23,18 @@ app::Scene Artefact::scene(const std::string& name, const std::vector<std::strin
 
 app::Table Artefact::result(const std::string& file) const { return app::read_csv(output_ / file); }
 
-app::CsvHeading Artefact::heading(std::string units, std::vector<std::string> notes) const {
-  return {record_.identity.number + ": " + record_.identity.title, std::move(units), "", std::move(notes)};
+void Artefact::data(const app::Table& table, std::string units, std::vector<std::string> notes) {
+  add_table(record_.identity.stem + ".csv", table, std::move(units), std::move(notes));
 }
 
-void Artefact::data(app::Table table, std::string units, std::vector<std::string> notes) {
-  tables_.emplace_back(record_.identity.stem + ".csv", std::move(table));
-  headings_.push_back(heading(std::move(units), std::move(notes)));
+void Artefact::more_data(const std::string& suffix, const app::Table& table, std::string units) {
+  add_table(record_.identity.stem + "_" + suffix + ".csv", table, std::move(units), {});
 }
 
-void Artefact::more_data(const std::string& suffix, app::Table table, std::string units) {
-  tables_.emplace_back(record_.identity.stem + "_" + suffix + ".csv", std::move(table));
-  headings_.push_back(heading(std::move(units), {}));
+void Artefact::add_table(const std::string& name, const app::Table& table, std::string units,
+                         std::vector<std::string> notes) {
+  texts_[name] = app::csv_text(table);
+  record_.data.push_back({name, std::move(units), std::move(notes)});
 }
 
 void Artefact::attach(const std::string& name, std::string contents, bool listed) {
@@ -52,12 +52,6 @@ void Artefact::printed(const app::Table& table) {
 
 void Artefact::write(double wall_seconds) {
   const std::string& stem = record_.identity.stem;
-  std::string scene_names;
-  for (const auto& name : record_.scenes) scene_names += (scene_names.empty() ? "" : ", ") + name;
-  for (std::size_t i = 0; i < tables_.size(); ++i) {
-    headings_[i].scene = scene_names;
-    texts_[tables_[i].first] = app::csv_text(tables_[i].second, headings_[i]);
-  }
   if (figure_) {
     texts_[stem + ".svg"] = app::render(*figure_, app::PictureFormat::svg);
     texts_[stem + ".png"] = app::render(*figure_, app::PictureFormat::png);

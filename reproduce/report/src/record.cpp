@@ -9,7 +9,8 @@ namespace wavebalance::report {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Claim, place, quote, criterion, measured, holds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Identity, paper, number, title, stem)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, scenes, notes, claims, table,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DataFile, name, units, notes)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, data, scenes, notes, claims, table,
                                    wall_seconds, version)
 
 std::string record_text(const Record& record) { return nlohmann::json(record).dump(2) + "\n"; }

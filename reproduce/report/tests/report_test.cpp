@@ -15,6 +15,7 @@ Record example() {
   record.identity = {"some_paper", "SP Fig. 1", "A < B & \"C\"", "fig01_example"};
   record.caption = "caption";
   record.files = {"fig01_example.csv", "fig01_example.svg"};
+  record.data = {{"fig01_example.csv", "SI", {"a note of the data"}}};
   record.scenes = {"one.toml"};
   record.notes = {"a note"};
   record.claims = {{"section 1", "holds", "x < 1", "0.5", true},
@@ -89,6 +90,27 @@ TEST(Artefact, AttachedFilesAreWrittenAndOnlyListedOnesAreLinked) {
   EXPECT_EQ(app::read_file(std::filesystem::path(folder) / "series_00.vtu"), "b");
   const auto record = std::filesystem::path(folder) / "records" / "fig02.json";
   EXPECT_EQ(parse_record(app::read_file(record), record).files, std::vector<std::string>{"series.pvd"});
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Artefact, UnitsAndNotesOfItsDataAreInTheRecord) {
+  std::string folder = (std::filesystem::temp_directory_path() / "wavebalance_report_XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder, folder);
+  app::Table table({"a", "b"});
+  table.append_row({1.0, 2.0});
+  artefact.data(table, "SI", {"a note"});
+  artefact.more_data("more", table, "Hz");
+  artefact.write(0.0);
+  EXPECT_EQ(app::read_file(std::filesystem::path(folder) / "fig02.csv"), "a,b\n1,2\n");
+  const auto file = std::filesystem::path(folder) / "records" / "fig02.json";
+  const Record record = parse_record(app::read_file(file), file);
+  ASSERT_EQ(record.data.size(), 2u);
+  EXPECT_EQ(record.data[0].name, "fig02.csv");
+  EXPECT_EQ(record.data[0].units, "SI");
+  EXPECT_EQ(record.data[0].notes, std::vector<std::string>{"a note"});
+  EXPECT_EQ(record.data[1].name, "fig02_more.csv");
+  EXPECT_EQ(record.data[1].units, "Hz");
   std::filesystem::remove_all(folder);
 }
 

@@ -73,23 +73,14 @@ class Table {
 /// A cell as a CSV file and a table of a report show it.
 std::string cell_text(const Cell& cell);
 
-/// The `#` lines that open a CSV file.
-struct CsvHeading {
-  std::string what;                ///< one sentence
-  std::string units;               ///< e.g. "SI; a column's name ends in its unit"
-  std::string scene;               ///< the scene file, or several; left out when empty
-  std::vector<std::string> notes;  ///< further lines
-};
+/// CSV (RFC 4180): the first line names the columns, a line per row follows. Numbers are the shortest that read back
+/// equal; missing ones are "nan".
+std::string csv_text(const Table& table);
+/// Writes csv_text(table) atomically. Throws IoError.
+void write_csv(const std::filesystem::path& file, const Table& table);
 
-/// CSV with a heading, a line of column names and the shortest numbers that read back equal; missing ones are
-/// "nan".
-std::string csv_text(const Table& table, const CsvHeading& heading);
-void write_csv(const std::filesystem::path& file, const Table& table,
-               const CsvHeading& heading);  ///< atomic, IoError
-
-/// Reads what write_csv() wrote: `#` lines are skipped, the first other line names the columns, cells that
-/// read as numbers are numbers, "true" and "false" truth values. Throws IoError with the line of a malformed
-/// row.
+/// Reads what write_csv() wrote: cells that read as numbers are numbers, "true" and "false" truth values. Throws
+/// IoError with the line of a malformed row.
 Table read_csv(const std::filesystem::path& file);
 
 }  // namespace wavebalance::app

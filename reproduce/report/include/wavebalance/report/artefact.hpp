@@ -33,10 +33,10 @@ class Artefact {
   /// A table that an earlier step left in the output folder. Throws app::IoError naming it.
   app::Table result(const std::string& file) const;
 
-  /// The columns of stem.csv and what its `#` lines say.
-  void data(app::Table table, std::string units, std::vector<std::string> notes = {});
+  /// The columns of stem.csv; units and notes go to the record.
+  void data(const app::Table& table, std::string units, std::vector<std::string> notes = {});
   /// A further CSV file, stem_suffix.csv.
-  void more_data(const std::string& suffix, app::Table table, std::string units);
+  void more_data(const std::string& suffix, const app::Table& table, std::string units);
   /// Any other file beside stem.csv; the page links it if `listed`.
   void attach(const std::string& name, std::string contents, bool listed = true);
   void picture(app::Figure figure);
@@ -50,15 +50,14 @@ class Artefact {
   void write(double wall_seconds);
 
  private:
-  app::CsvHeading heading(std::string units, std::vector<std::string> notes) const;
+  void add_table(const std::string& name, const app::Table& table, std::string units,
+                 std::vector<std::string> notes);
 
   Record record_;
   std::filesystem::path output_;
   std::filesystem::path scenes_;
   std::map<std::string, std::string> texts_;
   std::set<std::string> unlisted_;
-  std::vector<std::pair<std::string, app::Table>> tables_;
-  std::vector<app::CsvHeading> headings_;
   std::optional<app::Figure> figure_;
 };
 

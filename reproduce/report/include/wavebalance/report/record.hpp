@@ -25,11 +25,19 @@ struct Identity {
 /// A table as text, its first row the names of the columns.
 using TextTable = std::vector<std::vector<std::string>>;
 
+/// A CSV file of an artefact: what its columns are in, and remarks.
+struct DataFile {
+  std::string name;
+  std::string units;  ///< "SI; a column's name ends in its unit"
+  std::vector<std::string> notes;
+};
+
 /// The text of an artefact on the report page.
 struct Record {
   Identity identity;
   std::string caption;
   std::vector<std::string> files;   ///< names, in results/<paper>/
+  std::vector<DataFile> data;       ///< the CSV files among them
   std::vector<std::string> scenes;  ///< names of the scene files it comes from
   std::vector<std::string> notes;   ///< choices made, and what is missing
   std::vector<Claim> claims;
