@@ -116,7 +116,7 @@ std::string time_lines(const Time& time) {
 
 std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
-    return "size       " + std::to_string(2 * scene.structure.elements) +
+    return "size       " + std::to_string(2 * size_of(scene)) +
            " states, periods until they differ by " + number_text(scene.analysis.tolerance) + "\n";
   if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;

@@ -1,44 +1,38 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
-
 #include "compose/scene_rules.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/scene_reader.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {
 namespace {
 
+constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
+
 std::string read_text(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& reason) {
-    throw SceneError({file.string(), 0, "", "", "", "cannot be read: " + reason});
-  };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) fail("it is a directory");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(std::strerror(errno));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad()) fail(std::strerror(errno));
-  return text.str();
+  try {
+    return read_file(file, max_scene_bytes);
+  } catch (const IoError& error) {
+    throw SceneError({file.string(), 0, "", "", "", error.reason()});
+  }
 }
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides) {
+Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides,
+                  std::span<const std::string> removed) {
   Document document = parse_document(text, name);
+  remove_entries(document, removed);
   apply_overrides(document, overrides);
   Scene scene = read_scene(document);
   check_scene_rules(document, scene);
   return scene;
 }
 
-Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  return parse_scene(read_text(file), file.string(), overrides);
+Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
+                 std::span<const std::string> removed) {
+  return parse_scene(read_text(file), file.string(), overrides, removed);
 }
 
 Scene complete_scene(const Scene& scene) { return parse_scene(write_scene(scene), "scene"); }

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
 
 namespace wavebalance::app {
@@ -30,6 +31,21 @@ std::string json_text(const Summary& summary) {
     std::visit([&, &key = name](const auto& content) { object[key] = json_value(content); }, value);
   // Text that is no UTF-8 (a file's name) must not cost the record.
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> files_of_record(const std::filesystem::path& summary) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(summary, ignored)) return {};
+  const auto object = nlohmann::json::parse(read_file(summary), nullptr, false);
+  if (!object.is_object() || !object.contains("version") || !object.contains("files")) return {};
+  std::vector<std::string> names{summary.filename().string()};
+  for (const auto& file : object["files"]) {
+    if (!file.is_object() || !file.contains("name") || !file["name"].is_string()) continue;
+    const auto name = file["name"].get<std::string>();
+    const bool plain_name = !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+    if (plain_name) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace wavebalance::app

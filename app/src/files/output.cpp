@@ -4,11 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 namespace wavebalance::app {
@@ -99,6 +98,38 @@ std::vector<fs::path> make_directories(const fs::path& directory) {
   return missing;
 }
 
+/// Refuses folders, devices and pipes, both before it is opened, which may have effects, and after.
+int open_regular(const fs::path& file) {
+  const auto check = [&](const struct stat& status) {
+    if (S_ISDIR(status.st_mode)) throw IoError(file, "cannot be read: it is a folder");
+    if (!S_ISREG(status.st_mode)) throw IoError(file, "cannot be read: it is not a regular file");
+  };
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) throw IoError(file, "cannot be read: " + reason_of(errno));
+  check(status);
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) throw IoError(file, "cannot be read: " + reason_of(errno));
+  if (::fstat(descriptor, &status) != 0) status.st_mode = S_IFREG;  // as it was a moment ago
+  try {
+    check(status);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  return descriptor;
+}
+
+/// Those that are empty: others stay where somebody else put files.
+void remove_directories(const std::vector<fs::path>& made) {
+  for (std::size_t i = made.size(); i-- > 0;) ::rmdir(made[i].c_str());
+}
+
+void require_plain_name(const char* function, const std::string& name) {
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
+    throw std::invalid_argument("OutputFiles::" + std::string(function) + ": name is \"" + name +
+                                "\"; it must be a plain file name");
+}
+
 /// A trailing slash would make the last component empty.
 fs::path without_trailing_slash(const fs::path& path) {
   fs::path result = path.lexically_normal();
@@ -112,32 +143,48 @@ IoError::IoError(fs::path path, std::string reason)
     : std::runtime_error(path.string() + ": " + reason), path_(std::move(path)), reason_(std::move(reason)) {}
 
 OutputFiles::OutputFiles(fs::path directory) : directory_(without_trailing_slash(directory)) {
-  created_ = make_directories(directory_);
+  const std::vector<fs::path> made = make_directories(directory_);
   try {
     const fs::path probe = write_temporary(directory_ / "probe", "wavebalance\n");
     ::unlink(probe.c_str());
   } catch (const IoError& error) {
-    for (std::size_t i = created_.size(); i-- > 0;) ::rmdir(created_[i].c_str());
+    remove_directories(made);
     throw IoError(directory_, "cannot be written to: " + error.reason());
   }
+  remove_directories(made);
 }
 
-OutputFiles::~OutputFiles() { discard(); }
+OutputFiles::~OutputFiles() {
+  for (const Staged& file : staged_) ::unlink(file.temporary.c_str());
+  if (!committed_) remove_directories(created_);
+}
 
 void OutputFiles::add(const std::string& name, std::string_view contents) {
-  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
-    throw std::invalid_argument("OutputFiles::add: name is \"" + name + "\"; it must be a plain file name");
-  const std::scoped_lock lock(mutex_);
-  if (discarded_) return;
+  require_plain_name("add", name);
+  if (staged_.empty() && created_.empty()) created_ = make_directories(directory_);
   const fs::path target = directory_ / name;
   std::error_code ignored;
   if (fs::is_directory(target, ignored)) throw IoError(target, "cannot be written: it is a folder");
   staged_.push_back({write_temporary(target, contents), target});
 }
 
+void OutputFiles::replace(const std::vector<std::string>& names) {
+  for (const std::string& name : names) require_plain_name("replace", name);
+  earlier_ = names;
+}
+
+void OutputFiles::remove_earlier() {
+  for (const std::string& name : earlier_) {
+    const fs::path file = directory_ / name;
+    const auto same = [&](const Staged& staged) { return staged.target == file; };
+    if (std::any_of(staged_.begin(), staged_.end(), same)) continue;
+    if (::unlink(file.c_str()) != 0 && errno != ENOENT)
+      throw IoError(file, "cannot be removed: " + reason_of(errno));
+  }
+}
+
 void OutputFiles::commit() {
-  const std::scoped_lock lock(mutex_);
-  if (discarded_) return;
+  remove_earlier();
   while (!staged_.empty()) {
     const Staged& file = staged_.front();
     if (::rename(file.temporary.c_str(), file.target.c_str()) != 0)
@@ -148,37 +195,26 @@ void OutputFiles::commit() {
   flush_directory(directory_);
 }
 
-void OutputFiles::discard() noexcept {
-  const std::scoped_lock lock(mutex_);
-  remove_staged();
-  discarded_ = true;
-}
-
-void OutputFiles::remove_staged() noexcept {
-  for (const Staged& file : staged_) ::unlink(file.temporary.c_str());
-  staged_.clear();
-  if (committed_) return;
-  for (std::size_t i = created_.size(); i-- > 0;)
-    ::rmdir(created_[i].c_str());  // fails where others put files
-  created_.clear();
-}
-
 void write_file(const fs::path& file, std::string_view contents) {
   OutputFiles files(file.has_parent_path() ? file.parent_path() : fs::path("."));
   files.add(file.filename().string(), contents);
   files.commit();
 }
 
-std::string read_file(const fs::path& file) {
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) throw IoError(file, "cannot be read: it is a folder");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw IoError(file, "cannot be read: " + reason_of(errno));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad()) throw IoError(file, "cannot be read: " + reason_of(errno));
-  return std::move(text).str();
+std::string read_file(const fs::path& file, std::size_t max_bytes) {
+  const Descriptor descriptor(open_regular(file));
+  std::string text;
+  for (;;) {
+    constexpr std::size_t block = 1 << 16;
+    const std::size_t size = text.size();
+    text.resize(size + block);
+    const ssize_t got = ::read(descriptor.get(), text.data() + size, block);
+    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got == 0) return text;
+    if (got < 0 && errno != EINTR) throw IoError(file, "cannot be read: " + reason_of(errno));
+    if (text.size() > max_bytes)
+      throw IoError(file, "cannot be read: it has more than " + std::to_string(max_bytes) + " bytes");
+  }
 }
 
 std::string_view version() { return WAVEBALANCE_VERSION; }

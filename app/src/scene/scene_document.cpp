@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "scene/spelling.hpp"
+#include "scene/toml_nesting.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 
@@ -67,7 +69,16 @@ void add_section(Document& document, const std::string& name, const toml::table&
   }
 }
 
+constexpr int max_key_parts = 8;  // a scene's keys have two
+
+std::string long_key_text() {
+  return "a key has more than " + std::to_string(max_key_parts) +
+         " parts between dots; expected section.key or [section]";
+}
+
 toml::table parse_toml(std::string_view text, const std::string& name) {
+  if (const int line = line_of_long_key(text, max_key_parts); line > 0)
+    throw SceneError({name, line, "", "", "", long_key_text()});
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -80,6 +91,8 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
 DocumentEntry parse_override(const std::string& text, const std::string& section, const std::string& key,
                              const std::string& value) {
   DocumentEntry entry{section, key, value, shortened(toml_text(value)), 0, "--set " + text};
+  if (line_of_long_key(value, max_key_parts) > 0)
+    throw SceneError({"", 0, "--set " + shortened(text), "", "", long_key_text()});
   try {
     const toml::table table = toml::parse("value = " + value);
     if (table.size() == 1) {
@@ -121,6 +134,19 @@ Document parse_document(std::string_view text, const std::string& name) {
   std::stable_sort(document.entries.begin(), document.entries.end(),
                    [](const DocumentEntry& a, const DocumentEntry& b) { return a.line < b.line; });
   return document;
+}
+
+void remove_entries(Document& document, std::span<const std::string> names) {
+  for (const std::string& name : names) {
+    const auto same = [&](const DocumentEntry& entry) { return entry.full_name() == name; };
+    if (std::erase_if(document.entries, same) > 0) continue;
+    std::vector<std::string> known;
+    for (const DocumentEntry& entry : document.entries) known.push_back(entry.full_name());
+    const std::string close = closest(name, known);
+    throw SceneError({document.name, 0, "--unset " + name, "", "",
+                      "there is no such key in " + document.name +
+                          (close.empty() ? "; expected section.key" : "; did you mean " + close + "?")});
+  }
 }
 
 void apply_overrides(Document& document, std::span<const std::string> overrides) {

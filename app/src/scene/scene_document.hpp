@@ -43,6 +43,9 @@ struct Document {
 /// Parses TOML. Throws SceneError with the line of a syntax error.
 Document parse_document(std::string_view text, const std::string& name);
 
+/// Removes the entries of these names, "section.key". Throws SceneError if there is no such entry.
+void remove_entries(Document& document, std::span<const std::string> names);
+
 /// Sets or replaces entries by "section.key=value". Throws SceneError if an override has no such form.
 void apply_overrides(Document& document, std::span<const std::string> overrides);
 

@@ -1,6 +1,7 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "support/scene_texts.hpp"
 #include "support/temporary_folder.hpp"
@@ -333,6 +334,60 @@ TEST(SceneKeys, EveryKeyIsDescribed) {
 TEST(SceneKeys, LinesKeepToTheWidth) {
   std::istringstream lines(describe_scene_keys(80));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+std::string outcome_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_scene(text, "case.toml", overrides);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string dotted(int parts) {
+  std::string key = "a";
+  for (int i = 1; i < parts; ++i) key += ".a";
+  return key;
+}
+
+TEST(LoadScene, KeysOfManyPartsAreRefusedWithTheirLine) {
+  const std::string expected =
+      "a key has more than 8 parts between dots; expected section.key or [section]";
+  for (const int parts : {9, 100000, 400000}) {
+    EXPECT_EQ(outcome_of(bar_scene + dotted(parts) + " = 1\n"), "case.toml:24: " + expected);
+    EXPECT_EQ(outcome_of(bar_scene + "[" + dotted(parts) + "]\n"), "case.toml:24: " + expected);
+    EXPECT_NE(outcome_of(bar_scene, {"time.trial={" + dotted(parts) + " = 1}"}).find(expected), std::string::npos);
+  }
+  EXPECT_EQ(outcome_of(bar_scene + dotted(8) + " = 1\n").find(expected), std::string::npos);
+}
+
+TEST(LoadScene, DotsInTextCommentsAndNumbersAreNoKeys) {
+  const std::string dots(1000, '.');
+  EXPECT_EQ(outcome_of(bar_scene + "# " + dots + "\n"), "no error");
+  for (const std::string& text : {"'" + dots + "'", "\"\\\"" + dots + "\"", "\"\"\"\n" + dots + "\n\"\"\"",
+                                  std::string("[1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 1.5]")})
+    EXPECT_NE(outcome_of(with(bar_scene, "\"fourier\"               # 18", text)).find("case.toml:18: time.trial"),
+              std::string::npos)
+        << outcome_of(with(bar_scene, "\"fourier\"               # 18", text));
+}
+
+TEST(LoadScene, DevicesPipesAndLargeFilesAreRefusedByName) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
+  const auto error = [](const std::filesystem::path& file) -> std::string {
+    try {
+      load_scene(file);
+    } catch (const SceneError& failure) {
+      return failure.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error("/dev/zero"), "/dev/zero: cannot be read: it is not a regular file");
+  EXPECT_EQ(error(folder / "pipe.toml"),
+            (folder / "pipe.toml").string() + ": cannot be read: it is not a regular file");
+  EXPECT_NE(error(folder.write("large.toml", std::string(2'000'000, '\n'))).find("more than 1048576 bytes"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -52,6 +52,11 @@ class ChainScene : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(ChainScene, TimeSteppingCountsTheStatesOfTheMatrices) {
+  const std::string text = describe_scene(load(chain_scene, {"analysis.type=time_stepping"}));
+  EXPECT_NE(text.find("size       6 states"), std::string::npos) << text;
+}
+
 TEST_F(ChainScene, LoadsWithPathsRelativeToItsFile) {
   const Scene scene = load(chain_scene);
   EXPECT_EQ(scene.structure.matrices.mass, (folder_ / "m.mtx").string());

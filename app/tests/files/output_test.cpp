@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -60,15 +61,33 @@ TEST(OutputFiles, KeepWhatWasThereWithoutCommit) {
   EXPECT_EQ(TemporaryFolder::count(folder.path()), 1);
 }
 
-TEST(OutputFiles, DiscardRemovesAndSilencesWhatFollows) {
+TEST(OutputFiles, FolderAppearsWithTheFirstFile) {
   const TemporaryFolder folder;
-  OutputFiles files(folder / "out");
-  files.add("a.csv", "1\n");
-  files.discard();
-  EXPECT_FALSE(fs::exists(folder / "out"));
-  files.add("b.csv", "2\n");
-  files.commit();
+  OutputFiles files(folder / "deep" / "down");
   EXPECT_EQ(TemporaryFolder::count(folder.path()), 0);
+  files.add("a.csv", "1\n");
+  files.commit();
+  EXPECT_EQ(read_file(folder / "deep" / "down" / "a.csv"), "1\n");
+}
+
+TEST(OutputFiles, FilesOfTheEarlierRecordGoWithTheCommitAndOthersStay) {
+  const TemporaryFolder folder;
+  for (const char* name : {"kept.csv", "stale.csv", "foreign.csv"}) folder.write(name, "old\n");
+  {
+    OutputFiles files(folder.path());
+    files.replace({"kept.csv", "stale.csv", "gone_already.csv"});
+    files.add("kept.csv", "new\n");
+    EXPECT_TRUE(fs::exists(folder / "stale.csv"));
+  }
+  EXPECT_TRUE(fs::exists(folder / "stale.csv")) << "nothing was committed";
+  OutputFiles files(folder.path());
+  files.replace({"kept.csv", "stale.csv", "gone_already.csv"});
+  files.add("kept.csv", "new\n");
+  files.commit();
+  EXPECT_EQ(read_file(folder / "kept.csv"), "new\n");
+  EXPECT_FALSE(fs::exists(folder / "stale.csv"));
+  EXPECT_EQ(read_file(folder / "foreign.csv"), "old\n");
+  EXPECT_THROW(files.replace({"../foreign.csv"}), std::invalid_argument);
 }
 
 TEST(OutputFiles, FolderUnderAFileIsAnError) {
@@ -116,6 +135,24 @@ TEST(OutputFiles, FolderInPlaceOfAFileIsAnError) {
   fs::create_directory(folder / "a.csv");
   OutputFiles files(folder.path());
   EXPECT_THROW(files.add("a.csv", "x"), IoError);
+}
+
+TEST(ReadFile, RefusesDevicesPipesAndFilesThatAreTooLarge) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto reason = [](const fs::path& file, std::size_t max_bytes) -> std::string {
+    try {
+      read_file(file, max_bytes);
+    } catch (const IoError& error) {
+      return error.reason();
+    }
+    return "";
+  };
+  EXPECT_EQ(reason(folder / "pipe", 10), "cannot be read: it is not a regular file");
+  EXPECT_EQ(reason("/dev/zero", 10), "cannot be read: it is not a regular file");
+  EXPECT_EQ(reason(folder.path(), 10), "cannot be read: it is a folder");
+  EXPECT_EQ(reason(folder.write("ten", "0123456789"), 10), "");
+  EXPECT_EQ(reason(folder.write("eleven", "0123456789a"), 10), "cannot be read: it has more than 10 bytes");
 }
 
 TEST(WriteFile, ReplacesAFileAndKeepsLinksTargetsSafe) {

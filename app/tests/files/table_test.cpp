@@ -90,6 +90,19 @@ TEST(Json, KeepsTheOrderAndMakesMissingNumbersNull) {
             "    null\n  ]\n}\n");
 }
 
+TEST(Json, FilesOfARecordArePlainNamesAndOtherFilesHoldNone) {
+  const TemporaryFolder folder;
+  const auto names = [&](const std::string& text) {
+    return files_of_record(folder.write("summary.json", text));
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(R"({"version": "1", "files": [{"name": "a.csv"}, {"name": "../b"}, {"name": 3}, 4]})"),
+            (Names{"summary.json", "a.csv"}));
+  for (const char* other : {"", "[1]", "{", R"({"files": [{"name": "a.csv"}]})", R"({"version": "1"})"})
+    EXPECT_EQ(names(other), Names{}) << other;
+  EXPECT_EQ(files_of_record(folder / "missing.json"), Names{});
+}
+
 TEST(Json, TextThatIsNoUtf8IsReplaced) {
   EXPECT_NO_THROW(json_text(Summary{{"t", std::string("\xff\xfe")}}));
 }

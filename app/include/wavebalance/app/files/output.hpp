@@ -1,6 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
-#include <mutex>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,11 +28,10 @@ class IoError : public std::runtime_error {
 ///     OutputFiles files("results/mine");          // throws IoError now if the folder cannot be written to
 ///     files.add("response.csv", text);
 ///     files.commit();
-///
-/// discard() may be called from another thread than the one that writes.
 class OutputFiles {
  public:
-  /// Makes the folder, with its parents, if it is missing, and writes a probe into it. Throws IoError.
+  /// Checks that the folder can be made, with its parents, and written to; a folder that is missing is made for good
+  /// by the first add(). Throws IoError.
   explicit OutputFiles(std::filesystem::path directory);
   ~OutputFiles();
   OutputFiles(const OutputFiles&) = delete;
@@ -40,10 +40,12 @@ class OutputFiles {
   /// Writes `contents` to a temporary that will become directory()/name. Throws IoError (unwritable folder,
   /// full disk, a folder of that name) and std::invalid_argument if `name` is not a plain file name.
   void add(const std::string& name, std::string_view contents);
-  /// Renames every temporary to its final name, replacing older files. Throws IoError.
+  /// Names the files of an earlier record in this folder, which commit() removes unless they are added anew. Throws
+  /// std::invalid_argument if one is not a plain file name.
+  void replace(const std::vector<std::string>& names);
+  /// Removes the files of the earlier record, then renames every temporary to its final name in the order of add(),
+  /// replacing older files. Throws IoError.
   void commit();
-  /// Removes what was not committed; add() and commit() then do nothing.
-  void discard() noexcept;
 
   const std::filesystem::path& directory() const { return directory_; }
 
@@ -53,21 +55,22 @@ class OutputFiles {
     std::filesystem::path target;
   };
 
-  void remove_staged() noexcept;
+  void remove_earlier();
 
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> created_;  // folders made by this object, outermost first
   std::vector<Staged> staged_;
+  std::vector<std::string> earlier_;
   bool committed_ = false;
-  bool discarded_ = false;
-  std::mutex mutex_;
 };
 
 /// Writes one file so that it appears complete or not at all; its folder is made if missing. Throws IoError.
 void write_file(const std::filesystem::path& file, std::string_view contents);
 
-/// The whole of `file`. Throws IoError.
-std::string read_file(const std::filesystem::path& file);
+/// The whole of `file`. Throws IoError, also if it is no regular file or has more than `max_bytes`; a pipe is not waited
+/// for.
+std::string read_file(const std::filesystem::path& file,
+                      std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
 /// "0.1.0"
 std::string_view version();
