@@ -8,6 +8,7 @@
 #include "analysis/mode_record.hpp"
 #include "analysis/motion_files.hpp"
 #include "analysis/record_figure.hpp"
+#include "analysis/response_parts.hpp"
 #include "analysis/summary_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -15,7 +16,9 @@
 namespace wavebalance::app {
 namespace {
 
-/// Fraction of the frequency interval; falls where the curve turns back.
+constexpr const char* solved_alone =
+    "rigid contact: every frequency is solved alone, so branches of the response may be missing";
+
 solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   solvers::FrequencySweepOptions options;
@@ -42,13 +45,8 @@ Table ladder_table(const Refinement& refinement) {
 }
 
 void append_refinement(Summary& summary, const Refinement& refinement, double tolerance) {
-  const auto& last = refinement.ladder.back();
   summary.emplace_back("tolerance", tolerance);
   summary.emplace_back("estimated_error", refinement.estimated_error);
-  summary.emplace_back("trial", refinement.trial);
-  summary.emplace_back("weight", refinement.weight);
-  summary.emplace_back("functions", std::int64_t{last.functions});
-  summary.emplace_back("quadrature_points", std::int64_t{last.points});
   summary.emplace_back("ladder", ladder_table(refinement));
   summary.emplace_back("ladder_seconds", refinement.seconds);
 }
@@ -72,6 +70,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   }
   append_condition(record, response.condition);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
+  if (scene.analysis.type == AnalysisType::forced_response)
+    append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
   if (response.contacts.points() == 0) return record;
   record.response = response_table(response.samples);
@@ -92,20 +92,33 @@ double force_at(const Contact& contact, double displacement) {
   return contact.gaps.empty() ? make_law(contact).force(displacement) : missing;
 }
 
+/// Frequency of the point with the largest displacement; missing without points.
+double frequency_of_peak(const solvers::FrequencySweep& curve) {
+  const auto lower = [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; };
+  const auto peak = std::max_element(curve.points.begin(), curve.points.end(), lower);
+  return peak == curve.points.end() ? missing : peak->frequency;
+}
+
+void append_turning_points(Summary& summary, const solvers::FrequencySweep& curve) {
+  std::vector<double> frequencies;
+  for (const auto& turn : curve.turning_points) frequencies.push_back(turn.frequency);
+  summary.emplace_back("turning_points_Hz", frequencies);
+}
+
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
   Record record;
   record.converged = sweep.converged();
-  record.status = to_string(sweep.curve.status);
+  record.interrupted = sweep.interrupted();
+  record.status = sweep.status();
   const bool rigid = scene.contact.law == ContactLawType::rigid;
-  if (sweep.unsolved > 0)
-    record.status = "no response at " + std::to_string(sweep.unsolved) + " of " +
-                    std::to_string(sweep.curve.points.size() + sweep.unsolved) + " frequencies";
+  if (rigid) record.warnings.emplace_back(solved_alone);
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
       opening(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
               model.contacts() * scene.time.functions, sweep.wall_seconds);
   record.summary.emplace_back("max_displacement_m", highest);
+  record.summary.emplace_back("frequency_at_max_displacement_Hz", frequency_of_peak(sweep.curve));
   record.summary.emplace_back("min_displacement_m", missing);
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
@@ -115,9 +128,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
-  std::vector<double> turns;
-  for (const auto& turn : sweep.curve.turning_points) turns.push_back(turn.frequency);
-  record.summary.emplace_back("turning_points_Hz", turns);
+  append_turning_points(record.summary, sweep.curve);
+  append_discretisation(record.summary, scene.time);
   if (rigid) {
     record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
     record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
@@ -173,7 +185,7 @@ Sweep rigid_sweep(Scene scene, const StructureModel& model, const Observer& obse
       sweep.curve.points.push_back(*point);
     else
       ++sweep.unsolved;
-    if (!goes_on(observer, {"frequency sweep", i + 1, frequency, "Hz", double(i) / steps})) {
+    if (!goes_on(observer, {"frequency sweep", i + 1, frequency, "Hz", double(i) / steps}) && i < steps) {
       sweep.curve.status = solvers::SweepStatus::cancelled;
       break;
     }
@@ -182,6 +194,13 @@ Sweep rigid_sweep(Scene scene, const StructureModel& model, const Observer& obse
 }
 
 }  // namespace
+
+std::string Sweep::status() const {
+  if (interrupted()) return "interrupted";
+  if (unsolved == 0) return std::string(to_string(curve.status));
+  return "no response at " + std::to_string(unsolved) + " of " +
+         std::to_string(curve.points.size() + static_cast<std::size_t>(unsolved)) + " frequencies";
+}
 
 Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
   return frequency_sweep(scene, make_model(scene), observer);

@@ -115,7 +115,7 @@ Record curve_record(const ModeStudy& study) {
                               }));
   record.backbone = backbone_table(study, curve);
   record.figure = backbone_figure(study.scene(), record.backbone);
-  if (!record.converged) record.figure.title += " (INCOMPLETE: " + record.status + ")";
+  if (!record.converged) record.figure.title += " (INCOMPLETE: " + plain(record.status) + ")";
   return record;
 }
 
@@ -191,7 +191,7 @@ void draw_branch(Record& record, const ModeStudy& study,
                  const std::vector<solvers::LagrangianPoint>& branch) {
   record.backbone = backbone_table(study, branch);
   record.figure = backbone_figure(study.scene(), record.backbone);
-  record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + record.status + ")";
+  record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + plain(record.status) + ")";
 }
 
 /// The curve of the printed equations, or its last motion.

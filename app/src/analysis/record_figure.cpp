@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 
 namespace wavebalance::app {
@@ -72,15 +73,26 @@ void add_motion(Figure& figure, const std::string& quantity, const std::string& 
   panel.add(std::move(series));
 }
 
+/// The 99th percentile of `values`, not empty, where single ones lie far beyond it; the largest otherwise.
+double top_of_most(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double most = values[static_cast<std::size_t>(0.99 * static_cast<double>(values.size() - 1))];
+  constexpr double far_beyond = 1.5;
+  return most > 0.0 && values.back() > far_beyond * most ? most : values.back();
+}
+
+std::vector<double> joined_columns(const Table& table, std::string_view first, std::string_view second) {
+  std::vector<double> values = table.numbers(first);
+  const std::vector<double> more = table.numbers(second);
+  values.insert(values.end(), more.begin(), more.end());
+  return values;
+}
+
 }  // namespace
 
 Figure response_figure(const Scene& scene, const Response& response) {
   Scene solved = scene;
-  if (response.refinement) {
-    solved.time.trial = response.refinement->trial;
-    solved.time.weight = response.refinement->weight;
-    solved.time.functions = response.refinement->ladder.back().functions;
-  }
+  solved.time = solved_time(scene.time, response);
   return motion_figure(solved, response, scene.forcing.frequency);
 }
 
@@ -95,7 +107,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Contact force", "N", response.samples.contact_force, response.converged);
   if (scene.contact.law != ContactLawType::none) {
     const double factor = scale_of(response.samples.displacement.cwiseAbs().maxCoeff()).factor;
-    figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact));
+    figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact), "gap");
   }
   return figure;
 }
@@ -138,22 +150,29 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
     for (double& value : values) value *= factor;
     return values;
   };
-  const auto highest = table.numbers("max_displacement_m");
-  const Scale scale = scale_of(*std::max_element(highest.begin(), highest.end()));
+  const auto values = joined_columns(table, "max_displacement_m", "rms_displacement_m");
+  const double largest = *std::max_element(values.begin(), values.end());
+  // Where the curve did not end well, one wild point must not set the axis.
+  const double top = sweep.converged() ? largest : top_of_most(values);
+  const Scale scale = scale_of(top);
   Figure figure;
   figure.title = method_title(scene);
-  if (!sweep.converged()) figure.title += " (INCOMPLETE: " + std::string(to_string(sweep.curve.status)) + ")";
+  if (!sweep.converged()) figure.title += " (INCOMPLETE: " + plain(sweep.status()) + ")";
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
   panel.x.label = "Frequency (Hz)";
   panel.y.label = "Displacement (" + scale.prefix + "m)";
+  panel.legend = Legend::below_panel;
   // With rigid contact neighbours may lie on different branches: no line joins them.
-  const auto style = scene.contact.law == ContactLawType::rigid ? SeriesStyle::points : SeriesStyle::line;
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  if (rigid) panel.x.label += ", each solved alone: branches may be missing";
+  const auto style = rigid ? SeriesStyle::points : SeriesStyle::line;
   panel.add({"largest", scaled("frequency_Hz", 1.0), scaled("max_displacement_m", scale.factor), style});
   panel.add({"rms", scaled("frequency_Hz", 1.0), scaled("rms_displacement_m", scale.factor), style});
   if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
-    panel.mark_y(scale.factor * scene.contact.gap);
+    panel.mark_y(scale.factor * scene.contact.gap, "gap");
+  if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   return figure;
 }
 

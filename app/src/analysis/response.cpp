@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "analysis/resampling.hpp"
+#include "analysis/response_parts.hpp"
 #include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/periodic_field.hpp"
@@ -101,6 +102,16 @@ void solve_rigid(const Scene& scene, const StructureModel& model, solvers::Conde
 }
 
 }  // namespace
+
+Time solved_time(Time time, const Response& response) {
+  if (!response.refinement) return time;
+  const auto& last = response.refinement->ladder.back();
+  time.trial = response.refinement->trial;
+  time.weight = response.refinement->weight;
+  time.functions = last.functions;
+  time.quadrature_points = last.points;
+  return time;
+}
 
 ContactMotion sample_response(const solvers::CondensedProblem& problem,
                               const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
 
@@ -15,6 +16,15 @@ Summary opening(bool converged, const std::string& status, double residual, int 
           {"iterations", std::int64_t{iterations}},
           {"unknowns", std::int64_t{unknowns}},
           {"wall_seconds", wall_seconds}};
+}
+
+void append_discretisation(Summary& summary, const Time& time) {
+  summary.emplace_back("trial", time.trial);
+  summary.emplace_back("weight", time.weight);
+  summary.emplace_back("formulation", name_of(time.formulation));
+  summary.emplace_back("inner_products", name_of(effective_inner_products(time)));
+  summary.emplace_back("functions", std::int64_t{time.functions});
+  summary.emplace_back("quadrature_points", std::int64_t{time.quadrature_points});
 }
 
 void append_structure(Summary& summary, const StructureModel& model) {

@@ -13,6 +13,9 @@ inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
                 double wall_seconds);
 
+/// Pair of bases, its formulation and its sizes.
+void append_discretisation(Summary& summary, const Time& time);
+
 /// How large the structure is, before and after its reduction.
 void append_structure(Summary& summary, const StructureModel& model);
 

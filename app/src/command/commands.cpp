@@ -1,5 +1,6 @@
 #include "command/commands.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -65,6 +66,7 @@ Summary whole_summary(const RunArguments& arguments, const Record& record,
   Summary summary = record.summary;
   summary.emplace_back("scene", arguments.scene.string());
   summary.emplace_back("set", arguments.overrides);
+  summary.emplace_back("unset", arguments.removed);
   summary.emplace_back("version", std::string(version()));
   Table list({"name", "about"});
   for (const ResultFile& file : files) list.append_row({file.name, file.about});
@@ -75,9 +77,15 @@ Summary whole_summary(const RunArguments& arguments, const Record& record,
 std::string shown_value(const Cell& value) { return cell_text(value); }
 
 std::string shown_value(const std::vector<double>& list) {
+  constexpr std::size_t most = 6;
   std::string shown;
-  for (const double one : list) shown += (shown.empty() ? "" : ", ") + cell_text(one);
-  return shown;
+  for (std::size_t i = 0; i < std::min(most, list.size()); ++i) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.6g", list[i]);
+    shown += (i == 0 ? "" : ", ") + std::string(number);
+  }
+  if (list.size() > most) shown += ", ... (" + std::to_string(list.size()) + " in summary.json)";
+  return list.empty() ? "none" : shown;
 }
 
 std::string shown_value(const std::vector<std::string>& list) {
@@ -107,34 +115,49 @@ void report(const RunArguments& arguments, const Record& record, const std::vect
   }
   for (const auto& warning : record.warnings)
     std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
-  if (!record.converged)
+  if (record.interrupted)
+    std::fputs("wavebalance: interrupted; the record holds the points so far\n", stderr);
+  else if (!record.converged)
     std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", record.status.c_str());
+}
+
+/// Solves with a progress bar, unless `quiet`, until the guard has noted a signal.
+Record solve(const Scene& scene, const InterruptGuard& guard, bool quiet) {
+  ProgressBar bar;
+  return analyse(scene, [&](const Progress& progress) {
+    if (!quiet) bar.show(progress);
+    return guard.signal() == 0;
+  });
+}
+
+/// All files at once, in place of those of an earlier record. The summary goes last: it says that the others are there.
+void write(OutputFiles& files, const std::vector<ResultFile>& results, const std::string& summary) {
+  files.replace(files_of_record(files.directory() / "summary.json"));
+  for (const ResultFile& file : results) files.add(file.name, file.contents);
+  files.add("summary.json", summary);
+  files.commit();
 }
 
 }  // namespace
 
 int run_scene(const RunArguments& arguments) {
-  const Scene scene = load_scene(arguments.scene, arguments.overrides);
+  if (arguments.output.empty())
+    throw std::invalid_argument("--output is \"\"; expected the name of a folder, which is made if it is missing");
+  const Scene scene = load_scene(arguments.scene, arguments.overrides, arguments.removed);
   OutputFiles files(arguments.output);
-  const InterruptGuard guard(files);
-  ProgressBar bar;
-  Observer observer;
-  if (!arguments.quiet) observer = [&bar](const Progress& progress) {
-      bar.show(progress);
-      return true;
-    };
-  const Record record = analyse(scene, observer);
-  bar.finish();
+  InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep);
+  const Record record = solve(scene, guard, arguments.quiet);
+  if (record.interrupted && record.sweep.empty()) guard.end_program();
   const std::vector<ResultFile> results = result_files(scene, record);
-  for (const ResultFile& file : results) files.add(file.name, file.contents);
-  files.add("summary.json", json_text(whole_summary(arguments, record, results)));
-  files.commit();
+  guard.defer();
+  write(files, results, json_text(whole_summary(arguments, record, results)));
   report(arguments, record, results);
+  if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;
 }
 
-int check_scene(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
-  return print(describe_scene(load_scene(scene, overrides)));
+int check_scene(const RunArguments& arguments) {
+  return print(describe_scene(load_scene(arguments.scene, arguments.overrides, arguments.removed)));
 }
 
 int print(const std::string& text) {

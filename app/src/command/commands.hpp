@@ -8,20 +8,22 @@
 namespace wavebalance::app {
 
 /// Exit codes of the command.
-enum ExitCode { solved = 0, bad_input = 2, not_converged = 3 };
+enum ExitCode { solved = 0, bad_input = 2, not_converged = 3, interrupted = 128 };  // + number of the signal
 
 struct RunArguments {
   std::filesystem::path scene;
   std::filesystem::path output;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides;  ///< "section.key=value"
+  std::vector<std::string> removed;    ///< "section.key"
   bool quiet = false;
 };
 
-/// Solves a scene and writes its results. Returns solved or not_converged; throws SceneError and IoError.
+/// Solves a scene and writes its results. Returns solved, not_converged, or interrupted + signal after a sweep that a
+/// signal ended, whose points are written. Throws SceneError, IoError and std::invalid_argument.
 int run_scene(const RunArguments& arguments);
 
 /// Validates a scene and says what would be solved. Throws SceneError.
-int check_scene(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
+int check_scene(const RunArguments& arguments);
 
 /// Writes `text` to the standard output. Throws IoError.
 int print(const std::string& text);

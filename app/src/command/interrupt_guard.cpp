@@ -3,42 +3,66 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <array>
+#include <string_view>
 
 namespace wavebalance::app {
 namespace {
 
-constexpr int end_of_watch = SIGUSR2;
+constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
 
-/// A signal that the parent told us to ignore (nohup, background jobs) stays ignored.
-void add_unless_ignored(sigset_t& set, int signal) {
+volatile std::sig_atomic_t note_first_signal = 0;
+volatile std::sig_atomic_t noted_signal = 0;
+
+/// Writes in the one way that a signal handler may.
+void say(std::string_view message) {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
+}
+
+[[noreturn]] void end_now(int signal) {
+  say("\nwavebalance: interrupted, no results written\n");
+  ::_exit(128 + signal);
+}
+
+void handle(int signal) {
+  if (note_first_signal == 0 || noted_signal != 0) end_now(signal);
+  noted_signal = signal;
+  say("\nwavebalance: interrupted; ends after this point, or at once with a second signal\n");
+}
+
+bool is_ignored(int signal) {
   struct sigaction current {};
   ::sigaction(signal, nullptr, &current);
-  if (current.sa_handler != SIG_IGN) ::sigaddset(&set, signal);
+  return current.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(OutputFiles& files) {
+InterruptGuard::InterruptGuard(bool note_first) {
+  note_first_signal = note_first ? 1 : 0;
+  noted_signal = 0;
   ::sigemptyset(&watched_);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) add_unless_ignored(watched_, signal);
-  ::sigaddset(&watched_, end_of_watch);
-  ::pthread_sigmask(SIG_BLOCK, &watched_, &previous_);
-  thread_ = std::thread([this, &files] { wait_for_signals(files); });
+  struct sigaction action {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : signals) {
+    if (is_ignored(signal)) continue;
+    ::sigaddset(&watched_, signal);
+    ::sigaction(signal, &action, nullptr);
+  }
+  ::pthread_sigmask(SIG_BLOCK, nullptr, &previous_);
 }
 
 InterruptGuard::~InterruptGuard() {
-  ::pthread_kill(thread_.native_handle(), end_of_watch);
-  thread_.join();
+  for (const int signal : signals)
+    if (::sigismember(&watched_, signal) == 1) std::signal(signal, SIG_DFL);
   ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
 }
 
-void InterruptGuard::wait_for_signals(OutputFiles& files) const {
-  int signal = 0;
-  if (::sigwait(&watched_, &signal) != 0 || signal == end_of_watch) return;
-  files.discard();
-  std::fputs("\nwavebalance: interrupted, no results written\n", stderr);
-  ::_exit(128 + signal);
-}
+int InterruptGuard::signal() const { return noted_signal; }
+
+void InterruptGuard::defer() { ::pthread_sigmask(SIG_BLOCK, &watched_, nullptr); }
+
+void InterruptGuard::end_program() const { end_now(noted_signal); }
 
 }  // namespace wavebalance::app

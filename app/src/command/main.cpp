@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 #include "command/commands.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -27,24 +28,49 @@ std::string footer() {
          "  wavebalance check case.toml\n"
          "  wavebalance run case.toml --output results/case\n"
          "  wavebalance run case.toml --output results/haar --set time.trial=haar --set contact.gap=2e-3\n"
-         "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n\n"
+         "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n"
+         "  wavebalance run case.toml --output results/rigid --set contact.law=rigid \\\n"
+         "    --unset contact.constant --unset contact.exponent\n\n"
          "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
          "\"nonlinear_mode\" (reproduce/scenes/laxalde_legrand_2010/rod.toml).\n\n"
          "`run` writes summary.json, response.csv (or sweep.csv, backbone.csv), a picture (SVG) and the "
          "scene\n"
-         "as it was solved. All of them appear at once, or none. Without gnuplot the picture is left out.\n\n"
+         "as it was solved. All of them appear at once, or none, and replace those of an earlier run in the\n"
+         "same folder; other files stay. Without gnuplot the picture is left out.\n\n"
          "Exit codes: 0 solved; 2 bad input or output that cannot be written, nothing written; 3 not\n"
-         "converged, the record is written and says so; 130 interrupted (Ctrl-C), nothing written.";
+         "converged, the record is written and says so; 130 interrupted (Ctrl-C): a frequency sweep writes\n"
+         "its points so far with the status \"interrupted\", a second Ctrl-C and all else write nothing.";
+}
+
+void add_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+              const std::string& type, const std::string& help) {
+  command.add_option(name, values, help + "; may be given more than once")
+      ->type_name(type)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_scene(CLI::App& command, RunArguments& arguments) {
   command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
-  command
-      .add_option("--set", arguments.overrides,
-                  "section.key=value in place of what the file says; may be given more than once")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_list(command, "--set", arguments.overrides, "KEY=VALUE", "section.key=value in place of what the file says");
+  add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
+}
+
+/// "run, check, keys"
+std::string names_of_commands(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+/// Throws std::invalid_argument if the first argument is neither an option nor one of the commands.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string name = argv[1];
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (command->get_name() == name) return;
+  throw std::invalid_argument("unknown command " + name + "; there are " + names_of_commands(app));
 }
 
 int dispatch(int argc, char** argv) {
@@ -60,13 +86,14 @@ int dispatch(int argc, char** argv) {
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
   add_scene(check, arguments);
   CLI::App& keys = *app.add_subcommand("keys", "list every key of a scene: meaning, unit, range, default");
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? solved : bad_input;
   }
   if (keys.parsed()) return print(describe_scene_keys());
-  return check.parsed() ? check_scene(arguments.scene, arguments.overrides) : run_scene(arguments);
+  return check.parsed() ? check_scene(arguments) : run_scene(arguments);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ Panel& Panel::mark_x(double x_value) {
   return *this;
 }
 
-Panel& Panel::mark_y(double y_value) {
-  segments.push_back({{}, y_value, {}, y_value, false, Dash::dotted, Colour::grey, 1.2});
+Panel& Panel::mark_y(double y_value, const std::string& label) {
+  segments.push_back({{}, y_value, {}, y_value, false, Dash::dotted, Colour::grey, 1.2, label});
   return *this;
 }
 

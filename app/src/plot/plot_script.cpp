@@ -152,7 +152,16 @@ std::string end_text(const std::optional<double>& value, int edge) {
 std::string segment_text(const Segment& s) {
   return "set arrow from " + end_text(s.x1, 0) + "," + end_text(s.y1, 0) + " to " + end_text(s.x2, 1) + "," +
          end_text(s.y2, 1) + (s.arrow ? " head filled size screen 0.012,20 " : " nohead ") +
-         stroke(s.colour, s.dash, s.width) + (s.arrow ? " front\n" : " back\n");
+         stroke(s.colour, s.dash, s.width) + (s.arrow ? " front\n" : " back\n") +
+         (s.label.empty() ? ""
+                          : "set label " + quoted(s.label) + " at graph 1.01," + end_text(s.y2, 1) + " left\n");
+}
+
+bool has_labelled_segments(const Figure& figure) {
+  for (const Panel& panel : figure.panels)
+    for (const Segment& segment : panel.segments)
+      if (!segment.label.empty()) return true;
+  return false;
 }
 
 std::string rectangle_text(const Rectangle& r) {
@@ -170,13 +179,14 @@ std::string mark_text(const TextMark& mark) {
 }
 
 /// `aligned` panels have one left margin, so that axes stand below each other; 9 characters hold labels like
-/// 0.0005.
-std::string frame_text(bool frame, bool aligned) {
+/// 0.0005. Labels of segments stand right of the panel, in 6 characters.
+std::string frame_text(bool frame, bool aligned, bool labelled) {
   if (!frame) return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\n";
   return std::string("set border 3 lc rgb '") + text_colour +
          "' lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
          "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n" +
-         (aligned ? "set lmargin 9\n" : "unset lmargin\n") + "unset rmargin\n";
+         (aligned ? "set lmargin 9\n" : "unset lmargin\n") +
+         (labelled ? "set rmargin 6\n" : "unset rmargin\n");
 }
 
 /// The heading stands at the left so that letters of panels line up.
@@ -209,12 +219,12 @@ std::string plot_command(const Panel& panel, std::size_t panel_index, const Surf
 }
 
 std::string panel_text(const Panel& panel, std::size_t index, const std::string& letter,
-                       const std::string& title, bool aligned) {
+                       const std::string& title, bool aligned, bool labelled) {
   const bool framed = panel.frame && !panel.surface;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
   std::string text =
-      "unset title\nunset label\nunset arrow\nunset object\nset size noratio\n" + frame_text(framed, aligned);
+      "unset title\nunset label\nunset arrow\nunset object\nset size noratio\n" + frame_text(framed, aligned, labelled);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +
@@ -289,17 +299,20 @@ std::string gnuplot_script(const Figure& figure) {
     for (std::size_t s = 0; s < figure.panels[p].series.size(); ++s)
       text += data_block(figure.panels[p].series[s], block_name(p, s));
   const std::size_t count = figure.panels.size();
+  const bool labelled = has_labelled_segments(figure);
   if (count == 1) {
     const std::string& title = figure.panels[0].title;
     const bool both = !title.empty() && !figure.title.empty();
-    return text + panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title, false);
+    return text + panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title, false,
+                             labelled);
   }
   const std::size_t columns = std::min(count, static_cast<std::size_t>(figure.columns));
   const std::size_t rows = (count + columns - 1) / columns;
   text += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns);
   text += (figure.title.empty() ? "" : " title " + quoted(figure.title) + " font ',15'") + "\n";
   for (std::size_t p = 0; p < count; ++p)
-    text += panel_text(figure.panels[p], p, figure.letters ? letter_of(p) : "", figure.panels[p].title, true);
+    text += panel_text(figure.panels[p], p, figure.letters ? letter_of(p) : "", figure.panels[p].title, true,
+                       labelled);
   return text + "unset multiplot\n";
 }
 

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "analysis/record_figure.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -13,6 +15,7 @@
 namespace {
 
 using namespace wavebalance::app;
+namespace solvers = wavebalance::solvers;
 
 Scene scene_of(const std::vector<std::string>& overrides = {}) {
   return parse_scene(bar_scene, "case.toml", overrides);
@@ -207,6 +210,94 @@ TEST(Analyse, ObserverIsToldOfPeriods) {
           });
   EXPECT_GE(calls, 2);
   EXPECT_EQ(last, 1.0);
+}
+
+const std::vector<std::string> sweep_overrides{"time.functions=31", "analysis.type=frequency_sweep",
+                                               "analysis.frequency_from=100", "analysis.frequency_to=110"};
+
+TEST(Analyse, SweepThatItsObserverStopsHoldsThePointsSoFar) {
+  int points = 0;
+  const Record record = analyse(scene_of(sweep_overrides), [&](const Progress& progress) {
+    points += progress.phase == "frequency sweep" ? 1 : 0;
+    return points < 3;
+  });
+  EXPECT_TRUE(record.interrupted);
+  EXPECT_FALSE(record.converged);
+  EXPECT_EQ(record.status, "interrupted");
+  EXPECT_EQ(record.sweep.rows(), 3u);
+  EXPECT_EQ(value_of<std::string>(record.summary, "status"), "interrupted");
+}
+
+TEST(Analyse, RigidSweepThatItsObserverStopsHoldsThePointsSoFar) {
+  Scene scene = scene_of(sweep_overrides);
+  scene.contact = {.law = ContactLawType::rigid, .gap = 1e-3};
+  int points = 0;
+  const Record record = analyse(scene, [&](const Progress& progress) {
+    points += progress.phase == "frequency sweep" ? 1 : 0;
+    return points < 3;
+  });
+  EXPECT_TRUE(record.interrupted);
+  EXPECT_EQ(record.status, "interrupted");
+  EXPECT_EQ(record.sweep.rows() + static_cast<std::size_t>(value_of<std::int64_t>(record.summary, "unsolved_frequencies")), 3u);
+}
+
+TEST(Analyse, RigidSweepWarnsThatBranchesMayBeMissing) {
+  Scene scene = scene_of(sweep_overrides);
+  scene.contact = {.law = ContactLawType::rigid, .gap = 1e-3};
+  const Record record = analyse(scene);
+  ASSERT_FALSE(record.warnings.empty());
+  EXPECT_NE(record.warnings[0].find("branches of the response may be missing"), std::string::npos);
+  EXPECT_EQ(record.warnings, value_of<std::vector<std::string>>(record.summary, "warnings"));
+  EXPECT_NE(record.figure.panels[0].x.label.find("branches may be missing"), std::string::npos);
+}
+
+TEST(Analyse, SweepSaysAtWhichFrequencyItIsLargest) {
+  const Record record = analyse(scene_of(sweep_overrides));
+  const auto frequencies = record.sweep.numbers("frequency_Hz");
+  const auto largest = record.sweep.numbers("max_displacement_m");
+  const auto peak = std::max_element(largest.begin(), largest.end()) - largest.begin();
+  EXPECT_EQ(value_of<double>(record.summary, "frequency_at_max_displacement_Hz"),
+            frequencies[static_cast<std::size_t>(peak)]);
+}
+
+Sweep sweep_with_a_wild_point(solvers::SweepStatus status) {
+  Sweep sweep;
+  for (int i = 0; i < 200; ++i) {
+    solvers::SweepPoint point;
+    point.frequency = 100.0 + i;
+    point.max_displacement = i == 150 ? 4.5 : 1e-3;
+    point.rms_displacement = 5e-4;
+    sweep.curve.points.push_back(point);
+  }
+  sweep.curve.status = status;
+  return sweep;
+}
+
+TEST(SweepFigure, OneWildPointOfACurveThatDidNotEndWellDoesNotSetTheAxis) {
+  const Figure figure =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
+  const Panel& panel = figure.panels[0];
+  EXPECT_EQ(panel.y.label, "Displacement (mm)");
+  ASSERT_TRUE(panel.y.upper);
+  EXPECT_NEAR(*panel.y.upper, 1.1, 1e-12);
+  const Figure whole =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::reached_end));
+  EXPECT_FALSE(whole.panels[0].y.upper);
+}
+
+TEST(SweepFigure, ShowsTheStatusAsItIsWritten) {
+  const Figure figure =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
+  EXPECT_NE(figure.title.find("point\\_limit"), std::string::npos) << figure.title;
+}
+
+TEST(SweepFigure, LegendIsOutsideAndTheGapIsNamed) {
+  const Figure figure =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::reached_end));
+  EXPECT_EQ(figure.panels[0].legend, Legend::below_panel);
+  ASSERT_EQ(figure.panels[0].segments.size(), 1u);
+  EXPECT_EQ(figure.panels[0].segments[0].label, "gap");
+  EXPECT_NE(render(figure, PictureFormat::svg).find(">gap<"), std::string::npos);
 }
 
 TEST(EnergyNorm, IsTheOscillatorsEnergyWithoutContact) {

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <functional>
 #include <thread>
 
 #include "support/chain_files.hpp"
@@ -44,6 +46,14 @@ class Command {
   }
 
   void send(int signal) const { ::kill(child_, signal); }
+
+  /// Whether the program has a handler for the signal, as /proc says.
+  bool catches(int signal) const {
+    const std::string status = read_file("/proc/" + std::to_string(child_) + "/status");
+    const auto place = status.find("SigCgt:");
+    return place != std::string::npos &&
+           (std::stoull(status.substr(place + 7), nullptr, 16) >> (signal - 1) & 1) == 1;
+  }
 
   Outcome wait() {
     int status = 0;
@@ -235,6 +245,12 @@ TEST(CommandRun, WithoutGnuplotTheNumbersRemain) {
   EXPECT_FALSE(fs::exists(folder / "out" / "response.svg"));
 }
 
+/// Waits until `done` says so, a minute at most.
+bool wait_until(const std::function<bool()>& done) {
+  for (int i = 0; i < 1200 && !done(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return done();
+}
+
 TEST(CommandRun, InterruptLeavesNothing) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("case.toml", bar_scene);
@@ -244,14 +260,82 @@ TEST(CommandRun, InterruptLeavesNothing) {
                    "analysis.tolerance=1e-300", "--set", "analysis.max_periods=100000000", "--set",
                    "structure.elements=200"},
                   WAVEBALANCE_COMMAND);
-  for (int i = 0; i < 200 && !fs::exists(folder / "out"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(wait_until([&] { return command.catches(SIGINT); }));
   command.send(SIGINT);
   const Outcome outcome = command.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos);
+  EXPECT_NE(outcome.errors.find("interrupted, no results written"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(CommandRun, InterruptedSweepLeavesItsPoints) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  Command command(folder,
+                  {"run", scene, "--output", folder / "out", "--set", "analysis.type=frequency_sweep", "--set",
+                   "analysis.frequency_from=100", "--set", "analysis.frequency_to=200", "--set",
+                   "analysis.first_step=1e-4", "--set", "analysis.largest_step=1e-4", "--set",
+                   "analysis.max_points=1000000"},
+                  WAVEBALANCE_COMMAND);
+  ASSERT_TRUE(wait_until([&] { return read_file(folder / "stderr").find("frequency sweep: step ") != std::string::npos; }));
+  command.send(SIGINT);
+  const Outcome outcome = command.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the record holds the points so far"), std::string::npos) << outcome.errors;
+  const std::string summary = read_file(folder / "out" / "summary.json");
+  EXPECT_NE(summary.find("\"converged\": false"), std::string::npos);
+  EXPECT_NE(summary.find("\"status\": \"interrupted\""), std::string::npos);
+  EXPECT_GT(read_csv(folder / "out" / "sweep.csv").rows(), 1u);
+}
+
+TEST(CommandRun, FolderUsedTwiceHoldsTheSecondRecordAndForeignFiles) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  EXPECT_EQ(run(folder, {"run", scene, "--output", folder / "out"}).exit_code, 0);
+  std::ofstream(folder / "out" / "backbone.csv") << "not of this record\n";
+  const Outcome outcome =
+      run(folder, {"run", scene, "--output", folder / "out", "--set", "analysis.type=frequency_sweep", "--set",
+                   "analysis.frequency_from=100", "--set", "analysis.frequency_to=105"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* name : {"summary.json", "sweep.csv", "sweep.svg", "scene.toml", "backbone.csv"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 5);
+  EXPECT_EQ(read_file(folder / "out" / "backbone.csv"), "not of this record\n");
+}
+
+TEST(CommandRun, SweepSaysWithWhatItWasSolvedAndWhereItsPeakIs) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run(folder, {"run", folder.write("case.toml", bar_scene), "--output", folder / "out", "--set",
+                   "analysis.type=frequency_sweep", "--set", "analysis.frequency_from=100", "--set",
+                   "analysis.frequency_to=105"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string summary = read_file(folder / "out" / "summary.json");
+  for (const char* part : {"\"trial\": \"fourier\"", "\"weight\": \"fourier\"", "\"functions\": 64",
+                           "\"quadrature_points\": 256", "\"formulation\": \"distributional\"",
+                           "\"version\": \"", "\"frequency_at_max_displacement_Hz\": 1"})
+    EXPECT_NE(summary.find(part), std::string::npos) << part;
+}
+
+TEST(CommandRun, UnsetLeavesKeysOfTheFileOut) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  const Outcome outcome =
+      run(folder, {"check", scene, "--set", "contact.law=none", "--unset", "contact.constant", "--unset",
+                   "contact.exponent", "--unset", "contact.gap"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const Outcome wrong = run(folder, {"check", scene, "--unset", "contact.constnt"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.errors, "wavebalance: --unset contact.constnt: there is no such key in " + scene +
+                              "; did you mean contact.constant?\n");
+}
+
+TEST(CommandRun, OutputWithoutANameIsTwo) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"run", folder.write("case.toml", bar_scene), "--output", ""});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors,
+            "wavebalance: --output is \"\"; expected the name of a folder, which is made if it is missing\n");
 }
 
 TEST(CommandCheck, SaysWhatWouldBeSolvedAndWritesNothing) {
@@ -364,6 +448,13 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                              {"check", scene, "--set", "gap"},
                                              {"check", folder / "missing.toml"}})
     EXPECT_EQ(run(folder, arguments).exit_code, 2);
+}
+
+TEST(CommandLine, UnknownCommandIsNamedBesideThoseThereAre) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder, {"nonsense"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors, "wavebalance: unknown command nonsense; there are run, check, keys\n");
 }
 
 TEST(CommandLine, VersionIsTheProjects) {

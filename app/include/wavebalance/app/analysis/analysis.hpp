@@ -20,6 +20,10 @@ struct Sweep {
   double max_force = 0.0;        ///< N, with rigid contact
 
   bool converged() const { return curve.status == solvers::SweepStatus::reached_end && unsolved == 0; }
+  /// The observer stopped it; the curve holds the points so far.
+  bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
+  /// "reached_end" or why not, "interrupted" among others.
+  std::string status() const;
 };
 
 /// The scene's frequency response by arc length. Steps: a change of frequency by 1/20 of the interval and a
@@ -43,6 +47,7 @@ struct RecordFile {
 /// What an analysis leaves behind: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
 struct Record {
   bool converged = false;
+  bool interrupted = false;  ///< a sweep that its observer stopped
   std::string status;
   /// What makes the result less accurate than it looks, a sentence each; the summary holds them too.
   std::vector<std::string> warnings;

@@ -93,6 +93,7 @@ struct Segment {
   Dash dash = Dash::solid;
   Colour colour = Colour::grey;
   double width = 1.0;
+  std::string label = {};  ///< at the right edge of the panel, outside of it; needs y2
 };
 
 struct Rectangle {
@@ -127,9 +128,9 @@ struct Panel {
     series.push_back(std::move(one));
     return *this;
   }
-  /// A dotted line across the panel at an abscissa or an ordinate, such as the gap.
+  /// A dotted line across the panel at an abscissa or an ordinate, such as the gap, named at its right end.
   Panel& mark_x(double x_value);
-  Panel& mark_y(double y_value);
+  Panel& mark_y(double y_value, const std::string& label = "");
 };
 
 /// Panels in rows, filled from the left; several are lettered (a), (b), ...
