@@ -52,7 +52,7 @@ Point blank(const Pair& pair, const app::Time& time) {
   point.method = "weighted_residual";
   point.trial = pair.trial;
   point.weight = pair.weight;
-  point.inner_products = name_of(app::effective_inner_products(time));
+  point.inner_products = app::name_of(app::effective_inner_products(time));
   point.functions = time.functions;
   point.points = time.quadrature_points;
   point.construction_seconds = point.seconds = point.error = point.tolerance = unknown;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/stepped_sweep.hpp"
 
 namespace wavebalance::blade {
 namespace {
@@ -24,24 +25,23 @@ Eigen::MatrixXd rows(const Eigen::VectorXd& samples, int contacts) {
 
 std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model) {
   const auto& analysis = scene.analysis;
-  const double from = analysis.frequency_from, range = analysis.frequency_to - from;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(range) / analysis.largest_step - 1e-9)));
-  auto problem = app::make_problem(scene, model);
-  const auto laws = app::make_laws(scene);
+  const auto frequencies = solvers::uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
+                                                        analysis.largest_step, analysis.max_points);
   solvers::ForcedResponseOptions nearby;
   nearby.complementarity = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
-  std::vector<BladeResponse> responses;
+  auto composed = app::compose_problem(scene, model);
   Eigen::VectorXd guess;
-  for (int i = 0; i <= steps; ++i) {
-    const double frequency = from + range * i / steps;
-    problem.set_frequency(frequency);
-    auto found = solvers::forced_response(problem, laws, nearby, guess);
-    if (!found.converged()) found = solvers::forced_response(problem, laws, {});  // the branch ends here
+  const auto solve = [&](solvers::CondensedProblem& at) -> BladeResponse {
+    auto found = solvers::forced_response(at, composed.laws, nearby, guess);
+    if (!found.converged()) found = solvers::forced_response(at, composed.laws, {});  // the branch ends here
     guess = found.converged() ? found.displacement : Eigen::VectorXd();
-    responses.push_back({frequency, found.converged(), rows(found.displacement, model.contacts()),
-                         rows(found.contact_force, model.contacts())});
-  }
+    return {at.frequency(), found.converged(), rows(found.displacement, model.contacts()),
+            rows(found.contact_force, model.contacts())};
+  };
+  std::vector<BladeResponse> responses;
+  for (auto& found : solvers::stepped_sweep(composed.problem, frequencies, solve))
+    responses.push_back(found ? std::move(*found) : BladeResponse{frequencies[responses.size()], false, {}, {}});
   return responses;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "analysis/mode_record.hpp"
@@ -11,6 +12,8 @@
 #include "analysis/response_parts.hpp"
 #include "analysis/summary_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/response/stepped_sweep.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {
@@ -53,6 +56,7 @@ void append_refinement(Summary& summary, const Refinement& refinement, double to
 
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
+  record.warnings = model.warnings;
   record.converged = response.converged;
   record.status = response.status;
   record.summary = opening(response.converged, response.status, response.residual, response.iterations,
@@ -111,6 +115,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.interrupted = sweep.interrupted();
   record.status = sweep.status();
   const bool rigid = scene.contact.law == ContactLawType::rigid;
+  record.warnings = model.warnings;
   if (rigid) record.warnings.emplace_back(solved_alone);
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
@@ -145,51 +150,70 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
   Sweep sweep;
-  solvers::CondensedProblem problem = make_problem(scene, model);
-  sweep.curve = solvers::frequency_sweep(problem, make_laws(scene), options);
+  ComposedProblem composed = compose_problem(scene, model);
+  sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
   return sweep;
 }
 
-/// One point of a rigid sweep; nothing when there is no response.
-std::optional<solvers::SweepPoint> rigid_point(Scene& scene, const StructureModel& model, double frequency,
-                                               Sweep& sweep) {
-  scene.forcing.frequency = frequency;
-  const Response response = weighted_residual_response(scene, model);
-  sweep.curve.condition = std::max(sweep.curve.condition, response.condition);
-  if (!response.converged) return std::nullopt;
-  sweep.max_penetration = std::max(sweep.max_penetration, response.rigid->max_penetration);
-  sweep.max_force = std::max(sweep.max_force, response.contacts.force.maxCoeff());
-  const Eigen::MatrixXd& u = response.contacts.displacement;
+/// The response at one frequency of a rigid sweep.
+struct RigidPoint {
   solvers::SweepPoint point;
-  point.frequency = frequency;
-  point.max_displacement = u.maxCoeff();
-  point.rms_displacement = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
-  point.max_abs_displacement = u.cwiseAbs().maxCoeff();
-  point.residual = response.residual;
-  return point;
+  bool converged = false;
+  double condition = 0.0;
+  double max_penetration = 0.0;  // m
+  double max_force = 0.0;        // N
+};
+
+RigidPoint rigid_point(solvers::CondensedProblem& problem, const StructureModel& model, int output_points,
+                       const solvers::RigidResponseOptions& options) {
+  const auto found = solvers::rigid_response(problem, model.gaps, options);
+  const ContactMotion motion = motion_with_nearest_forces(problem, found.response, output_points);
+  const Eigen::MatrixXd& u = motion.displacement;
+  RigidPoint result;
+  result.converged = found.response.converged();
+  result.condition = std::max(problem.condensation().condition(), found.response.condition);
+  result.max_penetration = found.complementarity.max_penetration;
+  result.max_force = motion.force.maxCoeff();
+  result.point.frequency = problem.frequency();
+  result.point.max_displacement = u.maxCoeff();
+  result.point.rms_displacement = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
+  result.point.max_abs_displacement = u.cwiseAbs().maxCoeff();
+  result.point.residual = std::max(found.response.residual, found.complementarity.product);
+  return result;
 }
 
-Sweep rigid_sweep(Scene scene, const StructureModel& model, const Observer& observer) {
-  const Analysis& analysis = scene.analysis;
-  const double interval = analysis.frequency_to - analysis.frequency_from;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(interval) / analysis.largest_step)));
-  Sweep sweep;
-  sweep.curve.status = solvers::SweepStatus::reached_end;
-  for (int i = 0; i <= steps; ++i) {
-    if (i >= analysis.max_points) {
-      sweep.curve.status = solvers::SweepStatus::point_limit;
-      break;
-    }
-    const double frequency = analysis.frequency_from + interval * i / steps;
-    if (const auto point = rigid_point(scene, model, frequency, sweep))
-      sweep.curve.points.push_back(*point);
-    else
-      ++sweep.unsolved;
-    if (!goes_on(observer, {"frequency sweep", i + 1, frequency, "Hz", double(i) / steps}) && i < steps) {
-      sweep.curve.status = solvers::SweepStatus::cancelled;
-      break;
-    }
+/// Notes a point in its sweep; `found` is empty where a system was singular.
+void note(Sweep& sweep, const std::optional<RigidPoint>& found) {
+  const double condition = found ? found->condition : std::numeric_limits<double>::infinity();
+  sweep.curve.condition = std::max(sweep.curve.condition, condition);
+  if (!found || !found->converged) {
+    ++sweep.unsolved;
+    return;
   }
+  sweep.max_penetration = std::max(sweep.max_penetration, found->max_penetration);
+  sweep.max_force = std::max(sweep.max_force, found->max_force);
+  sweep.curve.points.push_back(found->point);
+}
+
+Sweep rigid_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  const Analysis& analysis = scene.analysis;
+  const auto frequencies = solvers::uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
+                                                        analysis.largest_step, analysis.max_points);
+  solvers::RigidResponseOptions options;
+  options.observer = observer;
+  const auto solve = [&](solvers::CondensedProblem& problem) {
+    return rigid_point(problem, model, analysis.output_points, options);
+  };
+  solvers::CondensedProblem problem = make_problem(scene, model);
+  auto found = solvers::stepped_sweep(problem, frequencies, solve, observer);
+  Sweep sweep;
+  const bool interrupted = found.size() < frequencies.size();
+  if (interrupted && found.back() && !found.back()->converged) found.pop_back();  // it was cut off
+  for (const auto& point : found) note(sweep, point);
+  const bool to_the_end = std::abs(frequencies.back() - analysis.frequency_to) < 0.5 * analysis.largest_step;
+  sweep.curve.status = interrupted  ? solvers::SweepStatus::cancelled
+                       : to_the_end ? solvers::SweepStatus::reached_end
+                                    : solvers::SweepStatus::point_limit;
   return sweep;
 }
 

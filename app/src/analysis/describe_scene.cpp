@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 
+#include "compose/structure_files.hpp"
 #include "files/number_text.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
@@ -142,14 +145,38 @@ std::string mode_lines(const Scene& scene) {
          std::to_string(std::int64_t{size_of(scene)} * (2 * analysis.harmonics + 1)) + " unknowns before)\n";
 }
 
+std::string duration_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1g s", seconds);
+  if (seconds >= 10.0) std::snprintf(text, sizeof text, "%.0f s", seconds);
+  if (seconds >= 600.0) std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
+  return text;
+}
+
+std::string cost_line(const Scene& scene) {
+  const CostEstimate cost = estimate_cost(scene);
+  const std::string time = std::isnan(cost.seconds) ? "" : duration_text(cost.seconds) + " and ";
+  const double available = available_memory();
+  return "cost       about " + time + memory_text(cost.bytes) + " of memory" +
+         (cost.bytes > available ? "; MORE THAN the " + memory_text(available) + " that there are" : "") + "\n";
+}
+
+std::string warning_lines(const Scene& scene) {
+  if (scene.structure.type != StructureType::matrices) return "";
+  std::string text;
+  for (const std::string& warning : warnings_of(*structure_files(scene))) text += "warning    " + warning + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string describe_scene(const Scene& scene) {
   const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
   const std::string opening =
       "analysis   " + name_of(scene.analysis.type) + "\n" + structure_line(scene) + contact_line(scene);
-  if (scene.analysis.type == AnalysisType::nonlinear_mode) return opening + mode_lines(scene);
-  return opening + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene);
+  if (scene.analysis.type == AnalysisType::nonlinear_mode) return opening + mode_lines(scene) + cost_line(scene);
+  return opening + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene) +
+         cost_line(scene) + warning_lines(scene);
 }
 
 }  // namespace wavebalance::app

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
@@ -56,6 +58,28 @@ Eigen::VectorXd closed(const Eigen::VectorXd& values) {
   return result;
 }
 
+/// What a picture shows of many points: the first, lowest, highest and last of each of `runs` runs of neighbours.
+/// gnuplot takes minutes for millions of points.
+Series thinned(const Series& series) {
+  constexpr std::size_t runs = 2048;
+  const std::size_t size = series.x.size();
+  if (size <= 4 * runs) return series;
+  Series result = series;
+  result.x.clear();
+  result.y.clear();
+  for (std::size_t run = 0; run < runs; ++run) {
+    const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(run * size / runs);
+    const auto end = series.y.begin() + static_cast<std::ptrdiff_t>((run + 1) * size / runs);
+    const auto [lowest, highest] = std::minmax_element(begin, end);
+    const std::set kept{begin, std::min(lowest, highest), std::max(lowest, highest), end - 1};
+    for (const auto at : kept) {
+      result.x.push_back(series.x[static_cast<std::size_t>(at - series.y.begin())]);
+      result.y.push_back(*at);
+    }
+  }
+  return result;
+}
+
 void add_motion(Figure& figure, const std::string& quantity, const std::string& unit,
                 const Eigen::VectorXd& values, bool converged) {
   const Scale scale = scale_of(values.cwiseAbs().maxCoeff());
@@ -70,7 +94,7 @@ void add_motion(Figure& figure, const std::string& quantity, const std::string& 
     series.colour = Colour::grey;
     series.dash = Dash::dashed;
   }
-  panel.add(std::move(series));
+  panel.add(thinned(series));
 }
 
 /// The 99th percentile of `values`, not empty, where single ones lie far beyond it; the largest otherwise.
@@ -168,8 +192,8 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const bool rigid = scene.contact.law == ContactLawType::rigid;
   if (rigid) panel.x.label += ", each solved alone: branches may be missing";
   const auto style = rigid ? SeriesStyle::points : SeriesStyle::line;
-  panel.add({"largest", scaled("frequency_Hz", 1.0), scaled("max_displacement_m", scale.factor), style});
-  panel.add({"rms", scaled("frequency_Hz", 1.0), scaled("rms_displacement_m", scale.factor), style});
+  for (const auto& [label, column] : {std::pair{"largest", "max_displacement_m"}, {"rms", "rms_displacement_m"}})
+    panel.add(thinned({label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor), style}));
   if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
     panel.mark_y(scale.factor * scene.contact.gap, "gap");
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;

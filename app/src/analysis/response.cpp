@@ -67,11 +67,11 @@ void note_solution(Response& result, const solvers::CondensedProblem& problem,
   result.condition = std::max(problem.condensation().condition(), found.condition);
 }
 
-void solve_law(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
+void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
                const ResponseOptions& options, Response& result) {
   solvers::ForcedResponseOptions solver;
   solver.observer = options.observer;
-  const solvers::ContactLaws laws = make_laws(scene);
+  auto& [problem, laws] = composed;
   const auto found = solvers::forced_response(problem, laws, solver, options.guess);
   note_solution(result, problem, found);
   note_motion(problem, found, model, sample_response(problem, found, laws, scene.analysis.output_points),
@@ -80,14 +80,16 @@ void solve_law(const Scene& scene, const StructureModel& model, solvers::Condens
 
 void solve_ladder(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                   Response& result) {
-  auto found = solve_to_tolerance(scene, model, options, result);
+  const solvers::ContactLaws laws = make_laws(scene);
+  auto found = solve_to_tolerance(scene, model, laws, options, result);
   note_motion(*found.problem, found.response, model,
-              sample_response(*found.problem, found.response, make_laws(scene), scene.analysis.output_points),
+              sample_response(*found.problem, found.response, laws, scene.analysis.output_points),
               options, result);
 }
 
-void solve_rigid(const Scene& scene, const StructureModel& model, solvers::CondensedProblem& problem,
+void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
                  const ResponseOptions& options, Response& result) {
+  solvers::CondensedProblem& problem = composed.problem;
   solvers::RigidResponseOptions solver;
   solver.observer = options.observer;
   const auto found = solvers::rigid_response(problem, model.gaps, solver);
@@ -95,13 +97,18 @@ void solve_rigid(const Scene& scene, const StructureModel& model, solvers::Conde
   const auto& contact = found.complementarity;
   result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
   result.residual = std::max(found.response.residual, contact.product);
-  const int points = scene.analysis.output_points;
-  ContactMotion contacts = sample_motion(problem, found.response, points);
-  contacts.force = nearest_forces(found.response, problem.contacts(), points);
-  note_motion(problem, found.response, model, std::move(contacts), options, result);
+  note_motion(problem, found.response, model,
+              motion_with_nearest_forces(problem, found.response, scene.analysis.output_points), options, result);
 }
 
 }  // namespace
+
+ContactMotion motion_with_nearest_forces(const solvers::CondensedProblem& problem,
+                                         const solvers::PeriodicResponse& response, int points) {
+  ContactMotion motion = sample_motion(problem, response, points);
+  motion.force = nearest_forces(response, problem.contacts(), points);
+  return motion;
+}
 
 Time solved_time(Time time, const Response& response) {
   if (!response.refinement) return time;
@@ -116,11 +123,8 @@ Time solved_time(Time time, const Response& response) {
 ContactMotion sample_response(const solvers::CondensedProblem& problem,
                               const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
                               int points) {
+  if (response.force_by_balance) return motion_with_nearest_forces(problem, response, points);
   ContactMotion motion = sample_motion(problem, response, points);
-  if (response.force_by_balance) {
-    motion.force = nearest_forces(response, problem.contacts(), points);
-    return motion;
-  }
   motion.force =
       Eigen::MatrixXd::NullaryExpr(motion.contacts(), points, [&](Eigen::Index contact, Eigen::Index l) {
         return laws[static_cast<int>(contact)].force(motion.displacement(contact, l));
@@ -141,9 +145,9 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
     if (scene.time.tolerance > 0.0) {
       solve_ladder(scene, model, options, result);
     } else {
-      solvers::CondensedProblem problem = make_problem(scene, model);
+      ComposedProblem composed = compose_problem(scene, model);
       const bool rigid = scene.contact.law == ContactLawType::rigid;
-      (rigid ? solve_rigid : solve_law)(scene, model, problem, options, result);
+      (rigid ? solve_rigid : solve_law)(scene, model, composed, options, result);
     }
   } catch (const solvers::SingularSystem& error) {
     result.converged = false;  // also when only the field of the whole structure cannot be had
@@ -192,15 +196,15 @@ Response shooting_response(const Scene& scene, const ResponseOptions& options) {
   shooting.output_points = scene.analysis.output_points;
   shooting.full_history = options.full_history;
   shooting.observer = options.observer;
-  auto found =
-      solvers::shoot(make_structure(scene), make_law(scene.contact), scene.forcing.frequency, shooting);
+  const StructureModel model = make_model(scene);
+  auto found = solvers::shoot(model.structure, make_law(scene.contact), scene.forcing.frequency, shooting);
   Response result;
   result.wall_seconds = seconds_since(start);
   result.converged = found.status == solvers::ShootingStatus::converged;
   result.status = to_string(found.status);
   result.residual = found.residual;
   result.iterations = found.iterations;
-  result.unknowns = 2 * scene.structure.elements;
+  result.unknowns = 2 * model.size();
   result.samples = std::move(found.samples);
   return result;
 }

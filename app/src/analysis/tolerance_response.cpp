@@ -29,6 +29,7 @@ solvers::LadderOptions ladder_options(const Scene& scene, const ResponseOptions&
 }  // namespace
 
 solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureModel& model,
+                                           const solvers::ContactLaws& laws,
                                            const ResponseOptions& options, Response& result) {
   const Scene chosen = with_pair(scene);
   const auto make = [&](int functions, int points) {
@@ -37,7 +38,7 @@ solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureMo
     rung.time.quadrature_points = points;
     return make_problem(rung, model);
   };
-  auto found = solvers::response_to_tolerance(make, make_laws(chosen), ladder_options(chosen, options));
+  auto found = solvers::response_to_tolerance(make, laws, ladder_options(chosen, options));
   result.converged = found.converged();
   result.status = to_string(found.status);
   result.residual = found.response.residual;

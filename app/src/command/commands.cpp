@@ -8,6 +8,7 @@
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
@@ -121,6 +122,17 @@ void report(const RunArguments& arguments, const Record& record, const std::vect
     std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", record.status.c_str());
 }
 
+/// Refuses a scene that is expected to take more memory than there is, before any of it is taken.
+void check_memory(const Scene& scene, double max_gigabytes) {
+  const double needed = estimate_cost(scene).bytes;
+  const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
+  if (needed <= limit) return;
+  const std::string there = max_gigabytes > 0.0 ? "--max-memory allows " : "there are ";
+  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " + there +
+                              memory_text(limit) +
+                              "; fewer functions, quadrature_points or output_points take less");
+}
+
 /// Solves with a progress bar, unless `quiet`, until the guard has noted a signal.
 Record solve(const Scene& scene, const InterruptGuard& guard, bool quiet) {
   ProgressBar bar;
@@ -144,6 +156,7 @@ int run_scene(const RunArguments& arguments) {
   if (arguments.output.empty())
     throw std::invalid_argument("--output is \"\"; expected the name of a folder, which is made if it is missing");
   const Scene scene = load_scene(arguments.scene, arguments.overrides, arguments.removed);
+  check_memory(scene, arguments.max_memory);
   OutputFiles files(arguments.output);
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep);
   const Record record = solve(scene, guard, arguments.quiet);

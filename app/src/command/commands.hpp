@@ -15,6 +15,7 @@ struct RunArguments {
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"
+  double max_memory = 0.0;  ///< GB that a run may be expected to take; 0: what the machine has
   bool quiet = false;
 };
 

@@ -82,6 +82,10 @@ int dispatch(int argc, char** argv) {
   CLI::App& run = *app.add_subcommand("run", "solve a scene and write its results");
   add_scene(run, arguments);
   run.add_option("--output,-o", arguments.output, "folder of the results, made if missing")->required();
+  run.add_option("--max-memory", arguments.max_memory,
+                 "refuse a scene that is expected to take more; without it, more than the machine has")
+      ->type_name("GB")
+      ->check(CLI::PositiveNumber);
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
   add_scene(check, arguments);

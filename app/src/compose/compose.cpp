@@ -26,23 +26,6 @@ wavelets::PeriodicBasis wavelet_basis(const std::string& name, int functions) {
   return {wavelets::ScalingFunction::daubechies(daubechies_coefficients(name)), level};
 }
 
-solvers::Formulation solver_value(Formulation formulation) {
-  switch (formulation) {
-    case Formulation::strong:
-      return solvers::Formulation::strong;
-    case Formulation::weak:
-      return solvers::Formulation::weak;
-    case Formulation::distributional:
-      break;
-  }
-  return solvers::Formulation::distributional;
-}
-
-solvers::InnerProducts solver_value(InnerProducts products) {
-  return products == InnerProducts::exact ? solvers::InnerProducts::exact
-                                          : solvers::InnerProducts::quadrature;
-}
-
 bool is_haar(const std::string& basis) { return basis == "haar" || basis == "daubechies2"; }
 
 /// Opposite a Haar function, whose Fourier coefficient at the Nyquist harmonic is imaginary, only the sine
@@ -92,14 +75,14 @@ InnerProducts effective_inner_products(const Time& time) {
 
 solvers::Admissibility pair_admissibility(const Time& time) {
   return solvers::admissibility(basis_opposite(time.trial, time.weight, time),
-                                basis_opposite(time.weight, time.trial, time), solver_value(time.formulation),
-                                solver_value(effective_inner_products(time)));
+                                basis_opposite(time.weight, time.trial, time), time.formulation,
+                                effective_inner_products(time));
 }
 
 solvers::TimePair make_pair(const Time& time) {
   solvers::TimePairOptions options;
-  options.formulation = solver_value(time.formulation);
-  options.inner_products = solver_value(effective_inner_products(time));
+  options.formulation = time.formulation;
+  options.inner_products = effective_inner_products(time);
   options.quadrature_points = time.quadrature_points;
   if (is_wavelet(time.trial) && is_wavelet(time.weight)) {
     // A filter takes longer to compute than a pair of small bases: one for all.
@@ -134,6 +117,11 @@ solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::Mo
   options.samples = scene.analysis.samples;
   options.cosine_only = scene.analysis.cosine_only;
   return {model, options};
+}
+
+ComposedProblem compose_problem(const Scene& scene, const StructureModel& model) {
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  return {make_problem(scene, model), rigid ? solvers::ContactLaws() : make_laws(scene)};
 }
 
 solvers::CondensedProblem make_problem(const Scene& scene) { return make_problem(scene, make_model(scene)); }

@@ -18,6 +18,12 @@ std::string read_text(const std::filesystem::path& file) {
   }
 }
 
+Scene checked_scene(const Document& document) {
+  Scene scene = read_scene(document);
+  check_scene_rules(document, scene);
+  return scene;
+}
+
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides,
@@ -25,9 +31,7 @@ Scene parse_scene(std::string_view text, const std::string& name, std::span<cons
   Document document = parse_document(text, name);
   remove_entries(document, removed);
   apply_overrides(document, overrides);
-  Scene scene = read_scene(document);
-  check_scene_rules(document, scene);
-  return scene;
+  return checked_scene(document);
 }
 
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
@@ -35,6 +39,6 @@ Scene load_scene(const std::filesystem::path& file, std::span<const std::string>
   return parse_scene(read_text(file), file.string(), overrides, removed);
 }
 
-Scene complete_scene(const Scene& scene) { return parse_scene(write_scene(scene), "scene"); }
+Scene complete_scene(const Scene& scene) { return checked_scene(document_of(scene, "scene")); }
 
 }  // namespace wavebalance::app

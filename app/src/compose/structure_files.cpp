@@ -63,6 +63,7 @@ StructureFiles read_files(const std::array<std::string, 4>& paths) {
     require_size(matrices.damping, damping_key, size);
   }
   check_matrices(matrices);
+  files.damping_adds_energy = !fem::positive_semidefinite(matrices.damping);
   if (paths[3].empty()) return files;
   files.load = read(paths[3], load_key,
                     [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
@@ -102,6 +103,12 @@ void check_load(const Scene& scene) {
 
 StructureFault::StructureFault(std::string key, const std::string& reason)
     : std::runtime_error(reason), key_(std::move(key)) {}
+
+std::vector<std::string> warnings_of(const StructureFiles& files) {
+  if (!files.damping_adds_energy) return {};
+  return {"structure.damping is not positive semidefinite: it adds energy to some motion, so that the structure itself "
+          "is unstable"};
+}
 
 std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;

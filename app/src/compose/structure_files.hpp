@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "wavebalance/fem/matrices.hpp"
 #include "wavebalance/app/scene/scene.hpp"
@@ -15,7 +16,11 @@ struct StructureFiles {
   std::array<std::string, 4> paths;  ///< of mass, stiffness, damping and load; empty: none
   fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
   Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
+  bool damping_adds_energy = false;  ///< it is not positive semidefinite
 };
+
+/// What is wrong with a structure that can nevertheless be solved, a sentence each.
+std::vector<std::string> warnings_of(const StructureFiles& files);
 
 /// A key of a structure of matrices that does not fit its files, and why.
 class StructureFault : public std::runtime_error {

@@ -151,6 +151,7 @@ StructureModel matrices_model(const Scene& scene) {
   check_against_files(scene, *files);
   const Structure& structure = scene.structure;
   StructureModel model;
+  model.warnings = warnings_of(*files);
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
   model.signs = signs_of(structure.matrices.contact_dofs, model.unknowns);
   fem::Matrices matrices = turned_round(files->matrices, model.signs);
@@ -251,7 +252,7 @@ std::int64_t unknowns_of(const Scene& scene) {
 std::int64_t blade_unknowns(const BladeStructure& blade) {
   const std::int64_t x = blade.chord_elements, y = blade.thickness_elements, z = blade.span_elements;
   const std::int64_t corners = (x + 1) * (y + 1);
-  if (blade.element == BladeElement::hexahedron8) return 3 * corners * z;
+  if (blade.element == SolidElement::hexahedron8) return 3 * corners * z;
   const std::int64_t level = corners + x * (y + 1) + (x + 1) * y;  // with the edges' midpoints
   return 3 * (level + corners) * z;
 }
@@ -269,17 +270,7 @@ fem::BladeOptions blade_options(const Structure& structure) {
   options.chord_elements = blade.chord_elements;
   options.thickness_elements = blade.thickness_elements;
   options.span_elements = blade.span_elements;
-  switch (blade.element) {
-    case BladeElement::hexahedron20:
-      options.element = fem::SolidElement::hexahedron20;
-      break;
-    case BladeElement::hexahedron20_reduced:
-      options.element = fem::SolidElement::hexahedron20_reduced;
-      break;
-    case BladeElement::hexahedron8:
-      options.element = fem::SolidElement::hexahedron8;
-      break;
-  }
+  options.element = blade.element;
   return options;
 }
 

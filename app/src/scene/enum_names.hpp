@@ -4,53 +4,85 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
 
-/// The names of an enumeration's values in a scene file, in the order of its enumerators.
 template <class Enum>
-inline constexpr std::array<std::string_view, 0> enum_names{};
+using NamedValue = std::pair<Enum, std::string_view>;
+
+/// The values of an enumeration with their names in a scene file, in the order of the help.
+template <class Enum>
+inline constexpr std::array<NamedValue<Enum>, 0> enum_names{};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<StructureType>{"bar", "blade", "matrices"};
+inline constexpr std::array<NamedValue<StructureType>, 3> enum_names<StructureType>{{
+    {StructureType::bar, "bar"},
+    {StructureType::blade, "blade"},
+    {StructureType::matrices, "matrices"}}};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<BladeElement>{
-    "hexahedron20", "hexahedron20_reduced", "hexahedron8"};
+inline constexpr std::array<NamedValue<SolidElement>, 3> enum_names<SolidElement>{{
+    {SolidElement::hexahedron20, "hexahedron20"},
+    {SolidElement::hexahedron20_reduced, "hexahedron20_reduced"},
+    {SolidElement::hexahedron8, "hexahedron8"}}};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<Direction>{"x", "y", "z"};
+inline constexpr std::array<NamedValue<Direction>, 3> enum_names<Direction>{{
+    {Direction::x, "x"},
+    {Direction::y, "y"},
+    {Direction::z, "z"}}};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<TipPlace>{"leading_edge", "mid_chord",
-                                                                      "trailing_edge"};
+inline constexpr std::array<NamedValue<TipPlace>, 3> enum_names<TipPlace>{{
+    {TipPlace::leading_edge, "leading_edge"},
+    {TipPlace::mid_chord, "mid_chord"},
+    {TipPlace::trailing_edge, "trailing_edge"}}};
 template <>
-inline constexpr std::array<std::string_view, 4> enum_names<ContactLawType>{"none", "exponential", "linear",
-                                                                            "rigid"};
+inline constexpr std::array<NamedValue<ContactLawType>, 4> enum_names<ContactLawType>{{
+    {ContactLawType::none, "none"},
+    {ContactLawType::exponential, "exponential"},
+    {ContactLawType::linear, "linear"},
+    {ContactLawType::rigid, "rigid"}}};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<Formulation>{"strong", "weak", "distributional"};
+inline constexpr std::array<NamedValue<Formulation>, 3> enum_names<Formulation>{{
+    {Formulation::strong, "strong"},
+    {Formulation::weak, "weak"},
+    {Formulation::distributional, "distributional"}}};
 template <>
-inline constexpr std::array<std::string_view, 2> enum_names<InnerProducts>{"quadrature", "exact"};
+inline constexpr std::array<NamedValue<InnerProducts>, 2> enum_names<InnerProducts>{{
+    {InnerProducts::quadrature, "quadrature"},
+    {InnerProducts::exact, "exact"}}};
 template <>
-inline constexpr std::array<std::string_view, 2> enum_names<ModeFormulation>{"consistent", "published"};
+inline constexpr std::array<NamedValue<ModeFormulation>, 2> enum_names<ModeFormulation>{{
+    {ModeFormulation::consistent, "consistent"},
+    {ModeFormulation::published, "published"}}};
 template <>
-inline constexpr std::array<std::string_view, 4> enum_names<AnalysisType>{
-    "forced_response", "frequency_sweep", "time_stepping", "nonlinear_mode"};
+inline constexpr std::array<NamedValue<AnalysisType>, 4> enum_names<AnalysisType>{{
+    {AnalysisType::forced_response, "forced_response"},
+    {AnalysisType::frequency_sweep, "frequency_sweep"},
+    {AnalysisType::time_stepping, "time_stepping"},
+    {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
 
 template <class Enum>
 std::string enum_name(Enum value) {
-  return std::string(enum_names<Enum>.at(static_cast<std::size_t>(value)));
+  for (const auto& [known, name] : enum_names<Enum>)
+    if (known == value) return std::string(name);
+  throw std::invalid_argument("enum_name: the value " + std::to_string(static_cast<int>(value)) +
+                              " has no name");
 }
 
 template <class Enum>
 Enum enum_value(std::string_view name) {
-  for (std::size_t i = 0; i < enum_names<Enum>.size(); ++i)
-    if (enum_names<Enum>[i] == name) return static_cast<Enum>(i);
+  for (const auto& [value, known] : enum_names<Enum>)
+    if (known == name) return value;
   throw std::invalid_argument("enum_value: unknown name \"" + std::string(name) + "\"");
 }
 
 template <class Enum>
 std::vector<std::string_view> enum_choices() {
-  return {enum_names<Enum>.begin(), enum_names<Enum>.end()};
+  std::vector<std::string_view> names;
+  for (const auto& [value, name] : enum_names<Enum>) names.push_back(name);
+  return names;
 }
 
 }  // namespace wavebalance::app

@@ -8,7 +8,7 @@
 namespace wavebalance::app {
 
 std::string name_of(StructureType value) { return enum_name(value); }
-std::string name_of(BladeElement value) { return enum_name(value); }
+std::string name_of(SolidElement value) { return enum_name(value); }
 std::string name_of(Direction value) { return enum_name(value); }
 std::string name_of(TipPlace value) { return enum_name(value); }
 std::string name_of(ContactLawType value) { return enum_name(value); }

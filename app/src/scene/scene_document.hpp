@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "wavebalance/app/scene/scene.hpp"
+
 namespace wavebalance::app {
 
 /// A TOML value as far as scenes know it, lists of integers or of numbers among them; monostate is anything
@@ -42,6 +44,9 @@ struct Document {
 
 /// Parses TOML. Throws SceneError with the line of a syntax error.
 Document parse_document(std::string_view text, const std::string& name);
+
+/// The keys and values that write_scene() writes, without lines.
+Document document_of(const Scene& scene, const std::string& name);
 
 /// Removes the entries of these names, "section.key". Throws SceneError if there is no such entry.
 void remove_entries(Document& document, std::span<const std::string> names);

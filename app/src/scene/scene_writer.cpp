@@ -1,3 +1,4 @@
+#include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
@@ -22,7 +23,23 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
   return line + "\n";
 }
 
+DocumentValue document_value(const SceneValue& value) {
+  return std::visit([](const auto& content) { return DocumentValue(content); }, value);
+}
+
 }  // namespace
+
+Document document_of(const Scene& scene, const std::string& name) {
+  Document document;
+  document.name = name;
+  for (const SceneKey& key : scene_keys()) {
+    if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
+    const SceneValue value = key.get(scene);
+    document.entries.push_back({std::string(key.section), std::string(key.name), document_value(value),
+                                toml_text(value), 0, ""});
+  }
+  return document;
+}
 
 std::string write_scene(const Scene& scene) {
   std::string text;

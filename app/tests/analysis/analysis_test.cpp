@@ -1,6 +1,7 @@
 #include "wavebalance/app/analysis/analysis.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
@@ -285,6 +287,26 @@ TEST(SweepFigure, OneWildPointOfACurveThatDidNotEndWellDoesNotSetTheAxis) {
   EXPECT_FALSE(whole.panels[0].y.upper);
 }
 
+TEST(SweepFigure, OfManyPointsShowsThePeaksAndTheEnds) {
+  Sweep sweep;
+  for (int i = 0; i < 1'000'000; ++i) {
+    solvers::SweepPoint point;
+    point.frequency = 100.0 + i;
+    point.max_displacement = i == 123'456 ? 3.0 : i == 654'321 ? -1.0 : 2.0;
+    point.rms_displacement = 1.0;
+    sweep.curve.points.push_back(point);
+  }
+  sweep.curve.status = solvers::SweepStatus::reached_end;
+  const Series drawn = sweep_figure(scene_of(sweep_overrides), sweep).panels[0].series[0];
+  EXPECT_LE(drawn.x.size(), 8192u);
+  EXPECT_EQ(drawn.x.front(), 100.0);
+  EXPECT_EQ(drawn.x.back(), 1'000'099.0);
+  EXPECT_TRUE(std::is_sorted(drawn.x.begin(), drawn.x.end()));
+  const auto highest = std::max_element(drawn.y.begin(), drawn.y.end()) - drawn.y.begin();
+  EXPECT_EQ(drawn.x[static_cast<std::size_t>(highest)], 100.0 + 123'456);
+  EXPECT_EQ(*std::min_element(drawn.y.begin(), drawn.y.end()), -1.0);
+}
+
 TEST(SweepFigure, ShowsTheStatusAsItIsWritten) {
   const Figure figure =
       sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
@@ -329,6 +351,27 @@ TEST(RelativeRmsError, IsRelativeToTheReference) {
   const Eigen::VectorXd reference = Eigen::VectorXd::LinSpaced(10, 1.0, 2.0);
   EXPECT_DOUBLE_EQ(relative_rms_error(1.5 * reference, reference), 0.5);
   EXPECT_THROW(relative_rms_error(reference.head(3), reference), std::invalid_argument);
+}
+
+TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
+  const Scene scene = scene_of();
+  const auto bytes = [&](const std::vector<std::string>& overrides) { return estimate_cost(scene_of(overrides)).bytes; };
+  const double base = bytes({});
+  EXPECT_GT(base, 10e6);
+  EXPECT_LT(base, 100e6);
+  EXPECT_NEAR(bytes({"analysis.output_points=1048576"}) - base, 500.0 * (1048576 - 1024), 1e-6 * base);
+  EXPECT_GT(bytes({"time.quadrature_points=16777216"}), 130.0 * 16777216);
+  EXPECT_GT(bytes({"time.functions=1048576", "time.quadrature_points=1048576"}), 280.0 * 1048576);
+  EXPECT_GT(estimate_cost(scene_of({"time.functions=1048576", "time.quadrature_points=1048576"})).seconds,
+            100.0 * estimate_cost(scene).seconds);
+  EXPECT_TRUE(std::isnan(estimate_cost(scene_of({"analysis.type=time_stepping"})).seconds));
+}
+
+TEST(AvailableMemory, IsThatOfTheMachineAtMost) {
+  EXPECT_GT(available_memory(), 1e6);
+  EXPECT_LE(available_memory(), static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)));
+  EXPECT_EQ(memory_text(1.234e9), "1.2 GB");
+  EXPECT_EQ(memory_text(15.2e6), "15 MB");
 }
 
 TEST(DescribeScene, SaysHowLargeAndWhetherAdmissible) {

@@ -330,6 +330,32 @@ TEST(CommandRun, UnsetLeavesKeysOfTheFileOut) {
                               "; did you mean contact.constant?\n");
 }
 
+TEST(CommandRun, MoreMemoryThanAllowedIsTwoBeforeAnythingIsTaken) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  for (const char* large : {"analysis.output_points=16777216", "time.quadrature_points=16777216"}) {
+    const Outcome outcome = run(
+        folder, {"run", scene, "--output", folder / "out", "--set", large, "--max-memory", "0.5"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find("this scene would take about "), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(" GB of memory and --max-memory allows 500 MB"), std::string::npos)
+        << outcome.errors;
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+  EXPECT_EQ(run(folder, {"run", scene, "-q", "--output", folder / "out", "--max-memory", "0.5"}).exit_code, 0);
+}
+
+TEST(CommandCheck, SaysWhatASceneIsExpectedToTake) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  EXPECT_NE(run(folder, {"check", scene}).output.find("cost       about 0.0"), std::string::npos);
+  const Outcome large = run(folder, {"check", scene, "--set", "time.functions=1048576", "--set",
+                                     "time.quadrature_points=16777216", "--set",
+                                     "analysis.output_points=16777216"});
+  EXPECT_EQ(large.exit_code, 0) << large.errors;
+  EXPECT_NE(large.output.find(" GB of memory"), std::string::npos) << large.output;
+}
+
 TEST(CommandRun, OutputWithoutANameIsTwo) {
   const TemporaryFolder folder;
   const Outcome outcome = run(folder, {"run", folder.write("case.toml", bar_scene), "--output", ""});

@@ -57,6 +57,18 @@ TEST_F(ChainScene, TimeSteppingCountsTheStatesOfTheMatrices) {
   EXPECT_NE(text.find("size       6 states"), std::string::npos) << text;
 }
 
+TEST_F(ChainScene, DampingThatAddsEnergyIsAWarning) {
+  folder_.write("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 10\n2 2 10\n3 3 -1\n");
+  const std::string damped = with(chain_scene, "modal_damping = 0.01 ", "damping = \"c.mtx\"");
+  const Scene scene = load(damped);
+  EXPECT_NE(describe_scene(scene).find("warning    structure.damping is not positive semidefinite"), std::string::npos);
+  const Record record = analyse(scene);
+  ASSERT_EQ(record.warnings.size(), 1u);
+  EXPECT_NE(record.warnings[0].find("the structure itself is unstable"), std::string::npos);
+  folder_.write("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 10\n2 2 10\n3 3 1\n");
+  EXPECT_TRUE(analyse(load(damped)).warnings.empty());
+}
+
 TEST_F(ChainScene, LoadsWithPathsRelativeToItsFile) {
   const Scene scene = load(chain_scene);
   EXPECT_EQ(scene.structure.matrices.mass, (folder_ / "m.mtx").string());

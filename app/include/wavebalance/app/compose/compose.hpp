@@ -47,6 +47,15 @@ StructureModes make_modes(const StructureModel& model);
 /// The scene's nonlinear mode on these modes.
 solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model);
 
+/// A scene made ready for the solvers, once.
+struct ComposedProblem {
+  solvers::CondensedProblem problem;  ///< see make_problem()
+  solvers::ContactLaws laws;          ///< no contact where the obstacles are rigid
+};
+
+/// The scene's pair and contact laws with its structure composed before.
+ComposedProblem compose_problem(const Scene& scene, const StructureModel& model);
+
 /// Structure, law's place and pair condensed on the contacts; at forcing.frequency if that is set.
 solvers::CondensedProblem make_problem(const Scene& scene);
 /// The same for the scene's structure composed before.

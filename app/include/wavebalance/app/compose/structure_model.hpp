@@ -19,6 +19,7 @@ struct StructureModel {
   solvers::LinearStructure structure;
   std::vector<int> contact_dofs;   ///< of the reduced structure
   Eigen::VectorXd gaps;            ///< m, one a contact
+  std::vector<std::string> warnings;  ///< what is wrong with the structure itself, a sentence each
   int unknowns = 0;                ///< of the structure before its reduction
   double reduction_seconds = 0.0;  ///< assembly, rotation and reduction; 0 for a bar
   /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are the same but

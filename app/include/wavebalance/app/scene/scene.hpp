@@ -4,16 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/fem/solid.hpp"
+#include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
+#include "wavebalance/solvers/time/time_pair.hpp"
+
 namespace wavebalance::app {
 
+using fem::SolidElement;
+using solvers::Formulation;
+using solvers::InnerProducts;
+using solvers::ModeFormulation;
+
 enum class StructureType { bar, blade, matrices };
-enum class BladeElement { hexahedron20, hexahedron20_reduced, hexahedron8 };
 enum class Direction { x, y, z };
 enum class TipPlace { leading_edge, mid_chord, trailing_edge };
 enum class ContactLawType { none, exponential, linear, rigid };
-enum class Formulation { strong, weak, distributional };
-enum class InnerProducts { quadrature, exact };
-enum class ModeFormulation { consistent, published };
 enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
 
 /// Contents of the files that a scene names; see structure_files.hpp.
@@ -48,7 +53,7 @@ struct BladeStructure {
   std::array<double, 2> angle_degrees = {10.0, 35.0};
   double edge_thickness = 0.35;  ///< over that at mid chord, in (0, 1]
   double poissons_ratio = 0.31;
-  BladeElement element = BladeElement::hexahedron20;
+  SolidElement element = SolidElement::hexahedron20;
   int chord_elements = 11;
   int thickness_elements = 1;
   int span_elements = 16;
@@ -166,7 +171,7 @@ struct Scene {
 
 /// The name of an enumerator as it stands in a scene file.
 std::string name_of(StructureType value);
-std::string name_of(BladeElement value);
+std::string name_of(SolidElement value);
 std::string name_of(TipPlace value);
 std::string name_of(Direction value);
 std::string name_of(ContactLawType value);

@@ -1,0 +1,128 @@
+#include "wavebalance/app/analysis/cost_estimate.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <numeric>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// Sizes of a scene as the docstring of estimate_cost() names them.
+struct Sizes {
+  double contacts, functions, points, output_points, degrees, active, period;
+};
+
+Sizes sizes_of(const Scene& scene) {
+  const Time& time = scene.time;
+  const bool filter = time.trial == "fourier" && time.weight == "fourier" && time.functions % 2 == 1;
+  const int common = std::gcd(time.quadrature_points, time.functions);
+  Sizes sizes{};
+  sizes.contacts = contacts_of(scene.structure);
+  sizes.functions = time.functions;
+  sizes.points = time.quadrature_points;
+  sizes.output_points = scene.analysis.output_points;
+  sizes.degrees = size_of(scene);
+  sizes.active = std::min(0.1 * sizes.contacts * sizes.points, 1000.0);
+  sizes.period = filter || common == 0 ? 1.0 : sizes.points / common;
+  return sizes;
+}
+
+bool takes_all_modes(const Scene& scene, double degrees) {
+  constexpr double most_modal = 1000;  // what solvers' condensation takes by modes
+  return scene.structure.modal_damping > 0.0 || scene.analysis.type == AnalysisType::nonlinear_mode ||
+         (scene.structure.type != StructureType::bar && degrees <= most_modal);
+}
+
+bool is_balance(const Scene& scene) {
+  const AnalysisType type = scene.analysis.type;
+  return type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep;
+}
+
+double structure_bytes(const Scene& scene, const Sizes& sizes) {
+  const double n = sizes.degrees;
+  const double motion = std::max(0, scene.analysis.motion_points) * static_cast<double>(unknowns_of(scene));
+  const double dense = scene.analysis.type == AnalysisType::time_stepping ? 128.0 * n * n
+                       : takes_all_modes(scene, n)                        ? 64.0 * n * n
+                                                                          : 0.0;
+  return 20e6 + 1500.0 * static_cast<double>(unknowns_of(scene)) + dense + 50.0 * motion;
+}
+
+double output_bytes(const Scene& scene, const Sizes& sizes) {
+  if (scene.analysis.type == AnalysisType::frequency_sweep) return 50.0 * sizes.contacts * sizes.output_points;
+  const double every_contact = sizes.contacts > 1.0 ? 400.0 * sizes.contacts : 0.0;
+  return (500.0 + every_contact) * sizes.output_points;
+}
+
+double balance_bytes(const Sizes& s) {
+  const double squared = s.contacts * s.contacts;
+  return 130.0 * s.contacts * s.points + (150.0 + 32.0 * squared) * s.functions +
+         8.0 * squared * s.points * s.period + 16.0 * s.active * s.active;
+}
+
+double response_seconds(const Sizes& s) {
+  return 8e-8 * s.contacts * s.points * std::log2(s.points) +
+         2e-8 * s.contacts * s.contacts * s.functions * s.degrees + 5e-10 * std::pow(s.active, 3);
+}
+
+double responses(const Analysis& analysis) {
+  if (analysis.type != AnalysisType::frequency_sweep) return 1.0;
+  const double steps = 2.0 * std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.largest_step;
+  return std::min(steps + 1.0, static_cast<double>(analysis.max_points));
+}
+
+/// Bytes of the control group's limit; infinite where there is none.
+double control_group_limit() {
+  std::ifstream file("/sys/fs/cgroup/memory.max");
+  double bytes = 0.0;
+  return file >> bytes && bytes > 0.0 ? bytes : std::numeric_limits<double>::infinity();
+}
+
+double process_limit(__rlimit_resource resource) {
+  rlimit limit{};
+  if (::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(limit.rlim_cur);
+}
+
+}  // namespace
+
+CostEstimate estimate_cost(const Scene& scene) {
+  const Sizes sizes = sizes_of(scene);
+  CostEstimate cost;
+  cost.bytes = structure_bytes(scene, sizes) + output_bytes(scene, sizes);
+  if (!is_balance(scene) || scene.time.tolerance > 0.0) {
+    cost.seconds = std::numeric_limits<double>::quiet_NaN();
+    return cost;
+  }
+  const double modes = takes_all_modes(scene, sizes.degrees) ? 2e-8 * std::pow(sizes.degrees, 3) : 0.0;
+  const double reduction = scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(unknowns_of(scene)) : 0.0;
+  cost.bytes += balance_bytes(sizes);
+  cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
+                 3e-6 * sizes.contacts * sizes.output_points;
+  return cost;
+}
+
+double available_memory() {
+  const double machine =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  return std::min({machine, process_limit(RLIMIT_AS), process_limit(RLIMIT_DATA), control_group_limit()});
+}
+
+std::string memory_text(double bytes) {
+  char text[32];
+  if (bytes >= 1e9)
+    std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
+  else
+    std::snprintf(text, sizeof text, "%.0f MB", bytes / 1e6);
+  return text;
+}
+
+}  // namespace wavebalance::app
