@@ -59,7 +59,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.warnings = model.warnings;
   record.converged = response.converged;
   record.status = response.status;
-  record.summary = opening(response.converged, response.status, response.residual, response.iterations,
+  record.summary = solution_entries(response.converged, response.status, response.residual, response.iterations,
                            response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.samples);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
@@ -120,7 +120,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
-      opening(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
+      solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
               model.contacts() * scene.time.functions, sweep.wall_seconds);
   record.summary.emplace_back("max_displacement_m", highest);
   record.summary.emplace_back("frequency_at_max_displacement_Hz", frequency_of_peak(sweep.curve));

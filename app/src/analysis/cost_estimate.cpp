@@ -25,11 +25,11 @@ Sizes sizes_of(const Scene& scene) {
   const bool filter = time.trial == "fourier" && time.weight == "fourier" && time.functions % 2 == 1;
   const int common = std::gcd(time.quadrature_points, time.functions);
   Sizes sizes{};
-  sizes.contacts = contacts_of(scene.structure);
+  sizes.contacts = contact_count(scene.structure);
   sizes.functions = time.functions;
   sizes.points = time.quadrature_points;
   sizes.output_points = scene.analysis.output_points;
-  sizes.degrees = size_of(scene);
+  sizes.degrees = reduced_size(scene);
   sizes.active = std::min(0.1 * sizes.contacts * sizes.points, 1000.0);
   sizes.period = filter || common == 0 ? 1.0 : sizes.points / common;
   return sizes;
@@ -48,11 +48,11 @@ bool is_balance(const Scene& scene) {
 
 double structure_bytes(const Scene& scene, const Sizes& sizes) {
   const double n = sizes.degrees;
-  const double motion = std::max(0, scene.analysis.motion_points) * static_cast<double>(unknowns_of(scene));
+  const double motion = std::max(0, scene.analysis.motion_points) * static_cast<double>(structure_dofs(scene));
   const double dense = scene.analysis.type == AnalysisType::time_stepping ? 128.0 * n * n
                        : takes_all_modes(scene, n)                        ? 64.0 * n * n
                                                                           : 0.0;
-  return 20e6 + 1500.0 * static_cast<double>(unknowns_of(scene)) + dense + 50.0 * motion;
+  return 20e6 + 1500.0 * static_cast<double>(structure_dofs(scene)) + dense + 50.0 * motion;
 }
 
 double output_bytes(const Scene& scene, const Sizes& sizes) {
@@ -103,7 +103,7 @@ CostEstimate estimate_cost(const Scene& scene) {
     return cost;
   }
   const double modes = takes_all_modes(scene, sizes.degrees) ? 2e-8 * std::pow(sizes.degrees, 3) : 0.0;
-  const double reduction = scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(unknowns_of(scene)) : 0.0;
+  const double reduction = scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(structure_dofs(scene)) : 0.0;
   cost.bytes += balance_bytes(sizes);
   cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
                  3e-6 * sizes.contacts * sizes.output_points;

@@ -28,17 +28,17 @@ std::string blade_line(const Scene& scene) {
   const BladeStructure& blade = scene.structure.blade;
   std::string text = "structure  blade, " + std::to_string(blade.chord_elements) + " x " +
                      std::to_string(blade.thickness_elements) + " x " + std::to_string(blade.span_elements) +
-                     " elements " + name_of(blade.element) + ", " + std::to_string(unknowns_of(scene)) +
-                     " degrees of freedom, reduced to " + std::to_string(size_of(scene)) + " (" +
+                     " elements " + name_of(blade.element) + ", " + std::to_string(structure_dofs(scene)) +
+                     " degrees of freedom, reduced to " + std::to_string(reduced_size(scene)) + " (" +
                      count_text(scene.structure.kept_modes, "mode") + ")";
   if (blade.rotation_speed > 0.0) text += ", turning at " + number_text(blade.rotation_speed) + " rad/s";
   return text + "\n";
 }
 
 std::string matrices_line(const Scene& scene) {
-  std::string text = "structure  matrices, " + count_text(unknowns_of(scene), "degree") + " of freedom";
+  std::string text = "structure  matrices, " + count_text(structure_dofs(scene), "degree") + " of freedom";
   if (scene.structure.kept_modes >= 0)
-    text += ", reduced to " + std::to_string(size_of(scene)) + " (" +
+    text += ", reduced to " + std::to_string(reduced_size(scene)) + " (" +
             count_text(scene.structure.kept_modes, "mode") + ")";
   return text + "\n";
 }
@@ -57,7 +57,7 @@ std::string structure_line(const Scene& scene) {
 
 std::string contact_place(const Structure& structure) {
   if (structure.type == StructureType::bar) return "at the tip";
-  const std::string count = count_text(contacts_of(structure), "degree") + " of freedom";
+  const std::string count = count_text(contact_count(structure), "degree") + " of freedom";
   return "at " + count + (structure.type == StructureType::blade ? " along the tip, radially" : "");
 }
 
@@ -119,12 +119,12 @@ std::string time_lines(const Time& time) {
 
 std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
-    return "size       " + std::to_string(2 * size_of(scene)) +
+    return "size       " + std::to_string(2 * reduced_size(scene)) +
            " states, periods until they differ by " + number_text(scene.analysis.tolerance) + "\n";
   if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
-  return "size       " + std::to_string(contacts_of(scene.structure) * functions) +
-         " unknowns after condensation on the contact (" + std::to_string(size_of(scene) * functions) +
+  return "size       " + std::to_string(contact_count(scene.structure) * functions) +
+         " unknowns after condensation on the contact (" + std::to_string(reduced_size(scene) * functions) +
          " before)\n";
 }
 
@@ -140,9 +140,9 @@ std::string mode_lines(const Scene& scene) {
   return "mode       " + std::to_string(analysis.mode) + ", " + range + formulation +
          "\ntime       Fourier series, " + std::to_string(analysis.harmonics) + " harmonics" +
          (analysis.cosine_only ? " (cosines only)" : "") + "\nsize       " +
-         std::to_string(std::int64_t{contacts_of(scene.structure)} * analysis.samples) +
+         std::to_string(std::int64_t{contact_count(scene.structure)} * analysis.samples) +
          " contact forces after condensation on the contact (" +
-         std::to_string(std::int64_t{size_of(scene)} * (2 * analysis.harmonics + 1)) + " unknowns before)\n";
+         std::to_string(std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1)) + " unknowns before)\n";
 }
 
 std::string duration_text(double seconds) {
@@ -172,10 +172,10 @@ std::string warning_lines(const Scene& scene) {
 
 std::string describe_scene(const Scene& scene) {
   const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
-  const std::string opening =
+  const std::string first_lines =
       "analysis   " + name_of(scene.analysis.type) + "\n" + structure_line(scene) + contact_line(scene);
-  if (scene.analysis.type == AnalysisType::nonlinear_mode) return opening + mode_lines(scene) + cost_line(scene);
-  return opening + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene) +
+  if (scene.analysis.type == AnalysisType::nonlinear_mode) return first_lines + mode_lines(scene) + cost_line(scene);
+  return first_lines + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene) +
          cost_line(scene) + warning_lines(scene);
 }
 

@@ -100,7 +100,7 @@ Record curve_record(const ModeStudy& study) {
   record.converged = curve.converged();
   record.status = curve.status();
   record.summary =
-      opening(record.converged, record.status, worst_residual(curve), iterations_of(curve),
+      solution_entries(record.converged, record.status, worst_residual(curve), iterations_of(curve),
               study.mode().model().contacts() * study.scene().analysis.samples, curve.wall_seconds);
   append_curve(record.summary, curve, common_gap(study));
   append_discretisation(record.summary, study);
@@ -134,7 +134,7 @@ Record motion_record(const ModeStudy& study) {
   record.status = to_string(point.status);
   if (point.status == ModeStatus::tongue) record.status += " " + tongue_name(point.tongue);
   record.summary =
-      opening(record.converged, record.status, moves ? study.residual(point) : missing, point.iterations,
+      solution_entries(record.converged, record.status, moves ? study.residual(point) : missing, point.iterations,
               study.model().contacts() * scene.analysis.samples, response.wall_seconds);
   append_motion(record.summary, response.samples);
   append_discretisation(record.summary, study);
@@ -211,7 +211,7 @@ Record published_record(const ModeStudy& study) {
                       ? "converged"
                       : std::string(to_string(last.status)) + " at energy ratio " + cell_text(last.prescribed_ratio);
   const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
-  record.summary = opening(record.converged, record.status, measures.gradient, measures.iterations, unknowns,
+  record.summary = solution_entries(record.converged, record.status, measures.gradient, measures.iterations, unknowns,
                            response.wall_seconds);
   append_motion(record.summary, response.samples);
   append_published(record.summary, study, branch, measures.equation);

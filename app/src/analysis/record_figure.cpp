@@ -35,7 +35,7 @@ std::string basis_title(const std::string& basis) {
 std::string structure_title(const Structure& structure) {
   if (structure.type == StructureType::bar) return std::to_string(structure.elements) + " elements";
   const std::string kind = structure.type == StructureType::blade ? "blade" : "matrices";
-  const int contacts = contacts_of(structure);
+  const int contacts = contact_count(structure);
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
 }
 

@@ -8,7 +8,7 @@
 
 namespace wavebalance::app {
 
-Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
+Summary solution_entries(bool converged, const std::string& status, double residual, int iterations, int unknowns,
                 double wall_seconds) {
   return {{"converged", converged},
           {"status", status},

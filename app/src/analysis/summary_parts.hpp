@@ -9,8 +9,8 @@ namespace wavebalance::app {
 
 inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-/// The fields that open every summary.
-Summary opening(bool converged, const std::string& status, double residual, int iterations, int unknowns,
+/// The first entries of every summary.
+Summary solution_entries(bool converged, const std::string& status, double residual, int iterations, int unknowns,
                 double wall_seconds);
 
 /// Pair of bases, its formulation and its sizes.

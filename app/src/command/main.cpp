@@ -103,7 +103,7 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, told like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, reported like a full disk
   try {
     return dispatch(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -58,7 +58,7 @@ solvers::AnyContactLaw make_law(const Contact& contact, int index) {
 solvers::ContactLaws make_laws(const Scene& scene) {
   if (scene.contact.gaps.empty()) return make_law(scene.contact);
   std::vector<solvers::AnyContactLaw> laws;
-  for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
+  for (int contact = 0; contact < contact_count(scene.structure); ++contact)
     laws.push_back(make_law(scene.contact, contact));
   return laws;
 }

@@ -83,7 +83,7 @@ void check_sweep(const Document& document, const Analysis& analysis) {
 
 /// What limits the number of linear modes.
 std::string size_text(const Scene& scene) {
-  const int size = size_of(scene);
+  const int size = reduced_size(scene);
   if (scene.structure.type == StructureType::bar) return "structure.elements = " + std::to_string(size);
   return "the structure's degrees of freedom" +
          std::string(scene.structure.kept_modes < 0 ? "" : " once reduced");
@@ -93,14 +93,14 @@ void check_dense_size(const Document& document, const Scene& scene) {
   const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   const bool damped = scene.structure.modal_damping > 0.0;
-  if ((!stepping && !mode && !damped) || size_of(scene) <= most_dense_unknowns) return;
+  if ((!stepping && !mode && !damped) || reduced_size(scene) <= most_dense_unknowns) return;
   const std::string most = "expected at most " + std::to_string(most_dense_unknowns) + " ";
   const std::string why = mode       ? "for a nonlinear mode, which takes all linear modes"
                           : stepping ? "for time stepping, whose matrices are dense"
                                      : "for modal damping, which takes all linear modes";
   if (scene.structure.type == StructureType::bar) fail_rule(document, {"structure.elements"}, most + why);
   const std::string advice = "; structure.kept_modes reduces them";
-  const std::string count = std::to_string(size_of(scene)) + " degrees of freedom; ";
+  const std::string count = std::to_string(reduced_size(scene)) + " degrees of freedom; ";
   fail_rule(document, {"structure.kept_modes", "structure.stiffness"}, count + most + why + advice);
 }
 
@@ -108,12 +108,12 @@ void check_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   if (scene.contact.law != ContactLawType::rigid)
     fail_rule(document, {"contact.law"}, "expected \"rigid\" for a nonlinear mode");
-  for (int contact = 0; contact < contacts_of(scene.structure); ++contact)
+  for (int contact = 0; contact < contact_count(scene.structure); ++contact)
     if (!(scene.contact.gap_of(contact) > 0.0))
       fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
-  if (analysis.mode > size_of(scene))
+  if (analysis.mode > reduced_size(scene))
     fail_rule(document, {"analysis.mode"},
-              "expected at most " + std::to_string(size_of(scene)) + ", " + size_text(scene));
+              "expected at most " + std::to_string(reduced_size(scene)) + ", " + size_text(scene));
   if (analysis.samples < 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));

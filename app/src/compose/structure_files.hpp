@@ -13,7 +13,7 @@ namespace wavebalance::app {
 
 /// The files of a structure of matrices, read and checked.
 struct StructureFiles {
-  std::array<std::string, 4> paths;  ///< of mass, stiffness, damping and load; empty: none
+  std::array<std::string, 4> paths;  ///< files of mass, stiffness, damping and load; empty: none
   fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
   Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
   bool damping_adds_energy = false;  ///< it is not positive semidefinite

@@ -106,7 +106,7 @@ Eigen::VectorXd blade_load(const Scene& scene, const fem::Blade& blade) {
 }
 
 /// The stiffness of the turning blade; its damping stays that of the material at rest.
-void turn(fem::Matrices& matrices, const fem::SolidModel& solid, const BladeStructure& blade) {
+void stiffen_by_rotation(fem::Matrices& matrices, const fem::SolidModel& solid, const BladeStructure& blade) {
   if (blade.rotation_speed == 0.0) return;
   const auto& axis = blade.rotation_axis;
   const auto stiffening = fem::centrifugal_stiffness(
@@ -119,7 +119,7 @@ StructureModel blade_model(const Scene& scene) {
   StructureModel model;
   const auto blade = std::make_shared<const fem::Blade>(fem::blade(blade_options(scene.structure)));
   fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
-  turn(matrices, blade->model, scene.structure.blade);
+  stiffen_by_rotation(matrices, blade->model, scene.structure.blade);
   reduce(model, matrices, blade_load(scene, *blade), blade->boundary_unknowns, scene.structure.kept_modes);
   model.structure.contact_dofs.clear();
   for (std::size_t contact = 0; contact < blade->contact_unknowns.size(); ++contact)
@@ -138,12 +138,12 @@ Eigen::VectorXd signs_of(const std::vector<int>& contact_dofs, Eigen::Index size
   return signs;
 }
 
-fem::Matrices turned_round(const fem::Matrices& matrices, const Eigen::VectorXd& signs) {
+fem::Matrices orient_contacts(const fem::Matrices& matrices, const Eigen::VectorXd& signs) {
   if (signs.size() == 0) return matrices;
-  const auto turned = [&](const Sparse& matrix) -> Sparse {
+  const auto oriented = [&](const Sparse& matrix) -> Sparse {
     return matrix.size() == 0 ? matrix : Sparse(signs.asDiagonal() * matrix * signs.asDiagonal());
   };
-  return {turned(matrices.mass), turned(matrices.damping), turned(matrices.stiffness)};
+  return {oriented(matrices.mass), oriented(matrices.damping), oriented(matrices.stiffness)};
 }
 
 StructureModel matrices_model(const Scene& scene) {
@@ -154,7 +154,7 @@ StructureModel matrices_model(const Scene& scene) {
   model.warnings = warnings_of(*files);
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
   model.signs = signs_of(structure.matrices.contact_dofs, model.unknowns);
-  fem::Matrices matrices = turned_round(files->matrices, model.signs);
+  fem::Matrices matrices = orient_contacts(files->matrices, model.signs);
   if (structure.stiffness_damping > 0.0) matrices.damping = structure.stiffness_damping * matrices.stiffness;
   Eigen::VectorXd load = scene.forcing.amplitude * unit_load(scene, *files);
   if (model.signs.size() > 0) load.array() *= model.signs.array();
@@ -210,7 +210,7 @@ StructureModel make_model(const Scene& scene) {
   return model;
 }
 
-int contacts_of(const Structure& structure) {
+int contact_count(const Structure& structure) {
   switch (structure.type) {
     case StructureType::blade:
       return 2 * (structure.blade.chord_elements + 1);
@@ -222,13 +222,13 @@ int contacts_of(const Structure& structure) {
   return 1;
 }
 
-int size_of(const Scene& scene) {
+int reduced_size(const Scene& scene) {
   const Structure& structure = scene.structure;
   switch (structure.type) {
     case StructureType::bar:
       return structure.elements;
     case StructureType::blade:
-      return 3 * contacts_of(structure) + structure.kept_modes;
+      return 3 * contact_count(structure) + structure.kept_modes;
     case StructureType::matrices:
       break;
   }
@@ -237,7 +237,7 @@ int size_of(const Scene& scene) {
   return static_cast<int>(boundary_rows(scene, *files).size()) + structure.kept_modes;
 }
 
-std::int64_t unknowns_of(const Scene& scene) {
+std::int64_t structure_dofs(const Scene& scene) {
   switch (scene.structure.type) {
     case StructureType::blade:
       return blade_unknowns(scene.structure.blade);

@@ -39,7 +39,7 @@ void check_blade(const Document& document, const Structure& structure) {
   const auto& axis = structure.blade.rotation_axis;
   if (std::hypot(axis[0], axis[1], axis[2]) == 0.0)
     fail_rule(document, {"structure.rotation_axis"}, "expected a direction, which is not zero");
-  const std::int64_t interior = blade_unknowns(structure.blade) - 3 * contacts_of(structure);
+  const std::int64_t interior = blade_unknowns(structure.blade) - 3 * contact_count(structure);
   if (structure.kept_modes > interior)
     fail_rule(document, {"structure.kept_modes", "structure.span_elements"},
               "expected at most " + std::to_string(interior) +
@@ -47,7 +47,7 @@ void check_blade(const Document& document, const Structure& structure) {
 }
 
 void check_gaps(const Document& document, const Scene& scene) {
-  const int contacts = contacts_of(scene.structure);
+  const int contacts = contact_count(scene.structure);
   const auto given = static_cast<int>(scene.contact.gaps.size());
   if (given > 0 && given != contacts)
     fail_rule(document, {"contact.gap"},

@@ -190,7 +190,7 @@ TEST(MatricesModel, FilesOfTheStripAreWhatFemMakes) {
   EXPECT_LT(mass.norm(), 1e-12 * matrices.mass.norm());
   EXPECT_LT(stiffness.norm(), 1e-12 * matrices.stiffness.norm());
   for (const char* scene : {"strip_mode.toml", "strip_forced.toml"})
-    EXPECT_EQ(unknowns_of(load_scene(folder / scene)), 72) << scene;
+    EXPECT_EQ(structure_dofs(load_scene(folder / scene)), 72) << scene;
 }
 
 Scene chain(const TemporaryFolder& folder, const std::vector<std::string>& overrides,

@@ -75,7 +75,7 @@ TEST_F(ChainScene, LoadsWithPathsRelativeToItsFile) {
   EXPECT_EQ(scene.structure.matrices.contact_dofs, (std::vector<int>{2, 3}));
   EXPECT_EQ(scene.structure.kept_modes, -1);
   EXPECT_EQ(scene.analysis.motion_points, 0);
-  EXPECT_EQ(unknowns_of(scene), 3);
+  EXPECT_EQ(structure_dofs(scene), 3);
   EXPECT_EQ(parse_scene(write_scene(scene), "elsewhere.toml"), scene);
 }
 
@@ -216,9 +216,9 @@ TEST(BladeScene, TypeAloneIsTheOpenBlade) {
   EXPECT_EQ(options.span_elements, defaults.span_elements);
   EXPECT_EQ(scene.structure.kept_modes, 40);
   EXPECT_EQ(scene.analysis.motion_points, 32);
-  EXPECT_EQ(unknowns_of(scene), 3936);
-  EXPECT_EQ(size_of(scene), 112);
-  EXPECT_EQ(contacts_of(scene.structure), 24);
+  EXPECT_EQ(structure_dofs(scene), 3936);
+  EXPECT_EQ(reduced_size(scene), 112);
+  EXPECT_EQ(contact_count(scene.structure), 24);
   EXPECT_EQ(parse_scene(write_scene(scene), "written.toml"), scene);
 }
 
@@ -250,8 +250,8 @@ TEST(BladeScene, UnknownsAreThoseOfTheMesh) {
         std::vector<std::string>{"structure.chord_elements=3", "structure.thickness_elements=2",
                                  "structure.span_elements=4", std::string("structure.element=") + element});
     const auto blade = wavebalance::fem::blade(blade_options(scene.structure));
-    EXPECT_EQ(unknowns_of(scene), blade.model.dofs.count()) << element;
-    EXPECT_EQ(contacts_of(scene.structure), static_cast<int>(blade.contact_nodes.size()));
+    EXPECT_EQ(structure_dofs(scene), blade.model.dofs.count()) << element;
+    EXPECT_EQ(contact_count(scene.structure), static_cast<int>(blade.contact_nodes.size()));
   }
 }
 

@@ -54,14 +54,14 @@ struct Record {
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< frequency_Hz, max_displacement_m, rms_displacement_m; empty otherwise
-  Table backbone;   ///< of a nonlinear mode, see backbone_table(); empty otherwise
+  Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
   Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx.
   std::vector<RecordFile> files;
   Figure figure;  ///< without panels when there is nothing to draw
 };
 
-/// Solves `scene`. A failure to converge is told by the record. Throws std::invalid_argument or
+/// Solves `scene`. A failure to converge is reported in the record. Throws std::invalid_argument or
 /// solvers::InadmissiblePair for scenes that load_scene() would not have let pass.
 Record analyse(const Scene& scene, const Observer& observer = {});
 

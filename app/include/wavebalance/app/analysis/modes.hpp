@@ -16,14 +16,14 @@ struct Interruption {
   double first_ratio = 0.0;  ///< frequency over the linear one
   double last_ratio = 0.0;
   std::vector<std::string> tongues;  ///< internal resonances on it, "3:2" for harmonic 3 and linear mode 2
-  std::string status;                ///< of its first point that lies on no tongue; empty if all do
+  std::string status;                ///< status of its first point that lies on no internal resonance; empty if all do
   bool bridged = false;              ///< accepted points with contact follow
 };
 
 /// A nonlinear mode over its frequency.
 struct Backbone {
   std::vector<solvers::ModePoint> points;  ///< with contact, in the order of their frequencies
-  std::vector<double> residuals;           ///< of the equation of motion, see ModeStudy::residual()
+  std::vector<double> residuals;           ///< residuals of the equation of motion, see ModeStudy::residual()
   std::vector<Interruption> interruptions;
   double wall_seconds = 0.0;
 
@@ -61,7 +61,7 @@ class ModeStudy {
   /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
   /// solution. O(c N points).
   ContactMotion contact_motion(const solvers::ModePoint& point, int points) const;
-  /// Of the leading contact; with full_history also the motion of the structure as the solvers see it, which
+  /// The motion of the leading contact; with full_history also that of the structure as the solvers see it, which
   /// model().recover() takes to the whole. O(n N points).
   solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
 

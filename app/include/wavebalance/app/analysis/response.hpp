@@ -23,7 +23,7 @@ using solvers::Progress;
 struct RigidContact {
   double max_penetration = 0.0;  ///< m, at the quadrature points, where contact is enforced; negative: none
   double min_force = 0.0;        ///< N, at the quadrature points
-  double product = 0.0;          ///< of force and opening over their largest, at the quadrature points
+  double product = 0.0;          ///< largest force times distance, over the largest of each, at the quadrature points
   double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
 };
 
@@ -48,11 +48,11 @@ struct Response {
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
-  std::optional<RigidContact> rigid;     ///< of scenes with rigid contact
-  std::optional<Refinement> refinement;  ///< of scenes with time.tolerance
+  std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
+  std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   ContactMotion contacts;                ///< analysis.output_points samples; empty if there is nothing at all
   int contact = 0;                       ///< the leading one, see ContactMotion::leading()
-  solvers::PeriodSamples samples;  ///< of that one; the full history is of the structure as solvers see it
+  solvers::PeriodSamples samples;  ///< motion of that contact; the full history is that of the reduced structure
   Eigen::MatrixXd motion;          ///< that structure's displacements, size x ResponseOptions::motion_points
 };
 
@@ -65,7 +65,7 @@ struct ResponseOptions {
 };
 
 /// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
-/// singular system is told by `converged` and `status`; then `samples` hold the last iterate. Throws
+/// singular system is reported by `converged` and `status`; then `samples` hold the last iterate. Throws
 /// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would not have let pass.
 ///
 /// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature

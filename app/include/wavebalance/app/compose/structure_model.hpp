@@ -17,10 +17,10 @@ struct StructureModel {
   /// Reduced if the scene asks for it; its displacements in contact count towards their obstacles. Its load
   /// is the force's amplitude.
   solvers::LinearStructure structure;
-  std::vector<int> contact_dofs;   ///< of the reduced structure
-  Eigen::VectorXd gaps;            ///< m, one a contact
+  std::vector<int> contact_dofs;   ///< rows of the reduced structure
+  Eigen::VectorXd gaps;            ///< m, one per contact
   std::vector<std::string> warnings;  ///< what is wrong with the structure itself, a sentence each
-  int unknowns = 0;                ///< of the structure before its reduction
+  int unknowns = 0;                ///< degrees of freedom before the reduction
   double reduction_seconds = 0.0;  ///< assembly, rotation and reduction; 0 for a bar
   /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are the same but
   /// for signs.
@@ -42,13 +42,13 @@ struct StructureModel {
 /// freely, std::runtime_error if the kept modes are not found.
 StructureModel make_model(const Scene& scene);
 
-/// How many degrees of freedom touch in a scene. O(1).
-int contacts_of(const Structure& structure);
+/// How many degrees of freedom are in contact in a scene. O(1).
+int contact_count(const Structure& structure);
 
 /// Degrees of freedom of the scene's structure, and of the reduced one that the solvers see. Files of
 /// matrices that load_scene() has not read are read.
-std::int64_t unknowns_of(const Scene& scene);
-int size_of(const Scene& scene);
+std::int64_t structure_dofs(const Scene& scene);
+int reduced_size(const Scene& scene);
 
 /// Degrees of freedom of a blade's mesh, its root held. O(1).
 std::int64_t blade_unknowns(const BladeStructure& blade);

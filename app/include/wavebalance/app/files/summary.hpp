@@ -10,7 +10,7 @@
 
 namespace wavebalance::app {
 
-/// A Table is written as an array of objects, one a row.
+/// A Table is written as an array of objects, one per row.
 using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
                                   std::vector<std::string>, Table>;
 using Summary = std::vector<std::pair<std::string, SummaryValue>>;

@@ -44,8 +44,8 @@ struct Series {
 
   std::string label;  ///< in the legend; none when empty
   std::vector<double> x;
-  std::vector<double> y;  ///< of x's length
-  std::vector<double> z;  ///< of x's length in a panel of three dimensions, empty otherwise
+  std::vector<double> y;  ///< as many as x
+  std::vector<double> z;  ///< as many as x in a panel of three dimensions, empty otherwise
   SeriesStyle style = SeriesStyle::line;
   Colour colour = Colour::automatic;
   Dash dash = Dash::solid;
@@ -62,16 +62,16 @@ struct Axis {
   std::optional<double> upper;
   bool logarithmic = false;
   std::vector<double> ticks;  ///< chosen by gnuplot when empty
-  std::string tick_format;    ///< of gnuplot, "%.1f"; empty for its default
+  std::string tick_format;    ///< a format of gnuplot, "%.1f"; empty for its default
 };
 
 /// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest.
 struct HeatMap {
   std::vector<double> x;       ///< columns, uniform
   std::vector<double> y;       ///< rows, uniform
-  std::vector<double> values;  ///< rows of x's length, one a y; NaN is left out
+  std::vector<double> values;  ///< one row of x values per y; NaN is left out
   double largest = 1.0;        ///< > 0: colours end at -largest and largest
-  std::string label;           ///< of the colours
+  std::string label;           ///< what the colours show
 };
 
 /// Where the legend of a panel stands.

@@ -77,7 +77,7 @@ struct Structure {
   double lumped_mass_fraction = 0.0;  ///< 0 consistent mass, 1 lumped mass, between them a mixture
   bool massless_tip = false;          ///< the tip's mass is moved to its neighbour: forced_response and sweep
   double modal_damping = 0.0;         ///< ratio to critical of every mode; not a bar's
-  int kept_modes = -1;                ///< of a Craig-Bampton reduction; -1: none, all unknowns stay
+  int kept_modes = -1;                ///< modes that a Craig-Bampton reduction keeps; -1: no reduction
   MatricesStructure matrices = {};
   BladeStructure blade = {};
 
@@ -92,7 +92,7 @@ struct Contact {
   double exponent = 0.0;          ///< 1/m, > 0, alpha of the exponential law
   double stiffness = 0.0;         ///< N/m, > 0, slope of the linear law
   double gap = 0.0;               ///< m, displacement at which contact starts
-  std::vector<double> gaps = {};  ///< m, one a contact in place of gap; empty: gap holds for all
+  std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
 
   /// The gap of one contact, from 0.
   double gap_of(int contact) const;

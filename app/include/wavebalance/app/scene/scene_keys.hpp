@@ -71,10 +71,10 @@ struct SceneKey {
   std::string_view name;
   Type type = Type::number;
   Form form = Form::single;
-  int length = 0;                         ///< of a list; 0: any from 1 on
+  int length = 0;                         ///< number of entries of a list; 0: any from 1 on
   std::string_view unit;                  ///< empty for text and for pure numbers
-  Bounds bounds;                          ///< of integers and numbers, those of a list one by one
-  std::vector<std::string_view> choices;  ///< of text
+  Bounds bounds;                          ///< what an integer, a number or each entry of a list may be
+  std::vector<std::string_view> choices;  ///< the texts that are allowed
   Condition belongs;                      ///< elsewhere the key is an error
   Condition needed;                       ///< where the key is required if it has no default
   Default fallback = Default::required;
