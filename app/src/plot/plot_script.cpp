@@ -182,11 +182,12 @@ std::string mark_text(const TextMark& mark) {
 /// 0.0005. Labels of segments stand right of the panel, in 6 characters.
 std::string frame_text(bool frame, bool aligned, bool labelled) {
   if (!frame) return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\n";
-  return std::string("set border 3 lc rgb '") + text_colour +
-         "' lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
-         "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n" +
-         (aligned ? "set lmargin 9\n" : "unset lmargin\n") +
-         (labelled ? "set rmargin 6\n" : "unset rmargin\n");
+  std::string text = "set border 3 lc rgb " + quoted(text_colour);
+  text += " lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
+          "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n";
+  text += aligned ? "set lmargin 9\n" : "unset lmargin\n";
+  text += labelled ? "set rmargin 6\n" : "unset rmargin\n";
+  return text;
 }
 
 /// The heading stands at the left so that letters of panels line up.

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Stops, StrategyOf,
                                            StrategyCase{"small_factors", "1e9", "-1e-4"},
                                            StrategyCase{"fixed_factor", "1e7", "0"},
                                            StrategyCase{"stiff_obstacle", "1e9", "1e-4"}),
-                         [](const auto& info) { return info.param.strategy; });
+                         [](const auto& one) { return one.param.strategy; });
 
 }  // namespace
 }  // namespace wavebalance::app

@@ -10,7 +10,7 @@ struct Progress {
   std::string_view phase;  ///< what is done: "Newton", "lowering the obstacle", "frequency sweep"
   int step = 0;            ///< steps of this phase so far
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when the phase has none
-  std::string_view measure;  ///< what `value` is: "relative residual", "Hz"; empty when there is none
+  std::string_view measure = {};  ///< what `value` is: "relative residual", "Hz"; empty when there is none
   double done = std::numeric_limits<double>::quiet_NaN();  ///< share of the whole work, 0..1; NaN when unknown
 };
 
