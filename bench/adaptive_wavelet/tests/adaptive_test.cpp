@@ -49,7 +49,7 @@ solvers::Selection sparse_selection(const MultiscaleBasis& basis) {
 }
 
 // Newton's own tolerance must not hide what is compared.
-constexpr solvers::NewtonOptions tight() {
+solvers::NewtonOptions tight() {
   solvers::NewtonOptions options;
   options.tolerance = 1e-13;
   return options;

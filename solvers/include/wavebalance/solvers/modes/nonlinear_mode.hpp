@@ -109,7 +109,7 @@ struct BackboneOptions {
   double max_energy = 10.0;      ///< the curve ends once the energy ratio is above
   /// Of ln(energy ratio) between accepted neighbours; above it a point is solved anew by harmonic continuation.
   double max_jump = 0.25;
-  Observer observer;             ///< called before each point; the curve ends where it asks to stop
+  Observer observer = {};        ///< called before each point; the curve ends where it asks to stop
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
