@@ -16,11 +16,12 @@ void require_match(const CondensedProblem& problem, const MultiscaleBasis& basis
   if (basis.functions() == problem.pair().functions() && basis.points() == problem.points() &&
       problem.contact_free_response().size() == problem.points())
     return;
-  throw std::invalid_argument(
-      "selected_balance: the basis has " + std::to_string(basis.functions()) + " functions and " +
-      std::to_string(basis.points()) + " points, the problem " + std::to_string(problem.pair().functions()) +
-      " and " + std::to_string(problem.points()) + " with " + std::to_string(problem.contact_free_response().size()) +
-      " samples; they must agree, with one contact and a frequency");
+  throw std::invalid_argument("selected_balance: the basis has " + std::to_string(basis.functions()) +
+                              " functions and " + std::to_string(basis.points()) + " points, the problem " +
+                              std::to_string(problem.pair().functions()) + " and " +
+                              std::to_string(problem.points()) + " with " +
+                              std::to_string(problem.contact_free_response().size()) +
+                              " samples; they must agree, with one contact and a frequency");
 }
 
 // A force at one sample beside whose effect the contact-free response is rounding: their difference loses

@@ -2,9 +2,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "multiscale_basis.hpp"
 #include "wavebalance/solvers/balance/contact_law.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "multiscale_basis.hpp"
 
 namespace wavebalance::solvers {
 

@@ -27,8 +27,7 @@ constexpr Curve wavelet_curves[] = {
     {"bspline", "uniform", "B-spline, uniform", Colour::blue, app::Dash::dashed, 6},
     {"bspline", "whole_levels", "B-spline, whole levels", Colour::sky_blue, app::Dash::dotted, 2},
     {"bspline", "adaptive_residual", "B-spline, adaptive", Colour::blue, app::Dash::solid, 7},
-    {"bspline", "stiffness_section", "B-spline, selected first", Colour::grey, app::Dash::dash_dotted,
-     1}};
+    {"bspline", "stiffness_section", "B-spline, selected first", Colour::grey, app::Dash::dash_dotted, 1}};
 
 constexpr Curve rigid_curves[] = {
     {"daubechies6", "uniform", "DB6, uniform", Colour::orange, app::Dash::dashed, 4},
@@ -70,8 +69,7 @@ void mark_instants(Panel& panel, const bench::Study& study) {
   panel.legend = Legend::none;
 }
 
-void add_selection_panel(app::Figure& figure, const bench::Study& study,
-                         const app::Table& selection) {
+void add_selection_panel(app::Figure& figure, const bench::Study& study, const app::Table& selection) {
   Panel& panel = figure.add_panel("case 2: the " + std::to_string(selection.rows()) +
                                   " B-spline functions of error 10^{-5}");
   Series series("", selection, "time_fraction", "block", SeriesStyle::points);
@@ -85,8 +83,7 @@ void add_selection_panel(app::Figure& figure, const bench::Study& study,
   panel.y.ticks = {0, 1, 2, 3, 4, 5, 6};
 }
 
-void add_cell_panel(app::Figure& figure, const bench::Study& study,
-                    const solvers::CellResponse& response) {
+void add_cell_panel(app::Figure& figure, const bench::Study& study, const solvers::CellResponse& response) {
   Panel& panel = figure.add_panel("case 2, rigid: the " + std::to_string(response.cells.size()) +
                                   " cells of error 10^{-4}");
   std::vector<double> times, widths;
@@ -114,19 +111,19 @@ const auto& first_below(const Rounds& rounds, double bound, const Error& error) 
   return rounds.back().response;
 }
 
-void write(const std::filesystem::path& folder, const app::Table& table,
-           const app::Table& selection, const app::Figure& figure) {
+void write(const std::filesystem::path& folder, const app::Table& table, const app::Table& selection,
+           const app::Figure& figure) {
   const std::string units = "study, basis, method; functions, cells; errors relative to the rms displacement";
   bench::write_data(folder, "adaptive_wavelet", table,
-                       {"Error of the tip displacement over the number of unknowns, adaptive and uniform",
-                        units,
-                        "jones_legrand_2014/case1.toml, case2.toml, case1_rigid.toml, case2_rigid.toml",
-                        {"cpu_ms: processor time, for adaptive methods of all rounds up to this one"}});
+                    {"Error of the tip displacement over the number of unknowns, adaptive and uniform",
+                     units,
+                     "jones_legrand_2014/case1.toml, case2.toml, case1_rigid.toml, case2_rigid.toml",
+                     {"cpu_ms: processor time, for adaptive methods of all rounds up to this one"}});
   bench::write_data(folder, "adaptive_wavelet_selection", selection,
-                       {"Where the functions that were selected lie, and of which block they are",
-                        "fractions of the period",
-                        "jones_legrand_2014/case2.toml",
-                        {}});
+                    {"Where the functions that were selected lie, and of which block they are",
+                     "fractions of the period",
+                     "jones_legrand_2014/case2.toml",
+                     {}});
   app::write_pictures(folder / "adaptive_wavelet", figure);
 }
 

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "adaptive_wavelet.hpp"
 #include "dense_solve.hpp"
 #include "linalg/safe_norm.hpp"
 #include "linalg/spans.hpp"
-#include "adaptive_wavelet.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -10,8 +10,8 @@
 #include "stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/solvers/response/rigid_response.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
@@ -30,8 +30,7 @@ wavelets::ScalingFunction scaling_function(const std::string& basis) {
 solvers::MultiscaleBasis multiscale(const std::string& basis, int functions, int first, int points) {
   const auto filter = wavelets::two_scale_filter(scaling_function(basis));
   const int levels = std::countr_zero(static_cast<unsigned>(functions / first));
-  return {app::make_basis(basis, functions), points, wavelets::FastWaveletTransform(filter.values),
-          levels};
+  return {app::make_basis(basis, functions), points, wavelets::FastWaveletTransform(filter.values), levels};
 }
 
 class Clock {
@@ -112,8 +111,7 @@ solvers::AdaptiveResponse adaptive(const Study& study, Rows rows, solvers::Conde
 }
 
 void geometric(const Study& study, const std::string& basis, solvers::CondensedProblem& problem,
-               const solvers::MultiscaleBasis& fine, const solvers::AnyContactLaw& law,
-               app::Table& table) {
+               const solvers::MultiscaleBasis& fine, const solvers::AnyContactLaw& law, app::Table& table) {
   Rows rows(table, study, basis, "near_instants");
   constexpr double reach = 3.0;
   for (int complete = 2; complete + 2 <= fine.blocks() && fine.size(complete) <= 64; ++complete) {
@@ -130,8 +128,7 @@ void selected_first(const Study& study, const std::string& basis, const solvers:
                     const solvers::MultiscaleBasis& fine, const solvers::AnyContactLaw& law,
                     const solvers::AdaptiveResponse& adapted, app::Table& table) {
   Rows rows(table, study, basis, "stiffness_section");
-  const auto structure =
-      app::make_structure(study.scene(basis, study.sizes.finest, study.sizes.points));
+  const auto structure = app::make_structure(study.scene(basis, study.sizes.finest, study.sizes.points));
   for (const auto& round : adapted.rounds) {
     if (round.response.selection.size() > 130) break;
     const Clock clock;
@@ -157,7 +154,7 @@ void rigid_levels(const Study& study, const std::string& basis, double gap, app:
 
 app::Table result_table() {
   return app::Table({"study", "basis", "method", "unknowns", "converged", "rms_relative_error",
-                           "estimated_error", "iterations", "cpu_ms"});
+                     "estimated_error", "iterations", "cpu_ms"});
 }
 
 app::Scene Study::scene(const std::string& basis, int functions, int points) const {
@@ -189,8 +186,7 @@ Study make_study(const std::string& name, const Sizes& sizes) {
   return study;
 }
 
-solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& basis,
-                                        app::Table& table) {
+solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& basis, app::Table& table) {
   const app::Scene scene = study.scene(basis, study.sizes.finest, study.sizes.points);
   const auto law = app::make_law(scene.contact);
   auto problem = app::make_problem(scene);
@@ -231,7 +227,7 @@ solvers::AdaptiveCellResponse rigid_study(const Study& study, app::Table& table)
 }
 
 app::Table selection_table(const Study& study, const std::string& basis,
-                                 const solvers::Selection& selection) {
+                           const solvers::Selection& selection) {
   const auto fine = multiscale(basis, study.sizes.finest, coarsest, study.sizes.points);
   app::Table table({"study", "basis", "block", "functions_in_block", "time_fraction"});
   for (const int function : selection) {

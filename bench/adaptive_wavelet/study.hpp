@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/app/files/table.hpp"
 #include "adaptive_rigid.hpp"
 #include "adaptive_wavelet.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::bench {
 
@@ -39,14 +39,12 @@ Study make_study(const std::string& name, const Sizes& sizes);
 
 /// Uniform levels and adaptive selections of a wavelet Galerkin pair; rows are appended to the table. Returns
 /// the adaptive rounds by the residual.
-solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& basis,
-                                        app::Table& table);
+solvers::AdaptiveResponse wavelet_study(const Study& study, const std::string& basis, app::Table& table);
 
 /// The rigid obstacle: uniform wavelet balance, uniform and adaptive cells. Returns the adaptive rounds.
 solvers::AdaptiveCellResponse rigid_study(const Study& study, app::Table& table);
 
 /// The selected functions of the basis of `study`: where they lie and how fine they are.
-app::Table selection_table(const Study& study, const std::string& basis,
-                                 const solvers::Selection& selection);
+app::Table selection_table(const Study& study, const std::string& basis, const solvers::Selection& selection);
 
 }  // namespace wavebalance::bench

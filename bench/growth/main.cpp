@@ -6,11 +6,11 @@
 #include "memory.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
 // Time and memory of one solve over the number of functions and of elements: growth.csv and its picture.
@@ -103,8 +103,8 @@ Ladder ladder(const std::string& name, const std::string& label, const std::stri
       label,
       variable,
       std::move(sizes),
-      app::load_scene(
-          WAVEBALANCE_SCENES "/jones_legrand_2014/case" + std::to_string(case_number) + ".toml", overrides),
+      app::load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case" + std::to_string(case_number) + ".toml",
+                      overrides),
       colour,
       marker};
 }
@@ -140,7 +140,7 @@ struct Results {
       "ladder", "variable", "trial", "functions", "points", "elements", "construction_seconds",
       "condensation_seconds", "seconds", "peak_bytes", "iterations", "active_samples", "converged", "run"}};
   app::Table slopes{std::vector<std::string>{"ladder", "variable", "quantity", "from", "to", "slope",
-                                                   "slope_over_expected"}};
+                                             "slope_over_expected"}};
 };
 
 void append(Results& results, const Ladder& one, const app::Scene& scene, const Measured& m) {
@@ -217,12 +217,13 @@ void run(const Program& program) {
     draw(figure.add_panel("Memory"), all, results, variable, "peak_bytes", "Peak memory (bytes)");
   }
   write_data(program.output, "growth", results.points,
-            {"Time and memory of one solve over functions and elements",
-             "SI; a column's name ends in its unit",
-             "reproduce/scenes/jones_legrand_2014",
-             {"seconds: from the contact-free response, condensation included, plans made before",
-              "peak_bytes: resident memory that construction and solve add"}});
-  write_data(program.output, "growth_slopes", results.slopes,
+             {"Time and memory of one solve over functions and elements",
+              "SI; a column's name ends in its unit",
+              "reproduce/scenes/jones_legrand_2014",
+              {"seconds: from the contact-free response, condensation included, plans made before",
+               "peak_bytes: resident memory that construction and solve add"}});
+  write_data(
+      program.output, "growth_slopes", results.slopes,
       {"Slopes of growth.csv on logarithmic axes, upper half of each ladder",
        {},
        {},

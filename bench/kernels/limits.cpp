@@ -64,8 +64,7 @@ double LimitReporter::copy_seconds(double bytes) const {
 }
 
 app::Table LimitReporter::table() const {
-  app::Table table(
-      {"kernel", "size", "seconds", "flops", "bytes", "limit_seconds", "limited_by", "ratio"});
+  app::Table table({"kernel", "size", "seconds", "flops", "bytes", "limit_seconds", "limited_by", "ratio"});
   const double rate = flop_rate();
   for (const Measured& one : measured_) {
     const double computing = rate > 0.0 ? one.flops / rate : 0.0;

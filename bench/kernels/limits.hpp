@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::bench {
 

@@ -21,7 +21,8 @@ void run(const Program& program) {
   LimitReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   const app::Table table = reporter.table();
-  write_data(program.output, "kernels", table,
+  write_data(
+      program.output, "kernels", table,
       {"Time of the kernels over their limit",
        "seconds of the processor, operations and bytes of one call",
        {},

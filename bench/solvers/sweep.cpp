@@ -24,7 +24,8 @@ void sweep(benchmark::State& state) {
   const solvers::AnyContactLaw law = scene.law();
   solvers::FrequencySweep curve;
   for (auto _ : state) curve = solvers::frequency_sweep(problem, law, sweep_options());
-  if (curve.status != solvers::SweepStatus::reached_end) state.SkipWithError(std::string(to_string(curve.status)).c_str());
+  if (curve.status != solvers::SweepStatus::reached_end)
+    state.SkipWithError(std::string(to_string(curve.status)).c_str());
   state.counters["curve_points"] = double(curve.points.size());
 }
 

@@ -15,7 +15,8 @@ struct DataNotes {
   std::vector<std::string> notes;  ///< further sentences
 };
 
-/// Writes folder/stem.csv, and folder/stem.json with `notes`, the project's version beside them. Throws app::IoError.
+/// Writes folder/stem.csv, and folder/stem.json with `notes`, the project's version beside them. Throws
+/// app::IoError.
 void write_data(const std::filesystem::path& folder, const std::string& stem, const app::Table& table,
                 const DataNotes& notes);
 

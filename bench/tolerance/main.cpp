@@ -6,8 +6,8 @@
 #include "data_file.hpp"
 #include "program.hpp"
 #include "study.hpp"
-#include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 // What a tolerance asked for gives and costs, beside the cheapest fixed choice of the same error:
 // tolerance.csv and its picture.
@@ -22,16 +22,15 @@ constexpr double allowed = 3.0;  // true error over tolerance, and cost over the
 constexpr double reference_error = 1e-10;
 
 app::Table empty_table() {
-  return app::Table({"motion", "tolerance", "status", "estimated_error", "true_error",
-                           "error_over_tolerance", "functions", "quadrature_points", "rungs", "seconds",
-                           "fixed_trial", "fixed_weight", "fixed_functions", "fixed_points", "fixed_error",
-                           "fixed_seconds", "cost_ratio"});
+  return app::Table({"motion", "tolerance", "status", "estimated_error", "true_error", "error_over_tolerance",
+                     "functions", "quadrature_points", "rungs", "seconds", "fixed_trial", "fixed_weight",
+                     "fixed_functions", "fixed_points", "fixed_error", "fixed_seconds", "cost_ratio"});
 }
 
 double error_to_match(const Asked& asked) { return std::max(asked.error, reference_error); }
 
-void append(app::Table& table, const std::string& motion, const Asked& asked,
-            const ToleranceStudy& study, const std::vector<FixedChoice>& choices) {
+void append(app::Table& table, const std::string& motion, const Asked& asked, const ToleranceStudy& study,
+            const std::vector<FixedChoice>& choices) {
   const FixedChoice* found = cheapest(choices, error_to_match(asked));
   const FixedChoice fixed = found == nullptr ? FixedChoice{.error = std::nan("")} : *found;
   const Beside seconds = study.time_beside(asked, fixed);
@@ -81,8 +80,8 @@ Series line(const std::string& label, double at_least, double at_most, bool prop
   return one;
 }
 
-Series marks(const std::string& label, const app::Table& rows, const std::string& column,
-             app::Colour colour, int marker) {
+Series marks(const std::string& label, const app::Table& rows, const std::string& column, app::Colour colour,
+             int marker) {
   Series one(label, rows, "tolerance", column, SeriesStyle::points);
   one.colour = colour;
   one.marker = marker;
@@ -150,10 +149,10 @@ void run(const Program& program) {
   app::Table table = empty_table();
   for (const auto& motion : motions) append_motion(table, motion, sizes, tolerances);
   write_data(program.output, "tolerance", table,
-                       {"Scenes with a tolerance beside the cheapest fixed choice of the same true error",
-                        "s of processor time; errors are relative rms of the contact displacement",
-                        "reproduce/scenes/tolerance",
-                        {"Composition of the problem is part of every time."}});
+             {"Scenes with a tolerance beside the cheapest fixed choice of the same true error",
+              "s of processor time; errors are relative rms of the contact displacement",
+              "reproduce/scenes/tolerance",
+              {"Composition of the problem is part of every time."}});
   app::write_pictures(program.output / "tolerance", picture(table));
   report(table);
 }

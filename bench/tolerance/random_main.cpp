@@ -17,16 +17,16 @@ constexpr int output_points = 2048;
 constexpr double patience = 1.0;  // s: no further rung is begun after it, and the status is "cancelled"
 
 app::Table empty_table() {
-  return app::Table({"seed", "law", "frequency_Hz", "stiffness_damping_s", "gap_m", "tolerance",
-                           "status", "estimated_error", "true_error", "error_over_tolerance", "functions",
-                           "quadrature_points", "rungs", "seconds"});
+  return app::Table({"seed", "law", "frequency_Hz", "stiffness_damping_s", "gap_m", "tolerance", "status",
+                     "estimated_error", "true_error", "error_over_tolerance", "functions",
+                     "quadrature_points", "rungs", "seconds"});
 }
 
 void append(app::Table& table, std::uint64_t seed, double tolerance) {
   const tolerance::RandomMotion motion(seed);
   const double start = processor_seconds();
-  auto found = motion.climb(
-      tolerance, [&](const solvers::Progress&) { return processor_seconds() - start < patience; });
+  auto found = motion.climb(tolerance,
+                            [&](const solvers::Progress&) { return processor_seconds() - start < patience; });
   const double seconds = processor_seconds() - start;
   const auto exact = tolerance::shooting_nearby(motion, found, output_points);
   const double error =
@@ -62,7 +62,8 @@ void run(const Program& program) {
   app::Table table = empty_table();
   for (const double tolerance : {1e-2, 1e-4, 1e-6})
     for (std::uint64_t seed = first_seed; seed < first_seed + motions; ++seed) append(table, seed, tolerance);
-  write_data(program.output, "tolerance_random", table,
+  write_data(
+      program.output, "tolerance_random", table,
       {"Random bars against stops to a tolerance, beside shooting from the motion that was found",
        "SI; s of processor time; errors are relative rms of the contact displacement",
        "tests/tolerance/random_motions.hpp",

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "stopwatch.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/resolution_ladder.hpp"
 
 namespace wavebalance::bench {

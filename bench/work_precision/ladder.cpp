@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "stopwatch.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/periodic_field.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"

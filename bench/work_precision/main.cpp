@@ -1,8 +1,8 @@
 #include <cstdio>
 
+#include "data_file.hpp"
 #include "ladder.hpp"
 #include "picture.hpp"
-#include "data_file.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
 #include "wavebalance/app/files/table.hpp"
@@ -13,8 +13,8 @@ namespace {
 
 app::Table empty_table() {
   return app::Table({"case", "method", "trial", "weight", "inner_products", "functions", "points",
-                           "tolerance", "construction_seconds", "seconds", "error", "converged", "status",
-                           "on_front"});
+                     "tolerance", "construction_seconds", "seconds", "error", "converged", "status",
+                     "on_front"});
 }
 
 void append(app::Table& table, const Study& study, const std::vector<Point>& points) {
@@ -84,8 +84,8 @@ class Results {
                        app::cell_text(study.reference_error));
       report(study, points, processor_seconds() - start);
       write_data(program_.output, "work_precision", table_,
-                {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
-                 "reproduce/scenes", notes_});
+                 {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
+                  "reproduce/scenes", notes_});
     }
     write_pictures(program_.output / picture_name, picture.figure());
   }

@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "rigid_reference.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::bench {

@@ -150,7 +150,8 @@ TEST(ExactBarMode, IsInTheUnitsOfTheBar) {
   const RigidObstacleBar other{3.0, 12.0, 0.5, 2.0, 0.25};  // c = 1/2, a length takes 4 s
   for (int m = 1; m <= 3; ++m) {
     const ExactBarMode unit = mode_at({}, m, 0.4), mode = mode_at(other, m, 0.4);
-    EXPECT_NEAR(mode.frequency(), mode.frequency_ratio() * ExactBarMode::linear_frequency(other, m), 64 * eps);
+    EXPECT_NEAR(mode.frequency(), mode.frequency_ratio() * ExactBarMode::linear_frequency(other, m),
+                64 * eps);
     EXPECT_NEAR(mode.period(), 4 * unit.period(), 32 * eps);
     EXPECT_NEAR(mode.contact_duration(), 4 * unit.contact_duration(), 32 * eps);
     EXPECT_NEAR(mode.displacement(1.4, 3.1), 0.25 * unit.displacement(0.7, 0.775), 64 * eps * reach(mode));
@@ -176,10 +177,10 @@ TEST(ExactBarMode, SaysWhatIsWrongAndWhatIsAllowed) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (double ratio : {1.0, 0.5, 4.0 / 3, 2.0, -1.1, nan, infinity})
     EXPECT_THROW(ExactBarMode({}, 1, ratio), std::invalid_argument) << ratio;
-  EXPECT_EQ(message_of([] { ExactBarMode({}, 1, 1.5); }),
-            "ExactBarMode: frequency_ratio is 1.5; it must be above 1 and below 1.3333333333333333 for mode 1");
-  EXPECT_EQ(message_of([] { ExactBarMode({}, 0, 1.1); }),
-            "ExactBarMode: mode is 0; it must be at least 1");
+  EXPECT_EQ(
+      message_of([] { ExactBarMode({}, 1, 1.5); }),
+      "ExactBarMode: frequency_ratio is 1.5; it must be above 1 and below 1.3333333333333333 for mode 1");
+  EXPECT_EQ(message_of([] { ExactBarMode({}, 0, 1.1); }), "ExactBarMode: mode is 0; it must be at least 1");
   for (double energy : {0.0, -1.0, 0.81, nan, infinity})
     EXPECT_THROW(ExactBarMode::at_energy({}, 1, EnergyMeasure::total, energy), std::invalid_argument);
   const std::string message = message_of([] { ExactBarMode::at_energy({}, 1, EnergyMeasure::total, 0.5); });

@@ -40,9 +40,9 @@ void require_positive_definite(StructureMatrix name, const Sparse& matrix, int f
                                      std::to_string(i + first_index) + " is " + detail::text(diagonal[i], 6));
   const detail::SymmetricFactor factor(scaled(matrix, diagonal.cwiseSqrt().cwiseInverse()));
   if (factor.complete() && factor.pivots().minCoeff() > 1e-13) return;
-  const std::string pivot = factor.complete() ? detail::text(factor.pivots().minCoeff(), 6) : "zero";
-  throw StructureFault(name,
-                       "is not positive definite: a pivot is " + pivot + " of its diagonal entry" + advice);
+  const std::string pivot =
+      factor.complete() ? detail::text(factor.pivots().minCoeff(), 6) + " times its diagonal entry" : "zero";
+  throw StructureFault(name, "is not positive definite: a pivot is " + pivot + advice);
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::Str
   };
   std::vector<BladeResponse> responses;
   for (auto& found : solvers::stepped_sweep(composed.problem, frequencies, solve))
-    responses.push_back(found ? std::move(*found) : BladeResponse{frequencies[responses.size()], false, {}, {}});
+    responses.push_back(found ? std::move(*found)
+                              : BladeResponse{frequencies[responses.size()], false, {}, {}});
   return responses;
 }
 

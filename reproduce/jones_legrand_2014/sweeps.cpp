@@ -36,7 +36,8 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
     resonance.gap = scene.contact.gap;
     const auto& sweep = resonance.sweeps.back();
     if (!sweep.converged())
-      artefact.note(pair.label + " in " + file + " ended early: " + std::string(to_string(sweep.curve.status)));
+      artefact.note(pair.label + " in " + file +
+                    " ended early: " + std::string(to_string(sweep.curve.status)));
   }
   auto free = artefact.scene(file);
   free.contact = {};

@@ -18,8 +18,7 @@ struct ListedPoint {
 inline constexpr ListedPoint listed_points[] = {{1.2, 1.0069}, {2.0, 1.0377}, {3.0, 1.0808}, {7.0, 1.1931}};
 
 /// The point of a backbone at an energy ratio. Throws report::NotConverged when there is none.
-solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve,
-                               double energy_ratio);
+solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio);
 
 /// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
 /// root of r, points that were reached) and consistent (accepted points), both from the linear mode on.

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "figures.hpp"
 #include "blade.hpp"
+#include "figures.hpp"
 #include "wavebalance/fem/vtu.hpp"
 
 namespace wavebalance::ll10 {
@@ -58,8 +58,7 @@ void attach_series(report::Artefact& artefact, const fem::Blade& blade, const Sh
 }
 
 Table shapes_table(const fem::Blade& blade, const std::vector<Shape>& shapes) {
-  Table table(
-      {"energy_ratio", "time_fraction", "contact", "u_x_over_gap", "u_y_over_gap", "u_z_over_gap"});
+  Table table({"energy_ratio", "time_fraction", "contact", "u_x_over_gap", "u_y_over_gap", "u_z_over_gap"});
   for (const Shape& shape : shapes)
     for (const int frame : {0, times / 2})
       for (std::size_t i = 0; i < blade.contact_nodes.size(); ++i) {

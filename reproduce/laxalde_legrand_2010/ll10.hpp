@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/contact/exact_bar_mode.hpp"
-#include "wavebalance/report/artefact.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 /// What the figures of Laxalde & Legrand (2010), section 5.1, share.
 namespace wavebalance::ll10 {

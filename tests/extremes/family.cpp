@@ -4,8 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::extremes {
 namespace {
@@ -55,9 +55,7 @@ class Family {
   std::vector<Case> take() { return std::move(cases_); }
 
  private:
-  app::Scene scene(const Overrides& overrides) const {
-    return app::load_scene(scenes_ / bar, overrides);
-  }
+  app::Scene scene(const Overrides& overrides) const { return app::load_scene(scenes_ / bar, overrides); }
 
   std::filesystem::path scenes_;
   std::vector<Case> cases_;

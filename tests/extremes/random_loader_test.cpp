@@ -2,8 +2,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "random_scenes.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include "dense_system.hpp"
 #include "pairs.hpp"
 #include "paper_values.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/periodic_field.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 // The six pairs of [JL14, Table 2] on both cases of [JL14, Table 1], against shooting and against figures
@@ -57,7 +57,8 @@ TEST(PaperPairs, ReferencesConverge) {
 }
 
 const Pair& pair_named(const std::string& name) {
-  return *std::find_if(std::begin(table_2), std::end(table_2), [&](const Pair& pair) { return name == pair.name; });
+  return *std::find_if(std::begin(table_2), std::end(table_2),
+                       [&](const Pair& pair) { return name == pair.name; });
 }
 
 TEST(PaperPairs, ErrorsAreThoseOfAnIndependentComputation) {
@@ -131,7 +132,8 @@ TEST(PaperPairs, EnergyNormOfDaubechies6IsThatOfAnIndependentComputation) {
     Solved solved = solve(table_2[2], scene, listed.functions);
     ASSERT_TRUE(solved.response.converged());
     const auto field = solvers::periodic_field(solved.problem, solved.response.contact_force, 1024);
-    EXPECT_NEAR(solvers::energy_norm(scene.structure(), scene.law(), field) / exact, listed.ratio, listed.tolerance)
+    EXPECT_NEAR(solvers::energy_norm(scene.structure(), scene.law(), field) / exact, listed.ratio,
+                listed.tolerance)
         << "case " << listed.case_number << ", M " << listed.functions;
   }
 }

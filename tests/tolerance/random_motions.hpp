@@ -10,9 +10,9 @@
 #include "tolerance_scenes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/response/periodic_field.hpp"
 #include "wavebalance/solvers/response/resolution_ladder.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
 
 namespace wavebalance::tolerance {
 
@@ -61,9 +61,7 @@ inline app::Scene random_scene(std::uint64_t seed) {
 /// A scene without a time basis, its structure and its law.
 struct RandomMotion {
   explicit RandomMotion(std::uint64_t seed)
-      : scene(random_scene(seed)),
-        model(app::make_model(scene)),
-        law(app::make_law(scene.contact)) {}
+      : scene(random_scene(seed)), model(app::make_model(scene)), law(app::make_law(scene.contact)) {}
 
   /// Stops when the observer says so.
   solvers::LadderResponse climb(double tolerance, solvers::Observer observer = {}) const {

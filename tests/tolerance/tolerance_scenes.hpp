@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/solvers/response/resolution_ladder.hpp"

@@ -7,8 +7,8 @@
 namespace wavebalance::wavelets::detail {
 namespace {
 
-// The vector v = T v with sum 1, T[k, m] = mask[2k - m]. The mask has a zero at pi, so the columns of T sum to
-// 1, and the equations are equivalent to (T - I + E) v = (1, .., 1) with E the matrix of ones.
+// The vector v = T v with sum 1, T[k, m] = mask[2k - m]. The mask has a zero at pi, so the columns of T sum
+// to 1, and the equations are equivalent to (T - I + E) v = (1, .., 1) with E the matrix of ones.
 ExtendedVector eigenvector_at_integers(const ExtendedVector& mask) {
   using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   const Eigen::Index length = mask.size(), interior = length - 2;

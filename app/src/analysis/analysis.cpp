@@ -11,10 +11,10 @@
 #include "analysis/record_figure.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/summary_parts.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"
 #include "wavebalance/solvers/response/stepped_sweep.hpp"
-#include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -59,8 +59,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.warnings = model.warnings;
   record.converged = response.converged;
   record.status = response.status;
-  record.summary = solution_entries(response.converged, response.status, response.residual, response.iterations,
-                           response.unknowns, response.wall_seconds);
+  record.summary = solution_entries(response.converged, response.status, response.residual,
+                                    response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.samples);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
@@ -120,8 +120,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
-      solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual), points,
-              model.contacts() * scene.time.functions, sweep.wall_seconds);
+      solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual),
+                       points, model.contacts() * scene.time.functions, sweep.wall_seconds);
   record.summary.emplace_back("max_displacement_m", highest);
   record.summary.emplace_back("frequency_at_max_displacement_Hz", frequency_of_peak(sweep.curve));
   record.summary.emplace_back("min_displacement_m", missing);

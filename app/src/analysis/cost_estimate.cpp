@@ -48,7 +48,8 @@ bool is_balance(const Scene& scene) {
 
 double structure_bytes(const Scene& scene, const Sizes& sizes) {
   const double n = sizes.degrees;
-  const double motion = std::max(0, scene.analysis.motion_points) * static_cast<double>(structure_dofs(scene));
+  const double motion =
+      std::max(0, scene.analysis.motion_points) * static_cast<double>(structure_dofs(scene));
   const double dense = scene.analysis.type == AnalysisType::time_stepping ? 128.0 * n * n
                        : takes_all_modes(scene, n)                        ? 64.0 * n * n
                                                                           : 0.0;
@@ -56,7 +57,8 @@ double structure_bytes(const Scene& scene, const Sizes& sizes) {
 }
 
 double output_bytes(const Scene& scene, const Sizes& sizes) {
-  if (scene.analysis.type == AnalysisType::frequency_sweep) return 50.0 * sizes.contacts * sizes.output_points;
+  if (scene.analysis.type == AnalysisType::frequency_sweep)
+    return 50.0 * sizes.contacts * sizes.output_points;
   const double every_contact = sizes.contacts > 1.0 ? 400.0 * sizes.contacts : 0.0;
   return (500.0 + every_contact) * sizes.output_points;
 }
@@ -74,7 +76,8 @@ double response_seconds(const Sizes& s) {
 
 double responses(const Analysis& analysis) {
   if (analysis.type != AnalysisType::frequency_sweep) return 1.0;
-  const double steps = 2.0 * std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.largest_step;
+  const double steps =
+      2.0 * std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.largest_step;
   return std::min(steps + 1.0, static_cast<double>(analysis.max_points));
 }
 
@@ -103,7 +106,8 @@ CostEstimate estimate_cost(const Scene& scene) {
     return cost;
   }
   const double modes = takes_all_modes(scene, sizes.degrees) ? 2e-8 * std::pow(sizes.degrees, 3) : 0.0;
-  const double reduction = scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(structure_dofs(scene)) : 0.0;
+  const double reduction =
+      scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(structure_dofs(scene)) : 0.0;
   cost.bytes += balance_bytes(sizes);
   cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
                  3e-6 * sizes.contacts * sizes.output_points;

@@ -142,7 +142,8 @@ std::string mode_lines(const Scene& scene) {
          (analysis.cosine_only ? " (cosines only)" : "") + "\nsize       " +
          std::to_string(std::int64_t{contact_count(scene.structure)} * analysis.samples) +
          " contact forces after condensation on the contact (" +
-         std::to_string(std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1)) + " unknowns before)\n";
+         std::to_string(std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1)) +
+         " unknowns before)\n";
 }
 
 std::string duration_text(double seconds) {
@@ -158,13 +159,15 @@ std::string cost_line(const Scene& scene) {
   const std::string time = std::isnan(cost.seconds) ? "" : duration_text(cost.seconds) + " and ";
   const double available = available_memory();
   return "cost       about " + time + memory_text(cost.bytes) + " of memory" +
-         (cost.bytes > available ? "; MORE THAN the " + memory_text(available) + " that there are" : "") + "\n";
+         (cost.bytes > available ? "; MORE THAN the " + memory_text(available) + " that there are" : "") +
+         "\n";
 }
 
 std::string warning_lines(const Scene& scene) {
   if (scene.structure.type != StructureType::matrices) return "";
   std::string text;
-  for (const std::string& warning : warnings_of(*structure_files(scene))) text += "warning    " + warning + "\n";
+  for (const std::string& warning : warnings_of(*structure_files(scene)))
+    text += "warning    " + warning + "\n";
   return text;
 }
 
@@ -174,7 +177,8 @@ std::string describe_scene(const Scene& scene) {
   const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
   const std::string first_lines =
       "analysis   " + name_of(scene.analysis.type) + "\n" + structure_line(scene) + contact_line(scene);
-  if (scene.analysis.type == AnalysisType::nonlinear_mode) return first_lines + mode_lines(scene) + cost_line(scene);
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    return first_lines + mode_lines(scene) + cost_line(scene);
   return first_lines + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene) +
          cost_line(scene) + warning_lines(scene);
 }

@@ -101,7 +101,7 @@ Record curve_record(const ModeStudy& study) {
   record.status = curve.status();
   record.summary =
       solution_entries(record.converged, record.status, worst_residual(curve), iterations_of(curve),
-              study.mode().model().contacts() * study.scene().analysis.samples, curve.wall_seconds);
+                       study.mode().model().contacts() * study.scene().analysis.samples, curve.wall_seconds);
   append_curve(record.summary, curve, common_gap(study));
   append_discretisation(record.summary, study);
   append_statuses(record.summary, curve);
@@ -133,9 +133,9 @@ Record motion_record(const ModeStudy& study) {
   record.converged = response.converged = point.accepted();
   record.status = to_string(point.status);
   if (point.status == ModeStatus::tongue) record.status += " " + tongue_name(point.tongue);
-  record.summary =
-      solution_entries(record.converged, record.status, moves ? study.residual(point) : missing, point.iterations,
-              study.model().contacts() * scene.analysis.samples, response.wall_seconds);
+  record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
+                                    point.iterations, study.model().contacts() * scene.analysis.samples,
+                                    response.wall_seconds);
   append_motion(record.summary, response.samples);
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
@@ -207,12 +207,12 @@ Record published_record(const ModeStudy& study) {
   const BranchMeasures measures = measured(branch);
   Record record;
   record.converged = response.converged = last.accepted();
-  record.status = last.accepted()
-                      ? "converged"
-                      : std::string(to_string(last.status)) + " at energy ratio " + cell_text(last.prescribed_ratio);
+  record.status = last.accepted() ? "converged"
+                                  : std::string(to_string(last.status)) + " at energy ratio " +
+                                        cell_text(last.prescribed_ratio);
   const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
-  record.summary = solution_entries(record.converged, record.status, measures.gradient, measures.iterations, unknowns,
-                           response.wall_seconds);
+  record.summary = solution_entries(record.converged, record.status, measures.gradient, measures.iterations,
+                                    unknowns, response.wall_seconds);
   append_motion(record.summary, response.samples);
   append_published(record.summary, study, branch, measures.equation);
   if (energy == 0.0) {

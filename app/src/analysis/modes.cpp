@@ -230,8 +230,9 @@ Table backbone_table(const ModeStudy& study, const std::vector<solvers::Lagrangi
     const auto value = [&](double number) { return point.accepted() ? number : missing; };
     table.append_row({point.prescribed_ratio, value(point.omega / (2.0 * std::numbers::pi)),
                       value(point.omega / linear), value(std::sqrt(point.rayleigh) / linear), missing,
-                      std::string(to_string(point.status)), value(point.equation_residual), value(point.identity_defect),
-                      value(point.max_penetration), value(point.min_force), "none", missing});
+                      std::string(to_string(point.status)), value(point.equation_residual),
+                      value(point.identity_defect), value(point.max_penetration), value(point.min_force),
+                      "none", missing});
   }
   return table;
 }

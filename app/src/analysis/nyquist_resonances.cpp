@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::app {
 

@@ -58,8 +58,8 @@ Eigen::VectorXd closed(const Eigen::VectorXd& values) {
   return result;
 }
 
-/// What a picture shows of many points: the first, lowest, highest and last of each of `runs` runs of neighbours.
-/// gnuplot takes minutes for millions of points.
+/// What a picture shows of many points: the first, lowest, highest and last of each of `runs` runs of
+/// neighbours. gnuplot takes minutes for millions of points.
 Series thinned(const Series& series) {
   constexpr std::size_t runs = 2048;
   const std::size_t size = series.x.size();
@@ -192,7 +192,8 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const bool rigid = scene.contact.law == ContactLawType::rigid;
   if (rigid) panel.x.label += ", each solved alone: branches may be missing";
   const auto style = rigid ? SeriesStyle::points : SeriesStyle::line;
-  for (const auto& [label, column] : {std::pair{"largest", "max_displacement_m"}, {"rms", "rms_displacement_m"}})
+  for (const auto& [label, column] :
+       {std::pair{"largest", "max_displacement_m"}, {"rms", "rms_displacement_m"}})
     panel.add(thinned({label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor), style}));
   if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
     panel.mark_y(scale.factor * scene.contact.gap, "gap");

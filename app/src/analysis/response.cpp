@@ -9,10 +9,10 @@
 #include "analysis/response_parts.hpp"
 #include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
-#include "wavebalance/solvers/response/rigid_response.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/rigid_response.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -83,8 +83,8 @@ void solve_ladder(const Scene& scene, const StructureModel& model, const Respons
   const solvers::ContactLaws laws = make_laws(scene);
   auto found = solve_to_tolerance(scene, model, laws, options, result);
   note_motion(*found.problem, found.response, model,
-              sample_response(*found.problem, found.response, laws, scene.analysis.output_points),
-              options, result);
+              sample_response(*found.problem, found.response, laws, scene.analysis.output_points), options,
+              result);
 }
 
 void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
@@ -98,7 +98,8 @@ void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProble
   result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
   result.residual = std::max(found.response.residual, contact.product);
   note_motion(problem, found.response, model,
-              motion_with_nearest_forces(problem, found.response, scene.analysis.output_points), options, result);
+              motion_with_nearest_forces(problem, found.response, scene.analysis.output_points), options,
+              result);
 }
 
 }  // namespace

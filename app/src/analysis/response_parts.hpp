@@ -3,8 +3,8 @@
 
 namespace wavebalance::app {
 
-/// The motion of all contacts at `points` uniform times; contact forces, which are known at the quadrature points only,
-/// are those of the nearest ones.
+/// The motion of all contacts at `points` uniform times; contact forces, which are known at the quadrature
+/// points only, are those of the nearest ones.
 ContactMotion motion_with_nearest_forces(const solvers::CondensedProblem& problem,
                                          const solvers::PeriodicResponse& response, int points);
 

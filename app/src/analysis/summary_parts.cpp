@@ -8,8 +8,8 @@
 
 namespace wavebalance::app {
 
-Summary solution_entries(bool converged, const std::string& status, double residual, int iterations, int unknowns,
-                double wall_seconds) {
+Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
+                         int unknowns, double wall_seconds) {
   return {{"converged", converged},
           {"status", status},
           {"residual", residual},

@@ -10,8 +10,8 @@ namespace wavebalance::app {
 inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// The first entries of every summary.
-Summary solution_entries(bool converged, const std::string& status, double residual, int iterations, int unknowns,
-                double wall_seconds);
+Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
+                         int unknowns, double wall_seconds);
 
 /// Pair of bases, its formulation and its sizes.
 void append_discretisation(Summary& summary, const Time& time);

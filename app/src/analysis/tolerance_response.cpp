@@ -29,8 +29,8 @@ solvers::LadderOptions ladder_options(const Scene& scene, const ResponseOptions&
 }  // namespace
 
 solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureModel& model,
-                                           const solvers::ContactLaws& laws,
-                                           const ResponseOptions& options, Response& result) {
+                                           const solvers::ContactLaws& laws, const ResponseOptions& options,
+                                           Response& result) {
   const Scene chosen = with_pair(scene);
   const auto make = [&](int functions, int points) {
     Scene rung = chosen;

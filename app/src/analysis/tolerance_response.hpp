@@ -6,7 +6,7 @@ namespace wavebalance::app {
 /// Solves a scene with time.tolerance and notes in `result` all but motions and wall_seconds. Throws
 /// solvers::SingularSystem.
 solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureModel& model,
-                                           const solvers::ContactLaws& laws,
-                                           const ResponseOptions& options, Response& result);
+                                           const solvers::ContactLaws& laws, const ResponseOptions& options,
+                                           Response& result);
 
 }  // namespace wavebalance::app

@@ -9,8 +9,8 @@
 #include "command/progress_bar.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
-#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -128,8 +128,8 @@ void check_memory(const Scene& scene, double max_gigabytes) {
   const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
   if (needed <= limit) return;
   const std::string there = max_gigabytes > 0.0 ? "--max-memory allows " : "there are ";
-  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " + there +
-                              memory_text(limit) +
+  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " +
+                              there + memory_text(limit) +
                               "; fewer functions, quadrature_points or output_points take less");
 }
 
@@ -142,7 +142,8 @@ Record solve(const Scene& scene, const InterruptGuard& guard, bool quiet) {
   });
 }
 
-/// All files at once, in place of those of an earlier record. The summary goes last: it says that the others are there.
+/// All files at once, in place of those of an earlier record. The summary goes last: it says that the others
+/// are there.
 void write(OutputFiles& files, const std::vector<ResultFile>& results, const std::string& summary) {
   files.replace(files_of_record(files.directory() / "summary.json"));
   for (const ResultFile& file : results) files.add(file.name, file.contents);
@@ -154,7 +155,8 @@ void write(OutputFiles& files, const std::vector<ResultFile>& results, const std
 
 int run_scene(const RunArguments& arguments) {
   if (arguments.output.empty())
-    throw std::invalid_argument("--output is \"\"; expected the name of a folder, which is made if it is missing");
+    throw std::invalid_argument(
+        "--output is \"\"; expected the name of a folder, which is made if it is missing");
   const Scene scene = load_scene(arguments.scene, arguments.overrides, arguments.removed);
   check_memory(scene, arguments.max_memory);
   OutputFiles files(arguments.output);
@@ -189,7 +191,7 @@ Scene example_scene() {
   scene.structure.stiffness_damping = 1e-4;
   scene.contact = {.law = ContactLawType::exponential, .constant = 1e8, .exponent = 50.0, .gap = 1e-3};
   scene.forcing = {.amplitude = 250e3, .frequency = 150.0};
-  scene.time = {"fourier", "fourier", 64, Formulation::distributional, 256, InnerProducts::quadrature};
+  scene.time = {"fourier", "fourier", 63, Formulation::distributional, 256, InnerProducts::quadrature};
   return scene;
 }
 

@@ -15,12 +15,12 @@ struct RunArguments {
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"
-  double max_memory = 0.0;  ///< GB that a run may be expected to take; 0: what the machine has
+  double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
   bool quiet = false;
 };
 
-/// Solves a scene and writes its results. Returns solved, not_converged, or interrupted + signal after a sweep that a
-/// signal ended, whose points are written. Throws SceneError, IoError and std::invalid_argument.
+/// Solves a scene and writes its results. Returns solved, not_converged, or interrupted + signal after a
+/// sweep that a signal ended, whose points are written. Throws SceneError, IoError and std::invalid_argument.
 int run_scene(const RunArguments& arguments);
 
 /// Validates a scene and says what would be solved. Throws SceneError.

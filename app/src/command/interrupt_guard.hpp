@@ -3,9 +3,9 @@
 
 namespace wavebalance::app {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP end the program with status 128 + signal (130 for Ctrl-C), or, if the
-/// first is to be noted, only the second does. A signal that the parent process ignores (nohup) stays ignored. There
-/// can be one guard at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP end the program with status 128 + signal (130 for Ctrl-C), or,
+/// if the first is to be noted, only the second does. A signal that the parent process ignores (nohup) stays
+/// ignored. There can be one guard at a time.
 class InterruptGuard {
  public:
   explicit InterruptGuard(bool note_first);

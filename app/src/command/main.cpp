@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "command/commands.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ std::string footer() {
          "\nCommands to start with, the scene being in case.toml:\n\n"
          "  wavebalance check case.toml\n"
          "  wavebalance run case.toml --output results/case\n"
-         "  wavebalance run case.toml --output results/haar --set time.trial=haar --set contact.gap=2e-3\n"
+         "  wavebalance run case.toml --output results/haar --set time.trial=haar --set time.functions=64\n"
          "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n"
          "  wavebalance run case.toml --output results/rigid --set contact.law=rigid \\\n"
          "    --unset contact.constant --unset contact.exponent\n\n"
@@ -52,7 +52,8 @@ void add_list(CLI::App& command, const std::string& name, std::vector<std::strin
 
 void add_scene(CLI::App& command, RunArguments& arguments) {
   command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
-  add_list(command, "--set", arguments.overrides, "KEY=VALUE", "section.key=value in place of what the file says");
+  add_list(command, "--set", arguments.overrides, "KEY=VALUE",
+           "section.key=value in place of what the file says");
   add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
 }
 
@@ -103,7 +104,8 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, reported like a full disk
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file size limit is then an error of the write, reported like a full disk
   try {
     return dispatch(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -30,8 +30,9 @@ std::string progress_text(const Progress& progress) {
   const bool common = std::abs(progress.value) >= 1.0 && std::abs(progress.value) < 1e5;
   std::snprintf(number, sizeof number, common ? "%.1f" : "%.1e", progress.value);
   const bool unit = progress.measure.size() <= 3;
-  return text + ", " + (unit ? number + (" " + std::string(progress.measure))
-                             : std::string(progress.measure) + " " + number);
+  return text + ", " +
+         (unit ? number + (" " + std::string(progress.measure))
+               : std::string(progress.measure) + " " + number);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <initializer_list>
 
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {

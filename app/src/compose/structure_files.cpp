@@ -106,8 +106,9 @@ StructureFault::StructureFault(std::string key, const std::string& reason)
 
 std::vector<std::string> warnings_of(const StructureFiles& files) {
   if (!files.damping_adds_energy) return {};
-  return {"structure.damping is not positive semidefinite: it adds energy to some motion, so that the structure itself "
-          "is unstable"};
+  return {
+      "structure.damping is not positive semidefinite: it adds energy to some motion, so that the structure itself "
+      "is unstable"};
 }
 
 std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/fem/matrices.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/fem/matrices.hpp"
 
 namespace wavebalance::app {
 

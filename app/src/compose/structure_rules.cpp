@@ -4,9 +4,9 @@
 #include "compose/scene_rules.hpp"
 #include "compose/structure_files.hpp"
 #include "scene/scene_reader.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -120,9 +120,7 @@ std::string csv_text(const Table& table) {
   return text;
 }
 
-void write_csv(const std::filesystem::path& file, const Table& table) {
-  write_file(file, csv_text(table));
-}
+void write_csv(const std::filesystem::path& file, const Table& table) { write_file(file, csv_text(table)); }
 
 Table read_csv(const std::filesystem::path& file) { return CsvReader(file).read(); }
 

@@ -42,7 +42,8 @@ std::vector<std::string> files_of_record(const std::filesystem::path& summary) {
   for (const auto& file : object["files"]) {
     if (!file.is_object() || !file.contains("name") || !file["name"].is_string()) continue;
     const auto name = file["name"].get<std::string>();
-    const bool plain_name = !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+    const bool plain_name =
+        !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
     if (plain_name) names.push_back(name);
   }
   return names;

@@ -153,8 +153,9 @@ std::string segment_text(const Segment& s) {
   return "set arrow from " + end_text(s.x1, 0) + "," + end_text(s.y1, 0) + " to " + end_text(s.x2, 1) + "," +
          end_text(s.y2, 1) + (s.arrow ? " head filled size screen 0.012,20 " : " nohead ") +
          stroke(s.colour, s.dash, s.width) + (s.arrow ? " front\n" : " back\n") +
-         (s.label.empty() ? ""
-                          : "set label " + quoted(s.label) + " at graph 1.01," + end_text(s.y2, 1) + " left\n");
+         (s.label.empty()
+              ? ""
+              : "set label " + quoted(s.label) + " at graph 1.01," + end_text(s.y2, 1) + " left\n");
 }
 
 bool has_labelled_segments(const Figure& figure) {
@@ -183,8 +184,9 @@ std::string mark_text(const TextMark& mark) {
 std::string frame_text(bool frame, bool aligned, bool labelled) {
   if (!frame) return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\n";
   std::string text = "set border 3 lc rgb " + quoted(text_colour);
-  text += " lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
-          "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n";
+  text +=
+      " lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
+      "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n";
   text += aligned ? "set lmargin 9\n" : "unset lmargin\n";
   text += labelled ? "set rmargin 6\n" : "unset rmargin\n";
   return text;
@@ -224,8 +226,8 @@ std::string panel_text(const Panel& panel, std::size_t index, const std::string&
   const bool framed = panel.frame && !panel.surface;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
-  std::string text =
-      "unset title\nunset label\nunset arrow\nunset object\nset size noratio\n" + frame_text(framed, aligned, labelled);
+  std::string text = "unset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
+                     frame_text(framed, aligned, labelled);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +
@@ -304,8 +306,8 @@ std::string gnuplot_script(const Figure& figure) {
   if (count == 1) {
     const std::string& title = figure.panels[0].title;
     const bool both = !title.empty() && !figure.title.empty();
-    return text + panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title, false,
-                             labelled);
+    return text +
+           panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title, false, labelled);
   }
   const std::size_t columns = std::min(count, static_cast<std::size_t>(figure.columns));
   const std::size_t rows = (count + columns - 1) / columns;

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "plot/colour_bands.hpp"
 #include "files/number_text.hpp"
+#include "plot/colour_bands.hpp"
 #include "plot/plot_text.hpp"
 
 namespace wavebalance::app {
@@ -51,8 +51,8 @@ Eigen::Vector3d area_of(const Eigen::Matrix3Xd& vertices, const std::vector<int>
   return area;
 }
 
-/// The polygon without the vertices that lie on the line between their neighbours to `tolerance`, mostly midpoints of
-/// edges.
+/// The polygon without the vertices that lie on the line between their neighbours to `tolerance`, mostly
+/// midpoints of edges.
 Polygon simplified(const Polygon& ring, double tolerance) {
   Polygon result;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -94,8 +94,8 @@ bool overlap(const Facet& a, const Facet& b, double margin) {
   return !separated(a.ring, b.ring, margin) && !separated(b.ring, a.ring, margin);
 }
 
-/// Sorts facets from the back to the front. Each goes to the lowest layer above those that it hides in part, so that the
-/// lines of a layer can be drawn at once. O(n^2) pairs of facets.
+/// Sorts facets from the back to the front. Each goes to the lowest layer above those that it hides in part,
+/// so that the lines of a layer can be drawn at once. O(n^2) pairs of facets.
 void order(std::vector<Facet>& facets, double margin) {
   std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
   for (std::size_t i = 0; i < facets.size(); ++i)
@@ -192,7 +192,8 @@ class Edges {
   std::string text_;
 };
 
-/// The facet in the colour of its lowest band, and over it the parts above each further level, so that no gaps show.
+/// The facet in the colour of its lowest band, and over it the parts above each further level, so that no
+/// gaps show.
 std::string filled(const Facet& facet, const SurfaceView& view, double resolution) {
   if (!facet.valued) {
     const double brightness = 235.0 * (1.0 - view.shading * (1.0 - facet.light));

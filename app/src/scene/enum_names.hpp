@@ -18,50 +18,44 @@ using NamedValue = std::pair<Enum, std::string_view>;
 template <class Enum>
 inline constexpr std::array<NamedValue<Enum>, 0> enum_names{};
 template <>
-inline constexpr std::array<NamedValue<StructureType>, 3> enum_names<StructureType>{{
-    {StructureType::bar, "bar"},
-    {StructureType::blade, "blade"},
-    {StructureType::matrices, "matrices"}}};
+inline constexpr std::array<NamedValue<StructureType>, 3> enum_names<StructureType>{
+    {{StructureType::bar, "bar"}, {StructureType::blade, "blade"}, {StructureType::matrices, "matrices"}}};
 template <>
-inline constexpr std::array<NamedValue<SolidElement>, 3> enum_names<SolidElement>{{
-    {SolidElement::hexahedron20, "hexahedron20"},
-    {SolidElement::hexahedron20_reduced, "hexahedron20_reduced"},
-    {SolidElement::hexahedron8, "hexahedron8"}}};
+inline constexpr std::array<NamedValue<SolidElement>, 3> enum_names<SolidElement>{
+    {{SolidElement::hexahedron20, "hexahedron20"},
+     {SolidElement::hexahedron20_reduced, "hexahedron20_reduced"},
+     {SolidElement::hexahedron8, "hexahedron8"}}};
 template <>
-inline constexpr std::array<NamedValue<Direction>, 3> enum_names<Direction>{{
-    {Direction::x, "x"},
-    {Direction::y, "y"},
-    {Direction::z, "z"}}};
+inline constexpr std::array<NamedValue<Direction>, 3> enum_names<Direction>{
+    {{Direction::x, "x"}, {Direction::y, "y"}, {Direction::z, "z"}}};
 template <>
-inline constexpr std::array<NamedValue<TipPlace>, 3> enum_names<TipPlace>{{
-    {TipPlace::leading_edge, "leading_edge"},
-    {TipPlace::mid_chord, "mid_chord"},
-    {TipPlace::trailing_edge, "trailing_edge"}}};
+inline constexpr std::array<NamedValue<TipPlace>, 3> enum_names<TipPlace>{
+    {{TipPlace::leading_edge, "leading_edge"},
+     {TipPlace::mid_chord, "mid_chord"},
+     {TipPlace::trailing_edge, "trailing_edge"}}};
 template <>
-inline constexpr std::array<NamedValue<ContactLawType>, 4> enum_names<ContactLawType>{{
-    {ContactLawType::none, "none"},
-    {ContactLawType::exponential, "exponential"},
-    {ContactLawType::linear, "linear"},
-    {ContactLawType::rigid, "rigid"}}};
+inline constexpr std::array<NamedValue<ContactLawType>, 4> enum_names<ContactLawType>{
+    {{ContactLawType::none, "none"},
+     {ContactLawType::exponential, "exponential"},
+     {ContactLawType::linear, "linear"},
+     {ContactLawType::rigid, "rigid"}}};
 template <>
-inline constexpr std::array<NamedValue<Formulation>, 3> enum_names<Formulation>{{
-    {Formulation::strong, "strong"},
-    {Formulation::weak, "weak"},
-    {Formulation::distributional, "distributional"}}};
+inline constexpr std::array<NamedValue<Formulation>, 3> enum_names<Formulation>{
+    {{Formulation::strong, "strong"},
+     {Formulation::weak, "weak"},
+     {Formulation::distributional, "distributional"}}};
 template <>
-inline constexpr std::array<NamedValue<InnerProducts>, 2> enum_names<InnerProducts>{{
-    {InnerProducts::quadrature, "quadrature"},
-    {InnerProducts::exact, "exact"}}};
+inline constexpr std::array<NamedValue<InnerProducts>, 2> enum_names<InnerProducts>{
+    {{InnerProducts::quadrature, "quadrature"}, {InnerProducts::exact, "exact"}}};
 template <>
-inline constexpr std::array<NamedValue<ModeFormulation>, 2> enum_names<ModeFormulation>{{
-    {ModeFormulation::consistent, "consistent"},
-    {ModeFormulation::published, "published"}}};
+inline constexpr std::array<NamedValue<ModeFormulation>, 2> enum_names<ModeFormulation>{
+    {{ModeFormulation::consistent, "consistent"}, {ModeFormulation::published, "published"}}};
 template <>
-inline constexpr std::array<NamedValue<AnalysisType>, 4> enum_names<AnalysisType>{{
-    {AnalysisType::forced_response, "forced_response"},
-    {AnalysisType::frequency_sweep, "frequency_sweep"},
-    {AnalysisType::time_stepping, "time_stepping"},
-    {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
+inline constexpr std::array<NamedValue<AnalysisType>, 4> enum_names<AnalysisType>{
+    {{AnalysisType::forced_response, "forced_response"},
+     {AnalysisType::frequency_sweep, "frequency_sweep"},
+     {AnalysisType::time_stepping, "time_stepping"},
+     {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
 
 template <class Enum>
 std::string enum_name(Enum value) {

@@ -7,8 +7,8 @@
 
 #include "scene/spelling.hpp"
 #include "scene/toml_nesting.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {

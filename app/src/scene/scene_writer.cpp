@@ -1,6 +1,6 @@
+#include "wavebalance/app/scene/scene_writer.hpp"
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
-#include "wavebalance/app/scene/scene_writer.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -35,8 +35,8 @@ Document document_of(const Scene& scene, const std::string& name) {
   for (const SceneKey& key : scene_keys()) {
     if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
     const SceneValue value = key.get(scene);
-    document.entries.push_back({std::string(key.section), std::string(key.name), document_value(value),
-                                toml_text(value), 0, ""});
+    document.entries.push_back(
+        {std::string(key.section), std::string(key.name), document_value(value), toml_text(value), 0, ""});
   }
   return document;
 }

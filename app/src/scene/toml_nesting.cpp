@@ -6,8 +6,8 @@
 namespace wavebalance::app {
 namespace {
 
-/// The end of the comment or string that starts at `begin`. A string that is not closed ends with its line, or with
-/// the text if its quotes are threefold.
+/// The end of the comment or string that starts at `begin`. A string that is not closed ends with its line,
+/// or with the text if its quotes are threefold.
 std::size_t end_of_comment(std::string_view text, std::size_t begin) {
   return std::min(text.find('\n', begin), text.size());
 }

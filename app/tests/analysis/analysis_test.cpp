@@ -9,9 +9,9 @@
 #include "analysis/record_figure.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {
@@ -240,7 +240,9 @@ TEST(Analyse, RigidSweepThatItsObserverStopsHoldsThePointsSoFar) {
   });
   EXPECT_TRUE(record.interrupted);
   EXPECT_EQ(record.status, "interrupted");
-  EXPECT_EQ(record.sweep.rows() + static_cast<std::size_t>(value_of<std::int64_t>(record.summary, "unsolved_frequencies")), 3u);
+  EXPECT_EQ(record.sweep.rows() +
+                static_cast<std::size_t>(value_of<std::int64_t>(record.summary, "unsolved_frequencies")),
+            3u);
 }
 
 TEST(Analyse, RigidSweepWarnsThatBranchesMayBeMissing) {
@@ -355,7 +357,9 @@ TEST(RelativeRmsError, IsRelativeToTheReference) {
 
 TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
   const Scene scene = scene_of();
-  const auto bytes = [&](const std::vector<std::string>& overrides) { return estimate_cost(scene_of(overrides)).bytes; };
+  const auto bytes = [&](const std::vector<std::string>& overrides) {
+    return estimate_cost(scene_of(overrides)).bytes;
+  };
   const double base = bytes({});
   EXPECT_GT(base, 10e6);
   EXPECT_LT(base, 100e6);
@@ -369,7 +373,8 @@ TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
 
 TEST(AvailableMemory, IsThatOfTheMachineAtMost) {
   EXPECT_GT(available_memory(), 1e6);
-  EXPECT_LE(available_memory(), static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)));
+  EXPECT_LE(available_memory(),
+            static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)));
   EXPECT_EQ(memory_text(1.234e9), "1.2 GB");
   EXPECT_EQ(memory_text(15.2e6), "15 MB");
 }

@@ -8,9 +8,9 @@
 
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/contact/exact_bar_mode.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/contact/exact_bar_mode.hpp"
 
 namespace {
 

@@ -352,12 +352,12 @@ std::string dotted(int parts) {
 }
 
 TEST(LoadScene, KeysOfManyPartsAreRefusedWithTheirLine) {
-  const std::string expected =
-      "a key has more than 8 parts between dots; expected section.key or [section]";
+  const std::string expected = "a key has more than 8 parts between dots; expected section.key or [section]";
   for (const int parts : {9, 100000, 400000}) {
     EXPECT_EQ(outcome_of(bar_scene + dotted(parts) + " = 1\n"), "case.toml:24: " + expected);
     EXPECT_EQ(outcome_of(bar_scene + "[" + dotted(parts) + "]\n"), "case.toml:24: " + expected);
-    EXPECT_NE(outcome_of(bar_scene, {"time.trial={" + dotted(parts) + " = 1}"}).find(expected), std::string::npos);
+    EXPECT_NE(outcome_of(bar_scene, {"time.trial={" + dotted(parts) + " = 1}"}).find(expected),
+              std::string::npos);
   }
   EXPECT_EQ(outcome_of(bar_scene + dotted(8) + " = 1\n").find(expected), std::string::npos);
 }
@@ -367,8 +367,9 @@ TEST(LoadScene, DotsInTextCommentsAndNumbersAreNoKeys) {
   EXPECT_EQ(outcome_of(bar_scene + "# " + dots + "\n"), "no error");
   for (const std::string& text : {"'" + dots + "'", "\"\\\"" + dots + "\"", "\"\"\"\n" + dots + "\n\"\"\"",
                                   std::string("[1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 1.5]")})
-    EXPECT_NE(outcome_of(with(bar_scene, "\"fourier\"               # 18", text)).find("case.toml:18: time.trial"),
-              std::string::npos)
+    EXPECT_NE(
+        outcome_of(with(bar_scene, "\"fourier\"               # 18", text)).find("case.toml:18: time.trial"),
+        std::string::npos)
         << outcome_of(with(bar_scene, "\"fourier\"               # 18", text));
 }
 

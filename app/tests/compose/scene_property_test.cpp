@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "support/scene_texts.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace {
 

@@ -6,14 +6,14 @@
 #include "support/scene_texts.hpp"
 #include "support/strip.hpp"
 #include "support/summary_value.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
-#include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/modes.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {
 

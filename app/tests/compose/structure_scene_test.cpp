@@ -2,11 +2,11 @@
 
 #include "support/chain_files.hpp"
 #include "support/scene_texts.hpp"
-#include "wavebalance/fem/blade.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/fem/blade.hpp"
 
 namespace {
 
@@ -61,7 +61,8 @@ TEST_F(ChainScene, DampingThatAddsEnergyIsAWarning) {
   folder_.write("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 10\n2 2 10\n3 3 -1\n");
   const std::string damped = with(chain_scene, "modal_damping = 0.01 ", "damping = \"c.mtx\"");
   const Scene scene = load(damped);
-  EXPECT_NE(describe_scene(scene).find("warning    structure.damping is not positive semidefinite"), std::string::npos);
+  EXPECT_NE(describe_scene(scene).find("warning    structure.damping is not positive semidefinite"),
+            std::string::npos);
   const Record record = analyse(scene);
   ASSERT_EQ(record.warnings.size(), 1u);
   EXPECT_NE(record.warnings[0].find("the structure itself is unstable"), std::string::npos);

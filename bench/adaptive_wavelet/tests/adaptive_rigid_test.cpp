@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adaptive_rigid.hpp"
 #include "pairs.hpp"
 #include "rigid_reference.hpp"
-#include "adaptive_rigid.hpp"
 
 // Force cells against a rigid obstacle, held to the exact flows of the bar without mass at its tip.
 namespace wavebalance::pairs {

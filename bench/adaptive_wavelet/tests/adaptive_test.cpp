@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pairs.hpp"
 #include "adaptive_wavelet.hpp"
+#include "pairs.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "wavebalance/fem/eigenmodes.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,5 +1,5 @@
-// Holds what the program writes to known values: those of the references come from an independent shooting solution, the
-// errors from an independent implementation.
+// Holds what the program writes to known values: those of the references come from an independent shooting
+// solution, the errors from an independent implementation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 #include "paper_results.hpp"
 #include "paper_values.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -83,7 +83,9 @@ TEST(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
     const Table table = results().read(stem + ".csv");
     EXPECT_EQ(table.columns(), pair_columns) << stem;
     EXPECT_EQ(table.rows(), 1024u) << stem;
-    EXPECT_TRUE(results().has(stem + ".svg") && results().has(stem + ".png") && results().has("records/" + stem + ".json")) << stem;
+    EXPECT_TRUE(results().has(stem + ".svg") && results().has(stem + ".png") &&
+                results().has("records/" + stem + ".json"))
+        << stem;
     const double error =
         app::relative_rms_error(column(table, "fourier_fourier"), column(table, "reference"));
     EXPECT_LT(error, 2e-3) << stem;

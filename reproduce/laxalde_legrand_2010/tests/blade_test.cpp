@@ -93,8 +93,8 @@ TEST(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
 
 TEST(Ll10Blade, EveryPointBalancesItsForces) {
   const std::vector<std::string> overrides{"analysis.points=40"};
-  const app::ModeStudy study(app::load_scene(
-      fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "blade_mode.toml", overrides));
+  const app::ModeStudy study(
+      app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "blade_mode.toml", overrides));
   const auto curve = study.backbone();
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     if (!curve.points[i].accepted()) continue;

@@ -49,8 +49,7 @@ TEST(Ll10Paper, ConsistentCurveIsNearTheExactOneAndThePublishedOneIsNot) {
     const Table rows = table.where("formulation", formulation);
     return std::pair{rows.numbers("energy_ratio").back(), rows.numbers("frequency_ratio").back()};
   };
-  const auto scene =
-      app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml");
+  const auto scene = app::load_scene(fs::path(WAVEBALANCE_SCENES) / "laxalde_legrand_2010" / "rod.toml");
   const auto [energy, ratio] = last("consistent");
   EXPECT_NEAR(ratio, exact_mode(scene, energy).frequency_ratio(), 0.01 * ratio);
   const auto [published_energy, published] = last("published");
@@ -95,7 +94,8 @@ TEST(Ll10Paper, MotionsLookAsDescribed) {
   EXPECT_TRUE(results().verdict("fig05_space_time", "traveling wave"));
   EXPECT_TRUE(results().verdict("fig05_space_time", "symmetry in time and space"));
   for (const char* stem : {"fig02_rod_sketch", "fig04_phase_space", "fig05_space_time"})
-    for (const char* suffix : {".csv", ".svg", ".png"}) EXPECT_TRUE(results().has(stem + std::string(suffix))) << stem;
+    for (const char* suffix : {".csv", ".svg", ".png"})
+      EXPECT_TRUE(results().has(stem + std::string(suffix))) << stem;
   const Table table = results().read("fig05_space_time.csv");
   const auto exact = table.numbers("displacement_energy_1.8_exact");
   EXPECT_NEAR(*std::max_element(exact.begin(), exact.end()), 1.0, 0.3);

@@ -105,8 +105,6 @@ double ActiveBlock::condition() const { return lu_.condition(); }
 
 // Eliminating the samples without stiffness, on whose columns J is the identity, leaves the determinant as it
 // is.
-int ActiveBlock::determinant_sign() const {
-  return lu_.determinant_sign();
-}
+int ActiveBlock::determinant_sign() const { return lu_.determinant_sign(); }
 
 }  // namespace wavebalance::solvers

@@ -8,8 +8,8 @@ namespace {
 // Active samples of one contact up to which LU is faster than GMRES, as measured on both cases of JL14.
 constexpr Eigen::Index crossover = 96;
 
-// With several contacts the preconditioner holds few harmonics of each, and LU is used up to about a second per
-// system.
+// With several contacts the preconditioner holds few harmonics of each, and LU is used up to about a second
+// per system.
 constexpr Eigen::Index crossover_of_several = 2048;
 
 // A larger LU takes more than several seconds.

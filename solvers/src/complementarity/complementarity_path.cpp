@@ -97,7 +97,8 @@ void ComplementarityPath::subtract(const Eigen::VectorXd& values, Eigen::VectorX
 void ComplementarityPath::measure() {
   const Obstacles& obstacles = state_.obstacles;
   problem_.apply(state_.force, product_);
-  distance_ = obstacles.gap_without_force + z_ * covering_vector_ + obstacles.flexibility.cwiseProduct(state_.force) + product_;
+  distance_ = obstacles.gap_without_force + z_ * covering_vector_ +
+              obstacles.flexibility.cwiseProduct(state_.force) + product_;
 }
 
 // One step of iterative refinement for the force and for its derivative.
@@ -200,7 +201,8 @@ ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen:
 ComplementarityPath::End ComplementarityPath::follow(Obstacles goal) {
   covering_vector_ = (state_.obstacles.flexibility - goal.flexibility).cwiseProduct(state_.force);
   for (Eigen::Index l = 0; l < covering_vector_.size(); ++l)  // where there is no obstacle both are infinite
-    if (std::isfinite(goal.gap_without_force[l])) covering_vector_[l] += state_.obstacles.gap_without_force[l] - goal.gap_without_force[l];
+    if (std::isfinite(goal.gap_without_force[l]))
+      covering_vector_[l] += state_.obstacles.gap_without_force[l] - goal.gap_without_force[l];
   state_.obstacles = std::move(goal);
   z_ = first_z_ = 1.0;
   direction_ = -1.0;

@@ -10,8 +10,8 @@
 
 namespace wavebalance::solvers {
 
-/// Obstacles that are linear in contact: gap_without_force = gap - u0 (m) and flexibility (m/N, at least 0, which is
-/// rigid) of each sample.
+/// Obstacles that are linear in contact: gap_without_force = gap - u0 (m) and flexibility (m/N, at least 0,
+/// which is rigid) of each sample.
 struct Obstacles {
   Eigen::VectorXd gap_without_force, flexibility;
 };
@@ -20,18 +20,19 @@ struct Obstacles {
 ///
 ///   w = gap_without_force + flexibility f + K f >= 0,   f >= 0,   f w = 0   at every sample,
 ///
-/// a linear complementarity problem. The obstacles are moved with a parameter z; the forces are then piecewise linear
-/// in the path's length. The path is followed exactly from pivot to pivot, without steps of a chosen size, by the
-/// parametric form of Lemke's algorithm [R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem,
-/// SIAM 2009, sections 4.4 and 4.5]. Each pivot takes one sample into contact or out of it; z may grow again on the
-/// way. The unknowns are forces and not penetrations, so that the accuracy does not degrade with stiffness.
+/// a linear complementarity problem. The obstacles are moved with a parameter z; the forces are then
+/// piecewise linear in the path's length. The path is followed exactly from pivot to pivot, without steps of
+/// a chosen size, by the parametric form of Lemke's algorithm [R. W. Cottle, J.-S. Pang, R. E. Stone, The
+/// Linear Complementarity Problem, SIAM 2009, sections 4.4 and 4.5]. Each pivot takes one sample into contact
+/// or out of it; z may grow again on the way. The unknowns are forces and not penetrations, so that the
+/// accuracy does not degrade with stiffness.
 ///
 /// With exact inner products and damping no path of obstacles lowered evenly leads to infinity: a motion
 /// without load would do work. Sums over points may do some, and then it can.
 ///
 /// The inverse over the samples that press and the slope of the path are updated, and corrected from time to
-/// time: O(active^2 + C N log N + C^2 M) per pivot. Lost digits are found at the end of the path, by the residual of
-/// the problem.
+/// time: O(active^2 + C N log N + C^2 M) per pivot. Lost digits are found at the end of the path, by the
+/// residual of the problem.
 class ComplementarityPath {
  public:
   enum class End { reached, ray, effort_limit, lost, cancelled };
@@ -46,7 +47,8 @@ class ComplementarityPath {
   void limit_operations(double most) { operations_ = std::min(operations_, most); }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
 
-  /// Lowers the obstacles, raised by z covering_vector, from where they touch first to z = 0. `covering_vector` > 0.
+  /// Lowers the obstacles, raised by z covering_vector, from where they touch first to z = 0.
+  /// `covering_vector` > 0.
   End lower(Obstacles goal, const Eigen::VectorXd& covering_vector);
   /// From the force at present obstacles to other ones, all moved in proportion.
   End follow(Obstacles goal);
@@ -86,7 +88,8 @@ class ComplementarityPath {
   State state_;
   Eigen::VectorXd covering_vector_;
   ActiveInverse inverse_;  // of K + flexibility over the samples that press
-  Eigen::VectorXd slope_;  // how force falls with z: the inverse times the covering_vector there, elsewhere zero
+  Eigen::VectorXd
+      slope_;  // how force falls with z: the inverse times the covering_vector there, elsewhere zero
   Eigen::VectorXd distance_, force_rate_, distance_rate_, product_;
   double z_ = 0.0, direction_ = -1.0, first_z_ = 1.0;
   int pivots_ = 0, max_segment_ = 0;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "linalg/safe_norm.hpp"
 #include "complementarity/lcp_homotopy.hpp"
+#include "linalg/safe_norm.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -42,7 +42,8 @@ bool starts_with_a_slope(const AnyContactLaw& law) {
 
 class LawObstacles {
  public:
-  explicit LawObstacles(ContactSystem& system) : system_(system), free_(system.problem().contact_free_response()) {}
+  explicit LawObstacles(ContactSystem& system)
+      : system_(system), free_(system.problem().contact_free_response()) {}
 
   bool usable() const {
     for (int c = 0; c < system_.problem().contacts(); ++c)

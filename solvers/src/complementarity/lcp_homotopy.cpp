@@ -63,8 +63,8 @@ bool LcpHomotopy::arrived(const Obstacles& goal) const {
   return level_ <= least_ || level_ <= goal.flexibility.minCoeff();
 }
 
-// Stiffens the obstacle from level_ to the goal, dividing the flexibility by `factor`; when a segment fails the
-// factor is square-rooted, down to `smallest`.
+// Stiffens the obstacle from level_ to the goal, dividing the flexibility by `factor`; when a segment fails
+// the factor is square-rooted, down to `smallest`.
 bool LcpHomotopy::stiffen(const Obstacles& goal, double factor, double smallest) {
   const double largest = factor;
   for (keep(level_); !arrived(goal); keep(level_)) {
@@ -95,9 +95,9 @@ Strategy LcpHomotopy::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
   path_.set_max_segment(long_segment(samples));
   if (lower(goal, soft, even)) {
     const ComplementarityPath::State start = path_.state();
-    for (const auto& [strategy, length, smallest] :
-         {Segments{Strategy::soft_obstacle, 1, 1.2}, {Strategy::long_segments, 4, 1.2},
-          {Strategy::small_factors, 1, 1.02}}) {
+    for (const auto& [strategy, length, smallest] : {Segments{Strategy::soft_obstacle, 1, 1.2},
+                                                     {Strategy::long_segments, 4, 1.2},
+                                                     {Strategy::small_factors, 1, 1.02}}) {
       path_.set_max_segment(length * short_segment(samples));
       if (stiffen(goal, 3.0, smallest)) return strategy;
     }
@@ -109,7 +109,8 @@ Strategy LcpHomotopy::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
   return lower(goal, 0.0, even) && stiffen(goal, 1.0, 1.0) ? Strategy::stiff_obstacle : Strategy::none;
 }
 
-// With obstacles whose height varies at random from sample to sample, from random flexibilities by random factors.
+// With obstacles whose height varies at random from sample to sample, from random flexibilities by random
+// factors.
 Strategy LcpHomotopy::random_paths(const Obstacles& goal, const Eigen::VectorXd& even) {
   path_.set_max_segment(random_segment(static_cast<int>(even.size())));
   path_.limit_operations(options_.max_random_operations);
@@ -119,9 +120,11 @@ Strategy LcpHomotopy::random_paths(const Obstacles& goal, const Eigen::VectorXd&
   };
   for (int i = 0; i < options_.max_random_paths && !cancelled_ && path_.may_go_on(); ++i) {
     std::uniform_real_distribution<double> spread(-power(-2.0, -0.3), 0.0);
-    const Eigen::VectorXd covering_vector = even.unaryExpr([&](double one) { return one + spread(generator); });
+    const Eigen::VectorXd covering_vector =
+        even.unaryExpr([&](double one) { return one + spread(generator); });
     const double soft = i % 3 == 2 ? 0.0 : largest_compliance_ * power(-3.0, 1.0);
-    if (lower(goal, soft, covering_vector) && stiffen(goal, power(0.3, 2.0), 1.5)) return Strategy::random_obstacles;
+    if (lower(goal, soft, covering_vector) && stiffen(goal, power(0.3, 2.0), 1.5))
+      return Strategy::random_obstacles;
   }
   return Strategy::none;
 }

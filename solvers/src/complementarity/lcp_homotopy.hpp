@@ -9,10 +9,10 @@ namespace wavebalance::solvers {
 /// samples than there are functions is singular, and this much keeps the digits.
 constexpr double least_flexibility = 1e-12;
 
-/// Solves the linear complementarity problem of obstacles by paths, one after the other until one arrives (see
-/// ComplementarityPath). A soft obstacle is lowered first, with about one pivot per sample in contact. Its
-/// flexibility is then divided by a factor again and again; each of these segments is again such a path, and where one
-/// does not arrive the factor is reduced. The paths, in their order, are those of Strategy.
+/// Solves the linear complementarity problem of obstacles by paths, one after the other until one arrives
+/// (see ComplementarityPath). A soft obstacle is lowered first, with about one pivot per sample in contact.
+/// Its flexibility is then divided by a factor again and again; each of these segments is again such a path,
+/// and where one does not arrive the factor is reduced. The paths, in their order, are those of Strategy.
 class LcpHomotopy {
  public:
   LcpHomotopy(CondensedProblem& problem, const ComplementarityOptions& options, Observer observer);

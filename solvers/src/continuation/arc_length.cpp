@@ -23,8 +23,8 @@ void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) co
 
 void ArcLengthOptions::validate() const {
   constexpr const char* who = "ArcLengthOptions";
-  for (const auto& [name, value] : {std::pair{"displacement_scale", displacement_scale},
-                                    std::pair{"parameter_scale", parameter_scale}})
+  for (const auto& [name, value] :
+       {std::pair{"displacement_scale", displacement_scale}, std::pair{"parameter_scale", parameter_scale}})
     if (!(std::isfinite(value) && value >= 0.0)) detail::reject(who, name, value, "at least 0 and finite");
   detail::require_positive(who, "initial_step", initial_step);
   detail::require_positive(who, "min_step", min_step);
@@ -166,7 +166,8 @@ void ArcLength::accept(CurvePoint&& candidate, const ActiveMask& sides) {
 }
 
 ArcLength::Status ArcLength::advance() {
-  const bool far = !orientation_unknown_ && piecewise_arc_length_ <= 0.0 && options_.grazing_events != GrazingEvents::all;
+  const bool far =
+      !orientation_unknown_ && piecewise_arc_length_ <= 0.0 && options_.grazing_events != GrazingEvents::all;
   if (far && step_far()) return Status::advanced;
   if (!step_in_piece()) return Status::no_point;
   const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;

@@ -125,8 +125,8 @@ bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& corner) {
 
 // The tangent with `together`, the samples at their gaps, as stiff as `presses` says, along which each moves
 // to the side whose stiffness it has. False when there is none.
-bool ArcLength::grazing_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
-                               CurvePoint& corner) {
+bool ArcLength::grazing_tangent(int sample, const std::vector<int>& together,
+                                const std::vector<bool>& presses, CurvePoint& corner) {
   bool onwards = true;
   for (std::size_t i = 0; i < together.size(); ++i) {
     const double stiffness = system_.law_at(together[i]).tangent(system_.gap_at(together[i]));
@@ -145,7 +145,8 @@ bool ArcLength::leave_grazing_event(int sample, const ActiveMask& sides, CurvePo
   constexpr std::size_t most = 8;
   const std::vector<int> together = samples_at_gap(corner);
   for (const int l : together)
-    orientation_unknown_ = orientation_unknown_ || l / system_.problem().points() != sample / system_.problem().points();
+    orientation_unknown_ =
+        orientation_unknown_ || l / system_.problem().points() != sample / system_.problem().points();
   std::vector<bool> through;
   for (const int l : together) through.push_back(is_at_gap(point_, l) ? sides[l] : !sides[l]);
   if (grazing_tangent(sample, together, through, corner))

@@ -4,12 +4,13 @@
 
 namespace wavebalance::solvers {
 
-/// Inverse of the block of a matrix over a set of its rows and columns, the members, which enter and leave one by one.
-/// Vectors are indexed by slot. Slots of removed members stay empty: inputs must be zero there, outputs are undefined.
+/// Inverse of the block of a matrix over a set of its rows and columns, the members, which enter and leave
+/// one by one. Vectors are indexed by slot. Slots of removed members stay empty: inputs must be zero there,
+/// outputs are undefined.
 ///
-/// Each change is a term of rank one. Terms are collected and added to the inverse in one product, because passes over
-/// the inverse in memory take most of the time. In the costs below n is the number of slots and k that of the terms
-/// collected.
+/// Each change is a term of rank one. Terms are collected and added to the inverse in one product, because
+/// passes over the inverse in memory take most of the time. In the costs below n is the number of slots and k
+/// that of the terms collected.
 class ActiveInverse {
  public:
   /// For members out of 0..total-1.

@@ -20,11 +20,12 @@ concept DampedNewtonSystem = requires(System system, Eigen::VectorXd vector) {
   { system.goes_on(0) } -> std::convertible_to<bool>;
 };
 
-/// Replaces x by x - step direction for the largest step of 1, 1/2, 1/4, ... down to `min_step` with which the norm
-/// falls enough [Armijo's rule; Nocedal and Wright, Numerical Optimization, 2006, section 3.1, with constant 1e-4].
-/// False when there is none: x is then as before, and evaluated again. `norm` is that at x.
+/// Replaces x by x - step direction for the largest step of 1, 1/2, 1/4, ... down to `min_step` with which
+/// the norm falls enough [Armijo's rule; Nocedal and Wright, Numerical Optimization, 2006, section 3.1, with
+/// constant 1e-4]. False when there is none: x is then as before, and evaluated again. `norm` is that at x.
 template <class System>
-bool armijo_step(System& system, Eigen::VectorXd& x, const Eigen::VectorXd& direction, double norm, double min_step) {
+bool armijo_step(System& system, Eigen::VectorXd& x, const Eigen::VectorXd& direction, double norm,
+                 double min_step) {
   constexpr double sufficient = 1e-4;
   const Eigen::VectorXd base = x;
   for (double step = 1.0; step >= min_step; step *= 0.5) {

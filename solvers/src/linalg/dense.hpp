@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-/// Dense factorizations and eigenvalues, compiled once: Eigen's templates for them take most of the compile time of
-/// any source that includes them.
+/// Dense factorizations and eigenvalues, compiled once: Eigen's templates for them take most of the compile
+/// time of any source that includes them.
 namespace wavebalance::solvers::detail {
 
-/// P A = L U with partial pivoting, for double and std::complex<double>. Copies share the factors, which do not
-/// change any more. The default is the factorization of a matrix without rows.
+/// P A = L U with partial pivoting, for double and std::complex<double>. Copies share the factors, which do
+/// not change any more. The default is the factorization of a matrix without rows.
 template <class Scalar>
 class Lu {
  public:
@@ -30,14 +30,13 @@ class Lu {
   /// A^-1. O(n^3).
   Matrix inverse() const;
 
-  /// Whether a pivot is not finite, or at most `tolerance` times the largest, or below the normal numbers. This
-  /// costs O(n), less than the condition number.
+  /// Whether a pivot is not finite, or at most `tolerance` times the largest, or below the normal numbers.
+  /// This costs O(n), less than the condition number.
   bool is_singular(double tolerance = 0.0) const;
   /// Estimate of the condition number in the 1-norm. O(n^2).
   double condition() const;
   /// 1 or -1, of a real matrix; 1 of a matrix without rows.
-  int determinant_sign() const
-    requires std::same_as<Scalar, double>;
+  int determinant_sign() const requires std::same_as<Scalar, double>;
 
  private:
   struct Factors;
@@ -47,7 +46,8 @@ class Lu {
 extern template class Lu<double>;
 extern template class Lu<std::complex<double>>;
 
-/// The shortest x that minimises ||A x - b||, by complete orthogonal decomposition; A may be singular. O(n^3).
+/// The shortest x that minimises ||A x - b||, by complete orthogonal decomposition; A may be singular.
+/// O(n^3).
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 /// The lower factor L of A = L L^T; nothing unless A is positive definite. O(n^3).
@@ -64,8 +64,8 @@ struct SymmetricEigen {
 
 /// A x = value x of a symmetric A, orthonormal vectors; nothing if the iteration does not converge. O(n^3).
 std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix);
-/// A x = value B x with B positive definite, x^T B x = 1; nothing if B is not, or if the iteration does not converge
-/// to finite vectors. O(n^3).
+/// A x = value B x with B positive definite, x^T B x = 1; nothing if B is not, or if the iteration does not
+/// converge to finite vectors. O(n^3).
 std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& metric);
 
 /// The eigenvalues of a square matrix, in no order; NaN if the iteration does not converge. O(n^3).

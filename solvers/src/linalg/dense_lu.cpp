@@ -60,9 +60,7 @@ double Lu<Scalar>::condition() const {
 }
 
 template <class Scalar>
-int Lu<Scalar>::determinant_sign() const
-  requires std::same_as<Scalar, double>
-{
+int Lu<Scalar>::determinant_sign() const requires std::same_as<Scalar, double> {
   if (!factors_) return 1;
   const auto negative = (factors_->lu.matrixLU().diagonal().array() < 0.0).count();
   return static_cast<int>(factors_->lu.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);

@@ -73,7 +73,8 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
   const Eigen::VectorXd values = lu.solve(right);
   force.setZero(unknowns_);
   for (Eigen::Index i = 0; i < count; ++i)
-    for (const int index : time_mirror(representatives[static_cast<std::size_t>(i)])) force[index] = values[i];
+    for (const int index : time_mirror(representatives[static_cast<std::size_t>(i)]))
+      force[index] = values[i];
   constexpr double tiny = 1e-13;
   return values.allFinite() && !lu.is_singular(tiny);
 }

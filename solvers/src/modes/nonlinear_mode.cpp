@@ -135,9 +135,11 @@ std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions
   };
   for (int i = 0; i < options.points; ++i) {
     const double ratio = options.first_ratio + i * width;
-    if (!goes_on(options.observer, {"backbone", i, ratio, "frequency ratio", double(i) / options.points})) break;
+    if (!goes_on(options.observer, {"backbone", i, ratio, "frequency ratio", double(i) / options.points}))
+      break;
     const double omega = mode.linear_omega() * ratio;
-    ModePoint point = active.empty() ? mode.at_frequency_by_harmonic_continuation(omega) : mode.at_frequency(omega, active);
+    ModePoint point =
+        active.empty() ? mode.at_frequency_by_harmonic_continuation(omega) : mode.at_frequency(omega, active);
     if (!active.empty() && (point.status != ModeStatus::converged || !close(point))) {
       const int spent = point.iterations;
       point = mode.at_frequency_by_harmonic_continuation(omega);

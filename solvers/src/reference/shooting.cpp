@@ -74,8 +74,9 @@ class Shooting {
       return direction.allFinite();
     }
     bool goes_on(int iterations) const {
-      return std::isfinite(norm_) && solvers::goes_on(shooting_.options_.observer, {"shooting", iterations, norm_,
-                                                                                   "relative change per period"});
+      return std::isfinite(norm_) &&
+             solvers::goes_on(shooting_.options_.observer,
+                              {"shooting", iterations, norm_, "relative change per period"});
     }
     const std::vector<double>& history() const { return history_; }
 

@@ -30,8 +30,7 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
-  const auto modes =
-      symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
+  const auto modes = symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
   if (!modes)
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
   stiffness = modes->values;

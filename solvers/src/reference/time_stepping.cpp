@@ -268,8 +268,9 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
         result.samples = recorder.samples(options.full_history);
         if (++result.periods > 1) result.period_error.push_back(difference);
         const double done = std::log(difference) / std::log(options.period_tolerance);
-        const bool stop = !goes_on(options.observer, {"time stepping", result.periods, difference,
-                                                      "relative difference of periods", std::clamp(done, 0.0, 1.0)});
+        const bool stop =
+            !goes_on(options.observer, {"time stepping", result.periods, difference,
+                                        "relative difference of periods", std::clamp(done, 0.0, 1.0)});
         if (difference < options.period_tolerance) return TimeSteppingStatus::converged;
         if (stop) return TimeSteppingStatus::cancelled;
       }

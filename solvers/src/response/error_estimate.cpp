@@ -7,7 +7,7 @@ double relative(double value, double scale) { return value == 0.0 ? 0.0 : value 
 
 /// Below M/2 a harmonic's amplitude is its coefficient over M: those of the cardinal functions are samples.
 LevelDifference harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_functions,
-                               const Eigen::MatrixXcd& fine, int fine_functions) {
+                                  const Eigen::MatrixXcd& fine, int fine_functions) {
   double within = 0.0, beyond = 0.0, scale = 0.0;
   for (Eigen::Index n = 0; n < fine.rows(); ++n) {
     const double weight = n == 0 ? 0.5 : 1.0;
@@ -24,7 +24,7 @@ LevelDifference harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_fun
 }  // namespace
 
 LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
-                           const CondensedProblem& fine, const PeriodicResponse& fine_response) {
+                                 const CondensedProblem& fine, const PeriodicResponse& fine_response) {
   const TimePair& pair = fine.pair();
   const bool odd = pair.functions() % 2 == 1 && coarse.pair().functions() % 2 == 1;
   if (odd && pair.trial().band_limited() && pair.weight().band_limited())

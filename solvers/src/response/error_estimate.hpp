@@ -16,7 +16,7 @@ struct LevelDifference {
 /// Pairs of Fourier functions are compared harmonic by harmonic, any others at the coarser one's points, all
 /// of it `beyond`. The points of the finer problem are a multiple of the coarser one's. O(M + N).
 LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
-                           const CondensedProblem& fine, const PeriodicResponse& fine_response);
+                                 const CondensedProblem& fine, const PeriodicResponse& fine_response);
 
 /// Displacement, relative rms, by which sums over half the points would differ, contact left as it is: the
 /// force at every other point doubled against the force at all. One product with K.

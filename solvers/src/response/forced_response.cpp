@@ -50,7 +50,8 @@ Candidate polish(ContactSystem& system, const LawForce& found, const ForcedRespo
   Candidate candidate;
   if (found.rounding <= largest_rounding)
     candidate = try_newton(system, found.displacement, found.strategy, options);
-  if (candidate.converged() || found.defect > largest_defect) return candidate;
+  const bool ended = candidate.converged() || candidate.newton.status == SolveStatus::cancelled;
+  if (ended || found.defect > largest_defect) return candidate;
   candidate.newton.status = SolveStatus::converged;
   candidate.newton.residual = found.defect;
   candidate.newton.residual_history.push_back(found.defect);
@@ -72,6 +73,7 @@ Candidate try_complementarity(ContactSystem& system, Candidate failed, const For
   }
   Candidate candidate = polish(system, found, options);
   iterations += candidate.newton.iterations;
+  if (candidate.newton.status == SolveStatus::cancelled) failed.newton.status = SolveStatus::cancelled;
   const bool better = candidate.displacement.size() > 0 && candidate.newton.residual < failed.newton.residual;
   return candidate.converged() || better ? candidate : failed;
 }
@@ -105,8 +107,8 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   options.validate();
   require_start(problem, guess);
   ContactSystem system(problem, laws);
-  Candidate candidate =
-      try_newton(system, guess.size() != 0 ? guess : problem.contact_free_response(), Strategy::newton, options);
+  Candidate candidate = try_newton(system, guess.size() != 0 ? guess : problem.contact_free_response(),
+                                   Strategy::newton, options);
   int iterations = candidate.newton.iterations;
   const bool cancelled = candidate.newton.status == SolveStatus::cancelled;
   if (!candidate.converged() && !cancelled && options.complementarity)

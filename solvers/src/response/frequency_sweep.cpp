@@ -65,8 +65,8 @@ class Sweep {
       largest_free_ = 0.0;
       result_ = {};
       trace();
-      const bool again =
-          result_.status == SweepStatus::unbounded && options_.arc_length.grazing_events != GrazingEvents::all;
+      const bool again = result_.status == SweepStatus::unbounded &&
+                         options_.arc_length.grazing_events != GrazingEvents::all;
       if (!again) break;
     }
     const double interval = std::abs(options_.to - options_.from);
@@ -174,12 +174,10 @@ class Sweep {
 }  // namespace
 
 void FrequencySweepOptions::validate() const {
-  const bool valid = std::isfinite(from) && std::isfinite(to) && from > 0.0 &&
-                     to > 0.0 && from != to;
+  const bool valid = std::isfinite(from) && std::isfinite(to) && from > 0.0 && to > 0.0 && from != to;
   if (!valid)
     throw std::invalid_argument("FrequencySweepOptions: from " + std::to_string(from) + " Hz to " +
-                                std::to_string(to) +
-                                " Hz; both must be positive, finite and different");
+                                std::to_string(to) + " Hz; both must be positive, finite and different");
   if (!(smallest_return >= 0.0))
     throw std::invalid_argument("FrequencySweepOptions: smallest_return is " +
                                 std::to_string(smallest_return) + " Hz; it must not be negative");

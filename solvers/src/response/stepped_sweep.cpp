@@ -10,8 +10,8 @@ namespace wavebalance::solvers {
 std::vector<double> uniform_frequencies(double from, double to, double max_step, int max_count) {
   if (!std::isfinite(from) || !std::isfinite(to) || !(max_step > 0.0) || max_count < 1)
     throw std::invalid_argument("uniform_frequencies: from " + std::to_string(from) + " to " +
-                                std::to_string(to) + ", max_step " + std::to_string(max_step) + ", max_count " +
-                                std::to_string(max_count) +
+                                std::to_string(to) + ", max_step " + std::to_string(max_step) +
+                                ", max_count " + std::to_string(max_count) +
                                 "; the frequencies must be finite and the others positive");
   constexpr double rounding = 1e-9;  // an interval of n steps has n steps
   const double steps = std::max(1.0, std::ceil(std::abs(to - from) / max_step - rounding));

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "structure/condensation_method.hpp"
 #include "linalg/safe_norm.hpp"
+#include "structure/condensation_method.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -130,7 +130,8 @@ Condensation::~Condensation() = default;
 int Condensation::size() const { return method_->size(); }
 int Condensation::contacts() const { return method_->contacts(); }
 
-CondensedPoint Condensation::dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
+CondensedPoint Condensation::dynamic_compliance(const ImpedanceCoefficients& factors,
+                                                const ImpedanceCoefficients& rates) {
   return method_->dynamic_compliance(factors, rates);
 }
 
@@ -147,8 +148,8 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
 void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                                     CondensedSpectrum& result) {
   for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
-    const CondensedPoint point =
-        dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
+    const CondensedPoint point = dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
+                                                    {rates[0][k], rates[1][k], rates[2][k]});
     result.compliance.row(k) = point.compliance.reshaped().transpose();
     result.load_response.row(k) = point.load_response.transpose();
     result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
@@ -156,7 +157,8 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
   }
 }
 
-Eigen::VectorXcd Condensation::recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
+Eigen::VectorXcd Condensation::recover(const ImpedanceCoefficients& factors,
+                                       std::complex<double> load_amplitude,
                                        const Eigen::VectorXcd& contact_forces) {
   return method_->recover(factors, load_amplitude, contact_forces);
 }

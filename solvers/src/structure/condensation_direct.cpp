@@ -4,7 +4,8 @@
 
 namespace wavebalance::solvers {
 
-CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
+CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& factors,
+                                                const ImpedanceCoefficients& rates) {
   factorize(factors);
   const int count = contacts();
   Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size(), count + 1);
@@ -17,7 +18,8 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
   return {at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count), slope.col(count)};
 }
 
-Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
+Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors,
+                                       std::complex<double> load_amplitude,
                                        const Eigen::VectorXcd& contact_forces) {
   factorize(factors);
   Eigen::VectorXcd force = structure_.load * load_amplitude;

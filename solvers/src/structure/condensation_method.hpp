@@ -14,7 +14,8 @@ class Condensation::Method {
   virtual ~Method() = default;
   virtual int size() const = 0;
   virtual int contacts() const = 0;
-  virtual CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) = 0;
+  virtual CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
+                                            const ImpedanceCoefficients& rates) = 0;
   /// Point by point unless a method knows better; the results have their size.
   virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
                         CondensedSpectrum& result);
@@ -45,8 +46,8 @@ class StiffnessScale {
   double condition(const ImpedanceCoefficients& factors, double solution_norm, double right_norm) const;
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
   /// working precision makes it, or not finite. Returns condition(). O(n).
-  double require_regular(const ImpedanceCoefficients& factors, const Eigen::Ref<const Eigen::VectorXcd>& solution,
-                         double right_norm) const;
+  double require_regular(const ImpedanceCoefficients& factors,
+                         const Eigen::Ref<const Eigen::VectorXcd>& solution, double right_norm) const;
 
  private:
   std::array<double, 3> largest_;

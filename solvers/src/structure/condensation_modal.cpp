@@ -74,7 +74,8 @@ class ModalMethod final : public Condensation::Method {
   int size() const override { return static_cast<int>(load_.size()); }
   int contacts() const override { return static_cast<int>(contacts_.rows()); }
 
-  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
+                                    const ImpedanceCoefficients& rates) override {
     const Eigen::ArrayXcd compliance = invert(factors);
     const Eigen::ArrayXcd slope = -compliance.square() * combine(rates);
     const Eigen::Index count = contacts_.rows();
@@ -109,8 +110,8 @@ class ModalMethod final : public Condensation::Method {
     return (s[0] * modes_.mass + s[1] * modes_.damping + s[2] * modes_.stiffness).array();
   }
 
-  // 1 / (s2 m_j + s1 c_j + s0 k_j). A mode is singular if its term |x|^2 / d of Z^-1 exceeds 1/eps of the scale: its
-  // natural frequency is uncertain by rounding of M and K.
+  // 1 / (s2 m_j + s1 c_j + s0 k_j). A mode is singular if its term |x|^2 / d of Z^-1 exceeds 1/eps of the
+  // scale: its natural frequency is uncertain by rounding of M and K.
   Eigen::ArrayXcd invert(const ImpedanceCoefficients& factors) {
     const Eigen::ArrayXcd inverse = combine(factors).inverse();
     record(scale_.require_regular(factors, inverse * sizes_, 1.0));

@@ -36,7 +36,8 @@ class ScaledMethod final : public Condensation::Method {
   int size() const override { return method_->size(); }
   int contacts() const override { return method_->contacts(); }
 
-  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
+                                    const ImpedanceCoefficients& rates) override {
     const double unit = unit_of(scale_.size(factors));
     CondensedPoint point = method_->dynamic_compliance(in_units(factors, unit), in_units(rates, unit));
     take_condition();

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <vector>
 
+#include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
 #include "structure/pivot_recursion.hpp"
-#include "linalg/safe_norm.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -51,7 +51,8 @@ class TridiagonalMethod final : public Condensation::Method {
   int size() const override { return static_cast<int>(load_.size()); }
   int contacts() const override { return static_cast<int>(contacts_.size()); }
 
-  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) override {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
+                                    const ImpedanceCoefficients& rates) override {
     if (!factorize(factors)) {
       const CondensedPoint point = pivoting().dynamic_compliance(factors, rates);
       record(pivoting().condition());
@@ -126,7 +127,8 @@ class TridiagonalMethod final : public Condensation::Method {
   }
 
   // By columns of Z^-1 at the contacts, left in units_.
-  void set_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates, CondensedPoint& point) {
+  void set_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates,
+                      CondensedPoint& point) {
     point.compliance.resize(contacts(), contacts());
     point.compliance_slope.resize(contacts(), contacts());
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -158,7 +160,8 @@ class TridiagonalMethod final : public Condensation::Method {
   }
 
   // x^T (d2 M + d1 C + d0 K) y, no conjugation.
-  Complex product(const Eigen::VectorXcd& x, const ImpedanceCoefficients& d, const Eigen::VectorXcd& y) const {
+  Complex product(const Eigen::VectorXcd& x, const ImpedanceCoefficients& d,
+                  const Eigen::VectorXcd& y) const {
     Complex sum = 0.0;
     for (int i = 0; i < size(); ++i) {
       const Complex entry =

@@ -96,7 +96,7 @@ Eigen::VectorXcd TimePair::sampled_symbol(int derivative) const {
     return order == 0 ? values : sampled_spectrum(basis, points_, order);
   };
   AliasMap{functions_, points_}.fold(spectrum(weight_, weight_spectrum_, on_weight),
-                                           spectrum(trial_, trial_spectrum_, on_trial), symbol);
+                                     spectrum(trial_, trial_spectrum_, on_trial), symbol);
   const double sign = on_weight % 2 == 0 ? 1.0 : -1.0;
   return symbol * (sign * functions_ / points_ / points_);
 }

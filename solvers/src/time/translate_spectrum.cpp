@@ -29,7 +29,7 @@ int fine_points(const AnyTimeBasis& basis, int points) {
 }  // namespace
 
 void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& translates,
-                               Eigen::VectorXcd& out) const {
+                         Eigen::VectorXcd& out) const {
   const int size = points / 2 + 1;
   out.resize(size);
   for (int start = 0; start < size; start += functions) {
@@ -42,7 +42,7 @@ void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd&
 }
 
 void AliasMap::fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples,
-                          Eigen::VectorXcd& out) const {
+                    Eigen::VectorXcd& out) const {
   const int size = points / 2 + 1;
   const int stored = functions / 2 + 1;
   const int self_conjugate = points % 2 == 0 ? points / 2 : 0;

@@ -211,7 +211,8 @@ RC_GTEST_PROP(CondensationProperty, TridiagonalAndSparseAgree, ()) {
   a.apply(f, ka);
   b.apply(f, kb);
   RC_ASSERT((ka - kb).norm() <= 1e-10 * ka.norm());
-  RC_ASSERT((a.contact_free_response() - b.contact_free_response()).norm() <= 1e-10 * a.contact_free_response().norm());
+  RC_ASSERT((a.contact_free_response() - b.contact_free_response()).norm() <=
+            1e-10 * a.contact_free_response().norm());
   RC_ASSERT((a.contact_free_response_slope() - b.contact_free_response_slope()).norm() <=
             1e-10 * a.contact_free_response_slope().norm());
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "support/small_problems.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 // The bar of [JL14, section 4] by harmonic balance, against shooting and against figures computed by others.

@@ -2,8 +2,8 @@
 
 #include <Eigen/LU>
 
-#include "linalg/gmres.hpp"
 #include "balance/harmonic_coarse_space.hpp"
+#include "linalg/gmres.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"

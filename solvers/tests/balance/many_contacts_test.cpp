@@ -5,11 +5,11 @@
 
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/periodic_field.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
 
 // What holds of several contacts by their coupling and its symmetries; tests/pairs holds them to the
 // assembled system.

@@ -55,7 +55,8 @@ TEST_P(ListedBackbone, EnergyAgreesWithTheIndependentFiguresTo1e5) {
   const UnitRod rod(20);
   for (const bool cosine_only : {false, true}) {
     const NonlinearMode mode = rod_mode(rod, GetParam().harmonics, 20, cosine_only);
-    const ModePoint point = mode.at_frequency_by_harmonic_continuation(GetParam().frequency_ratio * mode.linear_omega());
+    const ModePoint point =
+        mode.at_frequency_by_harmonic_continuation(GetParam().frequency_ratio * mode.linear_omega());
     ASSERT_EQ(point.status, ModeStatus::converged);
     EXPECT_NEAR(point.energy_ratio, GetParam().energy_ratio, 1e-5 * GetParam().energy_ratio);
   }

@@ -119,7 +119,8 @@ TEST(Shooting, IsCancelledByItsObserverWhileSettlingAndInNewton) {
   for (const std::string_view phase : {"settling", "shooting"}) {
     ShootingOptions options;
     options.observer = [&](const Progress& progress) { return progress.phase != phase; };
-    EXPECT_EQ(shoot(scene.structure(6), scene.law, scene.frequency_hz, options).status, ShootingStatus::cancelled)
+    EXPECT_EQ(shoot(scene.structure(6), scene.law, scene.frequency_hz, options).status,
+              ShootingStatus::cancelled)
         << phase;
   }
 }

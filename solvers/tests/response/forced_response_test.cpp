@@ -175,6 +175,18 @@ TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndOnThePaths) {
   }
 }
 
+// The paths have a solution by then, which the observer does not want any more.
+TEST(ForcedResponse, IsCancelledByItsObserverInTheNewtonIterationAfterThePaths) {
+  CondensedProblem problem = stiff_haar_problem();
+  bool on_paths = false;
+  ForcedResponseOptions options;
+  options.observer = [&](const Progress& progress) {
+    if (progress.phase != "Newton") return on_paths = true;
+    return !on_paths;
+  };
+  EXPECT_EQ(forced_response(problem, testing::jl14_case_2.law, options).status, SolveStatus::cancelled);
+}
+
 TEST(ForcedResponse, SaysWhenItsOperationsAreUsedUp) {
   CondensedProblem problem = stiff_haar_problem();
   ForcedResponseOptions options;

@@ -34,7 +34,8 @@ TEST_P(RigidJl14, HoldsComplementarityAndTheMeanForceOfOtherComputations) {
       fourier_problem(testing::jl14_bar(25, scene.beta), scene.functions, scene.points, scene.frequency);
   const RigidResponse rigid = rigid_response(problem, scene.gap, {});
   ASSERT_TRUE(rigid.response.converged());
-  EXPECT_LE(rigid.complementarity.max_penetration, 1e-6 * problem.contact_free_response().cwiseAbs().maxCoeff());
+  EXPECT_LE(rigid.complementarity.max_penetration,
+            1e-6 * problem.contact_free_response().cwiseAbs().maxCoeff());
   EXPECT_GE(rigid.complementarity.min_force, 0.0);
   EXPECT_LE(rigid.complementarity.product, 1e-6);
   EXPECT_NEAR(rigid.response.contact_force.mean() / 250e3, scene.mean_force, scene.tolerance);

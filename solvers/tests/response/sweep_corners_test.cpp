@@ -18,7 +18,8 @@ struct StoppedOscillators {
   double stiffness = 10.0;
   int count = 1;
 
-  FrequencySweep sweep(TimePair pair, double from, double to, GrazingEvents corners = GrazingEvents::at_turning_points) const {
+  FrequencySweep sweep(TimePair pair, double from, double to,
+                       GrazingEvents corners = GrazingEvents::at_turning_points) const {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
     LinearStructure structure;
     structure.mass = structure.stiffness = identity.sparseView();
@@ -96,8 +97,8 @@ int count_responses(CondensedProblem& problem, double frequency, const testing::
       for (int i = 0; i < length; ++i) stiffness[(first + i) % points] = law.stiffness;
       const Eigen::MatrixXd jacobian =
           Eigen::MatrixXd::Identity(points, points) + compliance * stiffness.asDiagonal();
-      const Eigen::VectorXd u =
-          jacobian.partialPivLu().solve(problem.contact_free_response() + law.start * (compliance * stiffness));
+      const Eigen::VectorXd u = jacobian.partialPivLu().solve(problem.contact_free_response() +
+                                                              law.start * (compliance * stiffness));
       found += ((u.array() > law.start) == (stiffness.array() > 0.0)).all() ? 1 : 0;
     }
   return found;

@@ -39,8 +39,8 @@ struct Dense {
   Eigen::VectorXcd recovered;
 };
 
-Dense by_dense_lu(const LinearStructure& s, const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates,
-                  Complex load, const Eigen::VectorXcd& contact) {
+Dense by_dense_lu(const LinearStructure& s, const ImpedanceCoefficients& factors,
+                  const ImpedanceCoefficients& rates, Complex load, const Eigen::VectorXcd& contact) {
   const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
   const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
   const Eigen::VectorXcd forces = s.load.cast<Complex>();
@@ -77,7 +77,8 @@ struct Rescaled {
   ImpedanceCoefficients in_units(const ImpedanceCoefficients& s) const {
     return {s[0] * factor, s[1] * factor, s[2] * factor};
   }
-  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates) {
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
+                                    const ImpedanceCoefficients& rates) {
     const CondensedPoint point = condensation.dynamic_compliance(in_units(factors), in_units(rates));
     return {point.compliance * unit, point.load_response * unit, point.compliance_slope * unit,
             point.load_response_slope * unit};
@@ -162,7 +163,8 @@ TEST(Condensation, TakesTheFastestMethodThatTheMatricesAdmit) {
 // A contact without mass, and a body that nothing holds: modes of whichever matrix is definite.
 TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
   std::mt19937 generator(8);
-  const ImpedanceCoefficients factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0}, rates{Complex(-2.6), 1.0, 0.0};
+  const ImpedanceCoefficients factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0},
+      rates{Complex(-2.6), 1.0, 0.0};
   LinearStructure massless = testing::random_chain(9, generator);
   massless.contact_dofs = {8, 2};
   massless.mass.row(8) *= 0.0;
@@ -214,8 +216,8 @@ TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
     condensation.condense(factors, rates, result);
     ASSERT_EQ(result.compliance.rows(), 9);
     for (int k = 0; k < 9; ++k) {
-      const CondensedPoint point = condensation.dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
-                                                   {rates[0][k], rates[1][k], rates[2][k]});
+      const CondensedPoint point = condensation.dynamic_compliance(
+          {factors[0][k], factors[1][k], factors[2][k]}, {rates[0][k], rates[1][k], rates[2][k]});
       const int contacts = structure.contacts();
       expect_equal(
           {result.compliance.row(k).reshaped(contacts, contacts), result.load_response.row(k).transpose(),
@@ -240,7 +242,8 @@ TEST(Condensation, SlopesAreTheDerivativesAlongTheRates) {
       return condensation.dynamic_compliance(at, rates);
     };
     const double h = 1e-5;
-    const CondensedPoint point = condensation.dynamic_compliance(factors, rates), ahead = moved(h), behind = moved(-h);
+    const CondensedPoint point = condensation.dynamic_compliance(factors, rates), ahead = moved(h),
+                         behind = moved(-h);
     EXPECT_LE(((ahead.compliance - behind.compliance) / (2 * h) - point.compliance_slope).norm(),
               1e-7 * point.compliance_slope.norm());
     EXPECT_LE(((ahead.load_response - behind.load_response) / (2 * h) - point.load_response_slope).norm(),

@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::app {

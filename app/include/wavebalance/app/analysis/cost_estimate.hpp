@@ -11,24 +11,25 @@ struct CostEstimate {
   double bytes = 0.0;    ///< resident memory at its peak
 };
 
-/// From the sizes of a scene alone: C contacts, M functions, N quadrature points, P output points, n degrees of freedom
-/// after reduction, a = min(C N / 10, 1000) samples in contact that a dense matrix is factorized for,
+/// From the sizes of a scene alone: C contacts, M functions, N quadrature points, P output points, n degrees
+/// of freedom after reduction, a = min(C N / 10, 1000) samples in contact that a dense matrix is factorized
+/// for,
 ///
 ///   bytes = 20e6 + 130 C N + (150 + 32 C^2) M + 8 C^2 N r + 16 a^2 + (500 + 400 C [C > 1]) P + structure,
 ///   seconds = (8e-8 C N log2 N + 2e-8 C^2 M n + 5e-10 a^3) per response + 3e-6 C P + structure,
 ///
-/// r the period after which products with the compliance repeat (1 for an odd number of Fourier functions, otherwise
-/// N / gcd(N, M)), with 2 |to - from| / largest_step responses along a sweep. The structure takes 1500 n bytes, and
-/// where all its modes are taken 64 n^2 bytes and 2e-8 n^3 s; a reduction 4e-4 s per degree of freedom before it. In six
-/// scenes from 1 to 24 contacts, up to 2^16 functions and 2^20 points, memory was within a factor of 1.5 above 50 MB and
-/// time within a factor of 3 above 0.1 s. Sweeps with many contacts take more points, and responses that Newton's
-/// method does not find take more time. Sizes that a tolerance chooses, periods of time stepping
-/// and points of a mode are not known: the time is NaN, and memory that of the structure and the output. O(1), but
-/// matrices that have not been read are read.
+/// r the period after which products with the compliance repeat (1 for an odd number of Fourier functions,
+/// otherwise N / gcd(N, M)), with 2 |to - from| / largest_step responses along a sweep. The structure takes
+/// 1500 n bytes, and where all its modes are taken 64 n^2 bytes and 2e-8 n^3 s; a reduction 4e-4 s per degree
+/// of freedom before it. In six scenes from 1 to 24 contacts, up to 2^16 functions and 2^20 points, memory
+/// was within a factor of 1.5 above 50 MB and time within a factor of 3 above 0.1 s. Sweeps with many
+/// contacts take more points, and responses that Newton's method does not find take more time. Sizes that a
+/// tolerance chooses, periods of time stepping and points of a mode are not known: the time is NaN, and
+/// memory that of the structure and the output. O(1), but matrices that have not been read are read.
 CostEstimate estimate_cost(const Scene& scene);
 
-/// Bytes of memory that this process may have: those of the machine, or the limit of the process (setrlimit) or of its
-/// control group where that is less.
+/// Bytes of memory that this process may have: those of the machine, or the limit of the process (setrlimit)
+/// or of its control group where that is less.
 double available_memory();
 
 /// "3.2 GB", "15 MB"

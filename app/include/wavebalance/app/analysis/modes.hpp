@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
@@ -16,8 +16,8 @@ struct Interruption {
   double first_ratio = 0.0;  ///< frequency over the linear one
   double last_ratio = 0.0;
   std::vector<std::string> tongues;  ///< internal resonances on it, "3:2" for harmonic 3 and linear mode 2
-  std::string status;                ///< status of its first point that lies on no internal resonance; empty if all do
-  bool bridged = false;              ///< accepted points with contact follow
+  std::string status;    ///< status of its first point that lies on no internal resonance; empty if all do
+  bool bridged = false;  ///< accepted points with contact follow
 };
 
 /// A nonlinear mode over its frequency.
@@ -61,8 +61,8 @@ class ModeStudy {
   /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
   /// solution. O(c N points).
   ContactMotion contact_motion(const solvers::ModePoint& point, int points) const;
-  /// The motion of the leading contact; with full_history also that of the structure as the solvers see it, which
-  /// model().recover() takes to the whole. O(n N points).
+  /// The motion of the leading contact; with full_history also that of the structure as the solvers see it,
+  /// which model().recover() takes to the whole. O(n N points).
   solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
 
   /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy

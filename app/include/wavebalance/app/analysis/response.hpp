@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "wavebalance/app/analysis/contact_motion.hpp"
-#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/resolution_ladder.hpp"
 
 namespace wavebalance::app {
@@ -23,7 +23,7 @@ using solvers::Progress;
 struct RigidContact {
   double max_penetration = 0.0;  ///< m, at the quadrature points, where contact is enforced; negative: none
   double min_force = 0.0;        ///< N, at the quadrature points
-  double product = 0.0;          ///< largest force times distance, over the largest of each, at the quadrature points
+  double product = 0.0;  ///< largest force times distance, over the largest of each, at the quadrature points
   double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
 };
 
@@ -52,8 +52,9 @@ struct Response {
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   ContactMotion contacts;                ///< analysis.output_points samples; empty if there is nothing at all
   int contact = 0;                       ///< the leading one, see ContactMotion::leading()
-  solvers::PeriodSamples samples;  ///< motion of that contact; the full history is that of the reduced structure
-  Eigen::MatrixXd motion;          ///< that structure's displacements, size x ResponseOptions::motion_points
+  solvers::PeriodSamples
+      samples;             ///< motion of that contact; the full history is that of the reduced structure
+  Eigen::MatrixXd motion;  ///< that structure's displacements, size x ResponseOptions::motion_points
 };
 
 struct ResponseOptions {

@@ -1,10 +1,10 @@
 #pragma once
-#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
-#include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
 
 namespace wavebalance::app {

@@ -11,15 +11,15 @@
 namespace wavebalance::app {
 
 /// Reads the scene in `file`, drops the keys in `removed`, each "section.key", and applies `overrides`, each
-/// "section.key=value" with a TOML value (text may go without its quotes), before anything is checked. The result is complete and within range: every key that
-/// has a default is filled in. Throws SceneError when the file cannot be read, is not TOML, or is not a
-/// scene.
+/// "section.key=value" with a TOML value (text may go without its quotes), before anything is checked. The
+/// result is complete and within range: every key that has a default is filled in. Throws SceneError when the
+/// file cannot be read, is not TOML, or is not a scene.
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {},
                  std::span<const std::string> removed = {});
 
 /// The same for `text`, which messages call `name`.
-Scene parse_scene(std::string_view text, const std::string& name,
-                  std::span<const std::string> overrides = {}, std::span<const std::string> removed = {});
+Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides = {},
+                  std::span<const std::string> removed = {});
 
 /// `scene`, built or changed in a program, with the defaults that derive from other keys filled in where they
 /// are unset. Throws SceneError if it could not have been loaded from a file.

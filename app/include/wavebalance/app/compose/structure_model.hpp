@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/fem/blade.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/fem/blade.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
@@ -17,11 +17,11 @@ struct StructureModel {
   /// Reduced if the scene asks for it; its displacements in contact count towards their obstacles. Its load
   /// is the force's amplitude.
   solvers::LinearStructure structure;
-  std::vector<int> contact_dofs;   ///< rows of the reduced structure
-  Eigen::VectorXd gaps;            ///< m, one per contact
+  std::vector<int> contact_dofs;      ///< rows of the reduced structure
+  Eigen::VectorXd gaps;               ///< m, one per contact
   std::vector<std::string> warnings;  ///< what is wrong with the structure itself, a sentence each
-  int unknowns = 0;                ///< degrees of freedom before the reduction
-  double reduction_seconds = 0.0;  ///< assembly, rotation and reduction; 0 for a bar
+  int unknowns = 0;                   ///< degrees of freedom before the reduction
+  double reduction_seconds = 0.0;     ///< assembly, rotation and reduction; 0 for a bar
   /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are the same but
   /// for signs.
   Eigen::MatrixXd recovery;

@@ -30,8 +30,8 @@ class IoError : public std::runtime_error {
 ///     files.commit();
 class OutputFiles {
  public:
-  /// Checks that the folder can be made, with its parents, and written to; a folder that is missing is made for good
-  /// by the first add(). Throws IoError.
+  /// Checks that the folder can be made, with its parents, and written to; a folder that is missing is made
+  /// for good by the first add(). Throws IoError.
   explicit OutputFiles(std::filesystem::path directory);
   ~OutputFiles();
   OutputFiles(const OutputFiles&) = delete;
@@ -40,11 +40,11 @@ class OutputFiles {
   /// Writes `contents` to a temporary that will become directory()/name. Throws IoError (unwritable folder,
   /// full disk, a folder of that name) and std::invalid_argument if `name` is not a plain file name.
   void add(const std::string& name, std::string_view contents);
-  /// Names the files of an earlier record in this folder, which commit() removes unless they are added anew. Throws
-  /// std::invalid_argument if one is not a plain file name.
+  /// Names the files of an earlier record in this folder, which commit() removes unless they are added anew.
+  /// Throws std::invalid_argument if one is not a plain file name.
   void replace(const std::vector<std::string>& names);
-  /// Removes the files of the earlier record, then renames every temporary to its final name in the order of add(),
-  /// replacing older files. Throws IoError.
+  /// Removes the files of the earlier record, then renames every temporary to its final name in the order of
+  /// add(), replacing older files. Throws IoError.
   void commit();
 
   const std::filesystem::path& directory() const { return directory_; }
@@ -67,8 +67,8 @@ class OutputFiles {
 /// Writes one file so that it appears complete or not at all; its folder is made if missing. Throws IoError.
 void write_file(const std::filesystem::path& file, std::string_view contents);
 
-/// The whole of `file`. Throws IoError, also if it is no regular file or has more than `max_bytes`; a pipe is not waited
-/// for.
+/// The whole of `file`. Throws IoError, also if it is no regular file or has more than `max_bytes`; a pipe is
+/// not waited for.
 std::string read_file(const std::filesystem::path& file,
                       std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 

@@ -18,8 +18,8 @@ using Summary = std::vector<std::pair<std::string, SummaryValue>>;
 /// `summary` as a JSON object in its order; numbers that are not finite become null.
 std::string json_text(const Summary& summary);
 
-/// The names in `files` of a summary.json that an earlier run wrote, and "summary.json" itself; names that are no plain
-/// file names are left out. Empty if there is no such file or it is no record of this program.
+/// The names in `files` of a summary.json that an earlier run wrote, and "summary.json" itself; names that
+/// are no plain file names are left out. Empty if there is no such file or it is no record of this program.
 std::vector<std::string> files_of_record(const std::filesystem::path& summary);
 
 }  // namespace wavebalance::app

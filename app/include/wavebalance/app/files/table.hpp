@@ -73,14 +73,14 @@ class Table {
 /// A cell as a CSV file and a table of a report show it.
 std::string cell_text(const Cell& cell);
 
-/// CSV (RFC 4180): the first line names the columns, a line per row follows. Numbers are the shortest that read back
-/// equal; missing ones are "nan".
+/// CSV (RFC 4180): the first line names the columns, a line per row follows. Numbers are the shortest that
+/// read back equal; missing ones are "nan".
 std::string csv_text(const Table& table);
 /// Writes csv_text(table) atomically. Throws IoError.
 void write_csv(const std::filesystem::path& file, const Table& table);
 
-/// Reads what write_csv() wrote: cells that read as numbers are numbers, "true" and "false" truth values. Throws
-/// IoError with the line of a malformed row.
+/// Reads what write_csv() wrote: cells that read as numbers are numbers, "true" and "false" truth values.
+/// Throws IoError with the line of a malformed row.
 Table read_csv(const std::filesystem::path& file);
 
 }  // namespace wavebalance::app

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "wavebalance/app/files/output.hpp"
-#include "wavebalance/app/plot/surface.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/surface.hpp"
 
 namespace wavebalance::app {
 

@@ -22,8 +22,9 @@ enum class LinearSolver {
 /// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
 /// m, contact-major):
 ///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = diag(f_c'(u)).
-/// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an LU of their number and one product
-/// with K. Many of them are solved for by GMRES, which forms no matrix over them.
+/// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an
+/// LU of their number and one product with K. Many of them are solved for by GMRES, which forms no matrix
+/// over them.
 class ContactSystem {
  public:
   /// Throws std::invalid_argument when there are neither one law nor one for each contact.

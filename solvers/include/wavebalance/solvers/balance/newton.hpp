@@ -21,11 +21,11 @@ std::string_view to_string(SolveStatus status);
 
 /// When a Newton iteration ends.
 struct NewtonOptions {
-  double tolerance = 1e-11;        ///< on ||R|| / (||u0|| + ||K f||)
-  int max_iterations = 60;         ///< 0 evaluates the start alone
-  double min_step = 1.0 / 4096;    ///< of the line search, relative to the Newton step
+  double tolerance = 1e-11;      ///< on ||R|| / (||u0|| + ||K f||)
+  int max_iterations = 60;       ///< 0 evaluates the start alone
+  double min_step = 1.0 / 4096;  ///< of the line search, relative to the Newton step
   LinearSolver linear_solver = LinearSolver::automatic;
-  Observer observer;               ///< called before each iteration
+  Observer observer;  ///< called before each iteration
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -42,10 +42,10 @@ struct NewtonResult {
   double condition = 0.0;
 };
 
-/// Semismooth Newton iteration (L. Qi, J. Sun, Math. Program. 58, 1993, doi:10.1007/BF01581275) with a line search
-/// on ||R||^2 from the displacement samples in `u`, which it improves in place and leaves at the smallest residual
-/// found. O(active^3 + N log N) per iteration, or with GMRES for many active samples O(N log N) per product, with a
-/// few products per iteration. Throws what NewtonOptions::validate throws.
+/// Semismooth Newton iteration (L. Qi, J. Sun, Math. Program. 58, 1993, doi:10.1007/BF01581275) with a line
+/// search on ||R||^2 from the displacement samples in `u`, which it improves in place and leaves at the
+/// smallest residual found. O(active^3 + N log N) per iteration, or with GMRES for many active samples O(N
+/// log N) per product, with a few products per iteration. Throws what NewtonOptions::validate throws.
 NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options);
 
 }  // namespace wavebalance::solvers

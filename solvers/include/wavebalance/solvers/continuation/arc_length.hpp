@@ -28,29 +28,31 @@ class FrequencyParameter final : public CurveParameter {
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };
 
-/// Which grazing events are solved for: the points of the curve where a sample reaches its gap, so that the law's slope
-/// jumps and the curve has a kink.
+/// Which grazing events are solved for: the points of the curve where a sample reaches its gap, so that the
+/// law's slope jumps and the curve has a kink.
 enum class GrazingEvents {
-  where_needed,  ///< those that no step passes
+  where_needed,       ///< those that no step passes
   at_turning_points,  ///< also those at which the parameter turns back, and the first and last contact
-  all            ///< no turning point can be missed; a few solves per event
+  all                 ///< no turning point can be missed; a few solves per event
 };
 
-/// Scales, steps and limits of a curve followed by arc length. Lengths are in the scaled inner product of CurvePoint.
+/// Scales, steps and limits of a curve followed by arc length. Lengths are in the scaled inner product of
+/// CurvePoint.
 struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
   double initial_step = 0.02;
   double min_step = 1e-3;  ///< of long steps; within a piece of the curve 1e-4 of it
   double max_step = 0.25;
-  double max_angle = 0.35;  ///< rad, between the tangents of successive points
-  int max_corrections = 8;      ///< of a point; half as many after a long step
-  double tolerance = 1e-10;     ///< on the relative residual
+  double max_angle = 0.35;   ///< rad, between the tangents of successive points
+  int max_corrections = 8;   ///< of a point; half as many after a long step
+  double tolerance = 1e-10;  ///< on the relative residual
   GrazingEvents grazing_events = GrazingEvents::at_turning_points;
   /// Of the linear systems of all points; the curve ends with no_point where they are used up.
   double max_operations = std::numeric_limits<double>::infinity();
 
-  /// Throws std::invalid_argument for a number out of its range; scales of 0 stand for a default of the caller.
+  /// Throws std::invalid_argument for a number out of its range; scales of 0 stand for a default of the
+  /// caller.
   void validate() const;
 };
 
@@ -63,21 +65,22 @@ struct CurvePoint {
   double parameter_tangent = 0.0;
   double residual = 0.0;
   int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
-  bool corner = false;  ///< a grazing event: the law's slope jumps here, and the tangent is that of the piece ahead
+  bool corner =
+      false;  ///< a grazing event: the law's slope jumps here, and the tangent is that of the piece ahead
 };
 
-/// Pseudo-arc-length continuation [H. B. Keller, in: Applications of Bifurcation Theory, 1977; R. Seydel, Practical
-/// Bifurcation and Stability Analysis, 2010, chapter 4] of a piecewise smooth solution curve.
+/// Pseudo-arc-length continuation [H. B. Keller, in: Applications of Bifurcation Theory, 1977; R. Seydel,
+/// Practical Bifurcation and Stability Analysis, 2010, chapter 4] of a piecewise smooth solution curve.
 ///
-/// The bordered Newton matrix passes smooth folds. Long steps pass grazing events without solving for them. Where a
-/// long step fails, or contains a turning point, the curve is followed piece by piece: while every sample keeps its
-/// side of the gap the curve is smooth; the first sample that would change sides is placed at its gap, and the next
-/// piece starts with that sample on the other side.
+/// The bordered Newton matrix passes smooth folds. Long steps pass grazing events without solving for them.
+/// Where a long step fails, or contains a turning point, the curve is followed piece by piece: while every
+/// sample keeps its side of the gap the curve is smooth; the first sample that would change sides is placed
+/// at its gap, and the next piece starts with that sample on the other side.
 ///
-/// The sign of det [R_u R_p; tangent^T] is the same on both sides of a fold and of a grazing event of one sample. A
-/// long step to a point with the other sign is refused. The sign changes only where two curves cross. That happens in
-/// symmetric structures, where several samples reach their gaps together: all of them change sides, and from there on
-/// the curve is followed piece by piece.
+/// The sign of det [R_u R_p; tangent^T] is the same on both sides of a fold and of a grazing event of one
+/// sample. A long step to a point with the other sign is refused. The sign changes only where two curves
+/// cross. That happens in symmetric structures, where several samples reach their gaps together: all of them
+/// change sides, and from there on the curve is followed piece by piece.
 class ArcLength {
  public:
   enum class Status { advanced, no_point };  // no_point: none was found, or the operations are used up
@@ -108,7 +111,8 @@ class ArcLength {
 
   double evaluate(const CurvePoint& point, const ActiveMask* sides);
   bool solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections);
-  bool correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to, int& corrections);
+  bool correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to,
+               int& corrections);
   bool tangent_at(CurvePoint& point, const CurvePoint& along);
   CurvePoint ahead(const CurvePoint& from, double step) const;
   CurvePoint chord(const CurvePoint& to) const;
@@ -128,7 +132,7 @@ class ArcLength {
   bool arrives(int sample, const ActiveMask& sides, CurvePoint corner);
   bool tangent_through(int sample, bool inwards, CurvePoint& corner);
   bool grazing_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
-                      CurvePoint& corner);
+                       CurvePoint& corner);
   bool leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& corner);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;
@@ -139,12 +143,13 @@ class ArcLength {
   ArcLengthOptions options_;
   CurvePoint point_, previous_;
   double step_ = 0.0;
-  double last_step_ = 0.0;       // from previous_ to point_, along the tangent of previous_
-  ActiveMask last_sides_;             // of the piece that both lie on; empty when it may be several
-  double reversal_step_ = 0.0;  // length of the last long step that contained a turning point
-  double operation_limit_ = 0.0;  // value of the operation counter at which the curve must stop
-  double piecewise_arc_length_ = 0.0;     // arc length that is to be followed piece by piece
-  bool orientation_unknown_ = false;  // whether curves have crossed, so that long steps cannot be judged by the orientation
+  double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
+  ActiveMask last_sides_;              // of the piece that both lie on; empty when it may be several
+  double reversal_step_ = 0.0;         // length of the last long step that contained a turning point
+  double operation_limit_ = 0.0;       // value of the operation counter at which the curve must stop
+  double piecewise_arc_length_ = 0.0;  // arc length that is to be followed piece by piece
+  bool orientation_unknown_ =
+      false;  // whether curves have crossed, so that long steps cannot be judged by the orientation
   Eigen::VectorXd slope_, change_;
 };
 

@@ -103,13 +103,14 @@ class NonlinearMode {
 
 /// The frequencies of a backbone.
 struct BackboneOptions {
-  double first_ratio = 1.001;    ///< omega / linear omega of the first point
-  double last_ratio = 1.3;       ///< and of the last
-  int points = 200;              ///< uniform in omega
-  double max_energy = 10.0;      ///< the curve ends once the energy ratio is above
-  /// Of ln(energy ratio) between accepted neighbours; above it a point is solved anew by harmonic continuation.
+  double first_ratio = 1.001;  ///< omega / linear omega of the first point
+  double last_ratio = 1.3;     ///< and of the last
+  int points = 200;            ///< uniform in omega
+  double max_energy = 10.0;    ///< the curve ends once the energy ratio is above
+  /// Of ln(energy ratio) between accepted neighbours; above it a point is solved anew by harmonic
+  /// continuation.
   double max_jump = 0.25;
-  Observer observer = {};        ///< called before each point; the curve ends where it asks to stop
+  Observer observer = {};  ///< called before each point; the curve ends where it asks to stop
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

@@ -30,8 +30,8 @@ struct TimeSteppingOptions {
   bool full_history = false;  ///< also keep every degree of freedom over the last period
   Eigen::VectorXd initial_displacement;  ///< n, m; empty: zero
   Eigen::VectorXd initial_velocity;      ///< n, m/s; empty: zero
-  /// Called after each period with its number, from 1, and its relative rms difference to the one before (infinity
-  /// after the first).
+  /// Called after each period with its number, from 1, and its relative rms difference to the one before
+  /// (infinity after the first).
   Observer observer;
 
   /// Throws std::invalid_argument for a number out of its range, or for initial values that are not `dofs`.

@@ -18,10 +18,10 @@ struct ForcedResponseOptions {
   void validate() const;
 };
 
-/// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one for each,
-/// from the contact-free response or from `guess` (samples() values, m) when it is not empty. A failure to converge
-/// is told by the status. Throws std::invalid_argument for a guess or a list of laws of another length, for a problem
-/// without frequency and for options out of range.
+/// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one for
+/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. A failure
+/// to converge is told by the status. Throws std::invalid_argument for a guess or a list of laws of another
+/// length, for a problem without frequency and for options out of range.
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {});
 

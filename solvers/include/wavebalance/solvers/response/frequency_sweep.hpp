@@ -46,15 +46,15 @@ struct FrequencySweepOptions {
   int output_points = 1024;  ///< of the period, for the maximum and the rms
   int max_points = 20000;
   /// Hz; turning points between which the frequency goes back by less are left out. 0 stands for a thousandth
-  /// of the interval. Those that long steps pass unseen are small, too; GrazingEvents::all in arc_length passes
-  /// none.
+  /// of the interval. Those that long steps pass unseen are small, too; GrazingEvents::all in arc_length
+  /// passes none.
   double smallest_return = 0.0;
   /// Arc length: displacement_scale 0 stands for the largest gap, or without contact the rms response at
   /// `from`; parameter_scale 0 stands for a 20th of the interval.
   ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
   ForcedResponseOptions start;  ///< the solver of the first point
-  /// Called after each point with its frequency, and during the solution of the first. A curve that ends as unbounded
-  /// is followed again with other steps, and its points are then counted anew.
+  /// Called after each point with its frequency, and during the solution of the first. A curve that ends as
+  /// unbounded is followed again with other steps, and its points are then counted anew.
   Observer observer;
 
   /// Throws std::invalid_argument for a number out of its range.
@@ -73,8 +73,8 @@ struct FrequencySweep {
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
 /// folds and corners, from `from` until it leaves the interval. Throws std::invalid_argument for frequencies
-/// that are not positive, finite and different, and for laws that are neither one nor one per contact. O(points
-/// (active^3 + N log N)).
+/// that are not positive, finite and different, and for laws that are neither one nor one per contact.
+/// O(points (active^3 + N log N)).
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options);
 

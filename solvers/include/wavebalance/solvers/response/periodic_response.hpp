@@ -10,9 +10,9 @@ namespace wavebalance::solvers {
 /// A periodic response at one frequency.
 struct PeriodicResponse {
   SolveStatus status = SolveStatus::iteration_limit;
-  double frequency = 0.0;  ///< Hz
-  double residual = 0.0;   ///< ||R|| / (||u0|| + ||K f||)
-  int iterations = 0;      ///< Newton iterations, and pivots of complementarity paths
+  double frequency = 0.0;                ///< Hz
+  double residual = 0.0;                 ///< ||R|| / (||u0|| + ||K f||)
+  int iterations = 0;                    ///< Newton iterations, and pivots of complementarity paths
   Strategy strategy = Strategy::none;    ///< what found it
   std::vector<double> residual_history;  ///< of the last Newton run
   double condition = 0.0;                ///< of its last Newton matrix, see NewtonResult

@@ -42,8 +42,8 @@ struct RigidResponse {
   int active_samples = 0;
 };
 
-/// The periodic response of `problem` (frequency set before) against rigid obstacles at `gaps`, one per contact
-/// and of any sign:
+/// The periodic response of `problem` (frequency set before) against rigid obstacles at `gaps`, one per
+/// contact and of any sign:
 ///
 ///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at all samples.
 ///

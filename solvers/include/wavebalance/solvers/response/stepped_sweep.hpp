@@ -9,15 +9,16 @@
 
 namespace wavebalance::solvers {
 
-/// Uniform frequencies from `from` to `to`, both included, at most `max_step` apart, in one unit; of more than
-/// `max_count` the first ones. Throws std::invalid_argument unless the frequencies are finite and the others positive.
+/// Uniform frequencies from `from` to `to`, both included, at most `max_step` apart, in one unit; of more
+/// than `max_count` the first ones. Throws std::invalid_argument unless the frequencies are finite and the
+/// others positive.
 std::vector<double> uniform_frequencies(double from, double to, double max_step, int max_count);
 
-/// Responses at given frequencies (Hz, > 0), one after the other, on one problem: each frequency condenses the
-/// structure once, and pair and plans are made once. solve(problem) is called with the problem at each frequency in
-/// turn and may start from what it found before. Returns what it returned; nothing where a system is singular
-/// (SingularSystem). The observer is called after each frequency; where it stops the sweep, fewer responses than
-/// frequencies are returned. The cost is that of the condensations and solves.
+/// Responses at given frequencies (Hz, > 0), one after the other, on one problem: each frequency condenses
+/// the structure once, and pair and plans are made once. solve(problem) is called with the problem at each
+/// frequency in turn and may start from what it found before. Returns what it returned; nothing where a
+/// system is singular (SingularSystem). The observer is called after each frequency; where it stops the
+/// sweep, fewer responses than frequencies are returned. The cost is that of the condensations and solves.
 template <class Solve>
 auto stepped_sweep(CondensedProblem& problem, std::span<const double> frequencies, Solve solve,
                    const Observer& observer = {}) {

@@ -17,12 +17,11 @@ void fig03(report::Artefact& artefact) {
                   "largest deviation " + report::number(integral), integral < 1e-12});
   const Eigen::VectorXd c = wavelets::orthonormal_cubic_coefficients(100);
   const double left_out = 2.0 * c.tail(50).cwiseAbs().sum() / c.cwiseAbs().maxCoeff();
-  artefact.claim(
-      {"section 3.3",
-       "Numerical simulations showed that truncating the summation in Eq. (28) at −50 ≤ k ≤ 50 is "
-       "sufficient; larger k terms add negligibly to the summation.",
-       "the sum of |c_k| for 50 < |k| <= 100 is below 1e-12 of c_0", "sum " + report::number(left_out),
-       left_out < 1e-12});
+  artefact.claim({"section 3.3",
+                  "Numerical simulations showed that truncating the summation in Eq. (28) at −50 ≤ k ≤ 50 is "
+                  "sufficient; larger k terms add negligibly to the summation.",
+                  "the sum of |c_k| for 50 < |k| <= 100 is below 1e-12 of c_0",
+                  "sum " + report::number(left_out), left_out < 1e-12});
 }
 
 }  // namespace wavebalance::jl14
