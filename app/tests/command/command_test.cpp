@@ -85,8 +85,9 @@ TEST(CommandHelp, HoldsASceneThatLoads) {
   const auto end = outcome.output.find("\nCommands to start with");
   ASSERT_NE(begin, std::string::npos);
   ASSERT_NE(end, std::string::npos);
-  EXPECT_EQ(parse_scene(outcome.output.substr(begin, end - begin), "help"),
-            parse_scene(bar_scene, "case.toml"));
+  Scene expected = parse_scene(bar_scene, "case.toml");
+  expected.time.functions = 63;  // an odd number has no Nyquist function
+  EXPECT_EQ(parse_scene(outcome.output.substr(begin, end - begin), "help"), expected);
   for (const char* text : {"Exit codes", "wavebalance run", "wavebalance check", "keys"})
     EXPECT_NE(outcome.output.find(text), std::string::npos) << text;
 }
