@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 
 #include "limits.hpp"
 #include "solver_scenes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/balance/contact_system.hpp"
+#include "wavebalance/spectral/aft.hpp"
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 #include "wavebalance/wavelets/filter.hpp"
@@ -144,6 +146,41 @@ void newton_step_gmres(benchmark::State& state) {
   set_work(state, 4.0 * fft_flops(points), 4.0 * 2.0 * real * points);
 }
 
+// Coefficients of u = 2 gap cos 2 pi t, which is in contact for a third of the period.
+Eigen::VectorXd touching_motion(const Case& scene, const spectral::Aft& aft) {
+  Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(aft.coefficients());
+  coefficients[1] = 2.0 * scene.gap;
+  return coefficients;
+}
+
+// Force coefficients by alternating frequency/time: two transforms and the exponentials of the samples in
+// contact.
+void aft_force(benchmark::State& state) {
+  const Case scene = jl14_case(1);
+  const auto points = static_cast<int>(state.range(0));
+  spectral::Aft aft(points / 8 - 1, points);
+  const Eigen::VectorXd motion = touching_motion(scene, aft);
+  const spectral::PointwiseLaw force = [law = scene.law()](std::span<const double> u, std::span<double> f) {
+    std::transform(u.begin(), u.end(), f.begin(), [&](double one) { return law.force(one); });
+  };
+  for (auto _ : state) benchmark::DoNotOptimize(aft.force(motion, force).coefficients.data());
+  set_work(state, 2.0 * fft_flops(points) + 20.0 * points / 3.0, 4.0 * points * real);
+}
+
+// Its Jacobian: the same with the tangent, and one addition for each of the (2H + 1)^2 entries.
+void aft_jacobian(benchmark::State& state) {
+  const Case scene = jl14_case(1);
+  const auto points = static_cast<int>(state.range(0));
+  spectral::Aft aft(points / 8 - 1, points);
+  const Eigen::VectorXd motion = touching_motion(scene, aft);
+  const spectral::PointwiseLaw tangent = [law = scene.law()](std::span<const double> u, std::span<double> k) {
+    std::transform(u.begin(), u.end(), k.begin(), [&](double one) { return law.tangent(one); });
+  };
+  for (auto _ : state) benchmark::DoNotOptimize(aft.jacobian(motion, tangent).data());
+  const double entries = double(aft.coefficients()) * aft.coefficients();
+  set_work(state, 2.0 * fft_flops(points) + 20.0 * points / 3.0 + entries, (4.0 * points + entries) * real);
+}
+
 void wavelet_transform(benchmark::State& state, int coefficients) {
   const wavelets::FastWaveletTransform transform(wavelets::daubechies_filter(coefficients));
   const auto size = static_cast<Eigen::Index>(state.range(0));
@@ -164,6 +201,8 @@ BENCHMARK(compliance_product)->Arg(256)->Arg(4096)->Arg(65536)->Unit(benchmark::
 BENCHMARK(force_evaluation)->Arg(256)->Arg(4096)->Arg(65536)->Unit(benchmark::kMicrosecond);
 BENCHMARK(newton_step)->Arg(256)->Arg(1024)->Arg(4096)->Unit(benchmark::kMicrosecond);
 BENCHMARK(newton_step_gmres)->Arg(256)->Arg(1024)->Arg(4096)->Arg(65536)->Unit(benchmark::kMicrosecond);
+BENCHMARK(aft_force)->Arg(256)->Arg(4096)->Arg(65536)->Unit(benchmark::kMicrosecond);
+BENCHMARK(aft_jacobian)->Arg(256)->Arg(1024)->Arg(4096)->Unit(benchmark::kMicrosecond);
 BENCHMARK(wavelet_transform_6)->Arg(1024)->Arg(65536)->Unit(benchmark::kMicrosecond);
 BENCHMARK(wavelet_transform_20)->Arg(1024)->Arg(65536)->Unit(benchmark::kMicrosecond);
 
