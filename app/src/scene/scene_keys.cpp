@@ -2,27 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/scene_key_builders.hpp"
-
 namespace wavebalance::app {
-namespace {
-
-std::vector<SceneKey> make_keys() {
-  std::vector<SceneKey> keys;
-  add_structure_keys(keys);
-  add_contact_keys(keys);
-  add_forcing_keys(keys);
-  add_time_keys(keys);
-  add_analysis_keys(keys);
-  return keys;
-}
-
-}  // namespace
-
-std::span<const SceneKey> scene_keys() {
-  static const std::vector<SceneKey> keys = make_keys();
-  return keys;
-}
 
 const SceneKey* find_scene_key(std::string_view full_name) {
   const auto keys = scene_keys();
@@ -63,6 +43,7 @@ std::string_view Condition::broken_by(const Scene& scene) const {
 
 Condition operator&&(Condition left, const Condition& right) {
   left.clauses_.insert(left.clauses_.end(), right.clauses_.begin(), right.clauses_.end());
+  if (left.unless_.empty()) left.unless_ = right.unless_;
   return left;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -78,11 +79,11 @@ struct SceneKey {
   Condition belongs;                      ///< elsewhere the key is an error
   Condition needed;                       ///< where the key is required if it has no default
   Default fallback = Default::required;
-  std::string_view derived_text;                  ///< the derived default in words
-  SceneValue (*derived)(const Scene&) = nullptr;  ///< computes it from the other keys
+  std::string_view derived_text;                    ///< the derived default in words
+  std::function<SceneValue(const Scene&)> derived;  ///< computes it from the other keys
   std::string_view help;
-  SceneValue (*get)(const Scene&) = nullptr;
-  void (*set)(Scene&, const SceneValue&) = nullptr;  ///< the value must have been checked
+  std::function<SceneValue(const Scene&)> get;
+  std::function<void(Scene&, const SceneValue&)> set;  ///< the value must have been checked
 
   std::string full_name() const;
   /// "a number in m, > 0"; what an error message says was expected.
