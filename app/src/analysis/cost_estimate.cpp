@@ -1,11 +1,12 @@
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 
+#include <fmt/format.h>
+
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -121,12 +122,7 @@ double available_memory() {
 }
 
 std::string memory_text(double bytes) {
-  char text[32];
-  if (bytes >= 1e9)
-    std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
-  else
-    std::snprintf(text, sizeof text, "%.0f MB", bytes / 1e6);
-  return text;
+  return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} MB", bytes / 1e6);
 }
 
 }  // namespace wavebalance::app

@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
 #include "compose/structure_files.hpp"
@@ -13,34 +14,32 @@ namespace wavebalance::app {
 namespace {
 
 std::string count_text(std::int64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 std::string bar_line(const Structure& bar) {
   // First natural frequency of the clamped bar before it is cut into elements.
   const double first = std::sqrt(bar.youngs_modulus / bar.density) / (4.0 * bar.length);
-  return "structure  bar, " + std::to_string(bar.elements) +
-         " elements and degrees of freedom, first natural frequency " + std::to_string(std::lround(first)) +
-         " Hz" + (bar.massless_tip ? ", its tip without mass" : "") + "\n";
+  return fmt::format("structure  bar, {} elements and degrees of freedom, first natural frequency {} Hz{}\n",
+                     bar.elements, std::lround(first), bar.massless_tip ? ", its tip without mass" : "");
 }
 
 std::string blade_line(const Scene& scene) {
   const BladeStructure& blade = scene.structure.blade;
-  std::string text = "structure  blade, " + std::to_string(blade.chord_elements) + " x " +
-                     std::to_string(blade.thickness_elements) + " x " + std::to_string(blade.span_elements) +
-                     " elements " + name_of(blade.element) + ", " + std::to_string(structure_dofs(scene)) +
-                     " degrees of freedom, reduced to " + std::to_string(reduced_size(scene)) + " (" +
-                     count_text(scene.structure.kept_modes, "mode") + ")";
-  if (blade.rotation_speed > 0.0) text += ", turning at " + number_text(blade.rotation_speed) + " rad/s";
-  return text + "\n";
+  const std::string turning = fmt::format(", turning at {} rad/s", number_text(blade.rotation_speed));
+  return fmt::format(
+      "structure  blade, {} x {} x {} elements {}, {} degrees of freedom, reduced to {} ({}){}\n",
+      blade.chord_elements, blade.thickness_elements, blade.span_elements, name_of(blade.element),
+      structure_dofs(scene), reduced_size(scene), count_text(scene.structure.kept_modes, "mode"),
+      blade.rotation_speed > 0.0 ? turning : "");
 }
 
 std::string matrices_line(const Scene& scene) {
-  std::string text = "structure  matrices, " + count_text(structure_dofs(scene), "degree") + " of freedom";
-  if (scene.structure.kept_modes >= 0)
-    text += ", reduced to " + std::to_string(reduced_size(scene)) + " (" +
-            count_text(scene.structure.kept_modes, "mode") + ")";
-  return text + "\n";
+  const int modes = scene.structure.kept_modes;
+  const std::string size = count_text(structure_dofs(scene), "degree");
+  if (modes < 0) return fmt::format("structure  matrices, {} of freedom\n", size);
+  return fmt::format("structure  matrices, {} of freedom, reduced to {} ({})\n", size, reduced_size(scene),
+                     count_text(modes, "mode"));
 }
 
 std::string structure_line(const Scene& scene) {
@@ -92,66 +91,61 @@ std::string force_place(const Scene& scene) {
 }
 
 std::string forcing_line(const Scene& scene) {
-  const std::string amplitude =
-      "forcing    " + number_text(scene.forcing.amplitude) + " N " + force_place(scene) + ", ";
-  if (scene.analysis.type != AnalysisType::frequency_sweep)
-    return amplitude + number_text(scene.forcing.frequency) + " Hz\n";
-  return amplitude + number_text(scene.analysis.frequency_from) + " to " +
-         number_text(scene.analysis.frequency_to) + " Hz\n";
+  const Analysis& analysis = scene.analysis;
+  std::string frequency = number_text(scene.forcing.frequency);
+  if (analysis.type == AnalysisType::frequency_sweep)
+    frequency = number_text(analysis.frequency_from) + " to " + number_text(analysis.frequency_to);
+  return fmt::format("forcing    {} N {}, {} Hz\n", number_text(scene.forcing.amplitude), force_place(scene),
+                     frequency);
 }
 
 std::string chosen_text(const Time& time) {
   const std::string pair = time.trial.empty() ? "pair" : time.trial + ":" + time.weight;
-  return "time       " + pair + ", functions and quadrature points chosen for a relative error of " +
-         number_text(time.tolerance) + "\n";
+  return fmt::format("time       {}, functions and quadrature points chosen for a relative error of {}\n",
+                     pair, number_text(time.tolerance));
 }
 
 std::string time_lines(const Time& time) {
   if (time.tolerance > 0.0) return chosen_text(time);
   const auto products = effective_inner_products(time);
-  std::string text = "time       " + time.trial + ":" + time.weight + ", " + std::to_string(time.functions) +
-                     " functions, " + std::to_string(time.quadrature_points) + " quadrature points, " +
-                     name_of(time.formulation) + " form, " + name_of(products) + " inner products";
-  if (products != time.inner_products) text += " (connection coefficients)";
   const auto pair = pair_admissibility(time);
-  return text + "\npair       " + (pair.admissible ? "admissible" : "NOT admissible: " + pair.reason) + "\n";
+  return fmt::format(
+      "time       {}:{}, {} functions, {} quadrature points, {} form, {} inner products{}\npair       {}\n",
+      time.trial, time.weight, time.functions, time.quadrature_points, name_of(time.formulation),
+      name_of(products), products == time.inner_products ? "" : " (connection coefficients)",
+      pair.admissible ? "admissible" : "NOT admissible: " + pair.reason);
 }
 
 std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
-    return "size       " + std::to_string(2 * reduced_size(scene)) +
-           " states, periods until they differ by " + number_text(scene.analysis.tolerance) + "\n";
+    return fmt::format("size       {} states, periods until they differ by {}\n", 2 * reduced_size(scene),
+                       number_text(scene.analysis.tolerance));
   if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
-  return "size       " + std::to_string(contact_count(scene.structure) * functions) +
-         " unknowns after condensation on the contact (" + std::to_string(reduced_size(scene) * functions) +
-         " before)\n";
+  return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
+                     contact_count(scene.structure) * functions, reduced_size(scene) * functions);
 }
 
 std::string mode_lines(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  const std::string range = analysis.energy_ratio > 0.0
-                                ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
-                                : std::to_string(analysis.points) + " points up to energy ratio " +
-                                      number_text(analysis.largest_energy) + " or frequency ratio " +
-                                      number_text(analysis.last_frequency_ratio);
-  const std::string formulation =
-      analysis.formulation == ModeFormulation::published ? ", equations as published" : "";
-  return "mode       " + std::to_string(analysis.mode) + ", " + range + formulation +
-         "\ntime       Fourier series, " + std::to_string(analysis.harmonics) + " harmonics" +
-         (analysis.cosine_only ? " (cosines only)" : "") + "\nsize       " +
-         std::to_string(std::int64_t{contact_count(scene.structure)} * analysis.samples) +
-         " contact forces after condensation on the contact (" +
-         std::to_string(std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1)) +
-         " unknowns before)\n";
+  const std::string range =
+      analysis.energy_ratio > 0.0
+          ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
+          : fmt::format("{} points up to energy ratio {} or frequency ratio {}", analysis.points,
+                        number_text(analysis.largest_energy), number_text(analysis.last_frequency_ratio));
+  return fmt::format(
+      "mode       {}, {}{}\ntime       Fourier series, {} harmonics{}\n"
+      "size       {} contact forces after condensation on the contact ({} unknowns before)\n",
+      analysis.mode, range,
+      analysis.formulation == ModeFormulation::published ? ", equations as published" : "",
+      analysis.harmonics, analysis.cosine_only ? " (cosines only)" : "",
+      std::int64_t{contact_count(scene.structure)} * analysis.samples,
+      std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1));
 }
 
 std::string duration_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1g s", seconds);
-  if (seconds >= 10.0) std::snprintf(text, sizeof text, "%.0f s", seconds);
-  if (seconds >= 600.0) std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
-  return text;
+  if (seconds >= 600.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return seconds >= 10.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1g} s", seconds);
 }
 
 std::string cost_line(const Scene& scene) {

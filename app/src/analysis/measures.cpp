@@ -1,5 +1,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,9 +17,9 @@ double rms(const Eigen::VectorXd& values) {
 
 double relative_rms_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference) {
   if (values.size() != reference.size())
-    throw std::invalid_argument("relative_rms_error: there are " + std::to_string(values.size()) +
-                                " values and " + std::to_string(reference.size()) +
-                                " of the reference; their numbers must be equal");
+    throw std::invalid_argument(fmt::format(
+        "relative_rms_error: there are {} values and {} of the reference; their numbers must be equal",
+        values.size(), reference.size()));
   return rms(values - reference) / rms(reference);
 }
 
@@ -26,9 +28,9 @@ Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& 
   const auto& u = samples.displacements;
   const auto& v = samples.velocities;
   if (u.rows() != structure.size() || v.rows() != structure.size() || u.cols() != v.cols())
-    throw std::invalid_argument("system_energy: the samples hold " + std::to_string(u.rows()) +
-                                " degrees of freedom; they must hold all " +
-                                std::to_string(structure.size()));
+    throw std::invalid_argument(
+        fmt::format("system_energy: the samples hold {} degrees of freedom; they must hold all {}", u.rows(),
+                    structure.size()));
   // A rigid obstacle stores no energy.
   const bool rigid = scene.contact.law == ContactLawType::rigid;
   return solvers::system_energy(structure, rigid ? solvers::ContactLaws() : make_laws(scene), {u, v});
@@ -44,8 +46,9 @@ double contact_fraction(const solvers::PeriodSamples& samples) {
 
 double observed_order(std::span<const double> sizes, std::span<const double> errors) {
   if (sizes.size() != errors.size())
-    throw std::invalid_argument("observed_order: there are " + std::to_string(sizes.size()) + " sizes and " +
-                                std::to_string(errors.size()) + " errors; their numbers must be equal");
+    throw std::invalid_argument(
+        fmt::format("observed_order: there are {} sizes and {} errors; their numbers must be equal",
+                    sizes.size(), errors.size()));
   if (sizes.size() < 2) throw std::invalid_argument("observed_order: there must be at least two entries");
   const auto n = static_cast<Eigen::Index>(sizes.size());
   const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(sizes.data(), n).log();

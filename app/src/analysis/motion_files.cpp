@@ -1,7 +1,8 @@
 #include "analysis/motion_files.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cstdio>
 #include <sstream>
 
 #include "wavebalance/fem/matrix_market.hpp"
@@ -10,11 +11,7 @@
 namespace wavebalance::app {
 namespace {
 
-std::string frame_name(Eigen::Index frame) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "motion_%04d.vtu", static_cast<int>(frame));
-  return text.data();
-}
+std::string frame_name(Eigen::Index frame) { return fmt::format("motion_{:04}.vtu", frame); }
 
 std::string vtu_text(const fem::SolidModel& solid, const Eigen::VectorXd& unknowns) {
   const Eigen::Matrix3Xd displacement = solid.displacements(unknowns);

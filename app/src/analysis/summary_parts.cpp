@@ -1,7 +1,8 @@
 #include "analysis/summary_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -39,11 +40,9 @@ void append_condition(Record& record, double condition) {
   if (std::isinf(condition)) {
     record.warnings.emplace_back("a system of the solution is singular to working precision");
   } else if (condition > largest_condition) {
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  "the condition estimate %.1e is past %.0e: up to %d of 16 digits may be lost", condition,
-                  largest_condition, static_cast<int>(std::ceil(std::log10(condition))));
-    record.warnings.emplace_back(text);
+    record.warnings.push_back(
+        fmt::format("the condition estimate {:.1e} is past {:.0e}: up to {:.0f} of 16 digits may be lost",
+                    condition, largest_condition, std::ceil(std::log10(condition))));
   }
   record.summary.emplace_back("condition_estimate", condition);
   record.summary.emplace_back("warnings", record.warnings);

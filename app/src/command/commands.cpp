@@ -1,9 +1,12 @@
 #include "command/commands.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <span>
 
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
@@ -79,20 +82,14 @@ std::string shown_value(const Cell& value) { return cell_text(value); }
 
 std::string shown_value(const std::vector<double>& list) {
   constexpr std::size_t most = 6;
-  std::string shown;
-  for (std::size_t i = 0; i < std::min(most, list.size()); ++i) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.6g", list[i]);
-    shown += (i == 0 ? "" : ", ") + std::string(number);
-  }
-  if (list.size() > most) shown += ", ... (" + std::to_string(list.size()) + " in summary.json)";
-  return list.empty() ? "none" : shown;
+  if (list.empty()) return "none";
+  const std::string shown =
+      fmt::format("{:.6g}", fmt::join(std::span(list).first(std::min(most, list.size())), ", "));
+  return list.size() <= most ? shown : fmt::format("{}, ... ({} in summary.json)", shown, list.size());
 }
 
 std::string shown_value(const std::vector<std::string>& list) {
-  std::string shown;
-  for (const auto& one : list) shown += (shown.empty() ? "" : "; ") + one;
-  return list.empty() ? "none" : shown;
+  return list.empty() ? "none" : fmt::format("{}", fmt::join(list, "; "));
 }
 
 std::string shown_value(const Table& table) { return std::to_string(table.rows()) + " rows in summary.json"; }

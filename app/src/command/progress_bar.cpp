@@ -1,5 +1,7 @@
 #include "command/progress_bar.hpp"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,13 +28,12 @@ std::string progress_text(const Progress& progress) {
   std::string text(progress.phase);
   if (progress.step > 0) text += ": step " + std::to_string(progress.step);
   if (std::isnan(progress.value) || progress.measure.empty()) return text;
-  char number[32];
   const bool common = std::abs(progress.value) >= 1.0 && std::abs(progress.value) < 1e5;
-  std::snprintf(number, sizeof number, common ? "%.1f" : "%.1e", progress.value);
+  const std::string number =
+      common ? fmt::format("{:.1f}", progress.value) : fmt::format("{:.1e}", progress.value);
   const bool unit = progress.measure.size() <= 3;
-  return text + ", " +
-         (unit ? number + (" " + std::string(progress.measure))
-               : std::string(progress.measure) + " " + number);
+  return text + (unit ? fmt::format(", {} {}", number, progress.measure)
+                      : fmt::format(", {} {}", progress.measure, number));
 }
 
 }  // namespace

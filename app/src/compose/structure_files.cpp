@@ -1,5 +1,7 @@
 #include "compose/structure_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -29,11 +31,11 @@ Eigen::SparseMatrix<double> read_matrix(const std::string& path, std::string_vie
 
 void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view key, Eigen::Index size) {
   if (matrix.rows() == size && matrix.cols() == size && size > 0) return;
-  const std::string found = "the matrix is " + std::to_string(matrix.rows()) + " x " +
-                            std::to_string(matrix.cols()) + "; expected ";
-  if (key == stiffness_key) throw StructureFault(std::string(key), found + "a square one that is not empty");
-  throw StructureFault(std::string(key), found + std::to_string(size) + " x " + std::to_string(size) +
-                                             ", the size of structure.stiffness");
+  const std::string expected = key == stiffness_key
+                                   ? "a square one that is not empty"
+                                   : fmt::format("{0} x {0}, the size of structure.stiffness", size);
+  throw StructureFault(std::string(key), fmt::format("the matrix is {} x {}; expected {}", matrix.rows(),
+                                                     matrix.cols(), expected));
 }
 
 std::string_view key_of(fem::StructureMatrix matrix) {
@@ -68,9 +70,10 @@ StructureFiles read_files(const std::array<std::string, 4>& paths) {
   files.load = read(paths[3], load_key,
                     [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
   if (files.load.size() != size)
-    throw StructureFault(std::string(load_key), "the vector has " + std::to_string(files.load.size()) +
-                                                    " entries; expected " + std::to_string(size) +
-                                                    ", one for each row of structure.stiffness");
+    throw StructureFault(
+        std::string(load_key),
+        fmt::format("the vector has {} entries; expected {}, one for each row of structure.stiffness",
+                    files.load.size(), size));
   return files;
 }
 
@@ -80,12 +83,13 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
   for (const int dof : dofs) {
     const int row = std::abs(dof);
     if (row < 1 || row > size)
-      throw StructureFault(std::string(key), "there is no degree of freedom " + std::to_string(dof) +
-                                                 "; expected 1.." + std::to_string(size) +
-                                                 ", or one of them with a minus sign");
+      throw StructureFault(
+          std::string(key),
+          fmt::format("there is no degree of freedom {}; expected 1..{}, or one of them with a minus sign",
+                      dof, size));
     if (std::find(rows.begin(), rows.end(), row) != rows.end())
-      throw StructureFault(std::string(key), "degree of freedom " + std::to_string(row) +
-                                                 " is there twice; expected each once");
+      throw StructureFault(std::string(key),
+                           fmt::format("degree of freedom {} is there twice; expected each once", row));
     rows.push_back(row);
   }
 }
@@ -132,9 +136,9 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
                          "no reduction, that is no kept_modes");
   if (scene.structure.kept_modes > size - boundary)
     throw StructureFault("structure.kept_modes",
-                         "expected at most " + std::to_string(size - boundary) + ", of " +
-                             std::to_string(size) +
-                             " degrees of freedom those neither in contact nor loaded");
+                         fmt::format("expected at most {}, of {} degrees of freedom those neither in contact "
+                                     "nor loaded",
+                                     size - boundary, size));
 }
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {

@@ -1,5 +1,7 @@
 #include "wavebalance/app/files/table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -31,9 +33,9 @@ Table& Table::add_column(std::string name, std::span<const double> values) {
   if (has_column(name))
     throw std::invalid_argument("Table::add_column: there is a column " + name + " already");
   if (!names_.empty() && values.size() != rows_.size())
-    throw std::invalid_argument("Table::add_column: column " + name + " has " +
-                                std::to_string(values.size()) + " values; it must have " +
-                                std::to_string(rows_.size()) + " like the others");
+    throw std::invalid_argument(
+        fmt::format("Table::add_column: column {} has {} values; it must have {} like the others", name,
+                    values.size(), rows_.size()));
   if (names_.empty()) rows_.resize(values.size());
   names_.push_back(std::move(name));
   for (std::size_t i = 0; i < values.size(); ++i) rows_[i].emplace_back(values[i]);
@@ -42,8 +44,8 @@ Table& Table::add_column(std::string name, std::span<const double> values) {
 
 void Table::append_row(std::vector<Cell> row) {
   if (row.size() != names_.size())
-    throw std::invalid_argument("Table::append_row: the row has " + std::to_string(row.size()) +
-                                " cells; it must have " + std::to_string(names_.size()));
+    throw std::invalid_argument(
+        fmt::format("Table::append_row: the row has {} cells; it must have {}", row.size(), names_.size()));
   rows_.push_back(std::move(row));
 }
 
@@ -59,8 +61,7 @@ std::size_t Table::index_of(std::string_view column) const {
 
 const Cell& Table::at(std::size_t row, std::string_view column) const {
   const std::size_t index = index_of(column);
-  if (row >= rows_.size())
-    throw std::out_of_range("Table: row " + std::to_string(row) + " of " + std::to_string(rows_.size()));
+  if (row >= rows_.size()) throw std::out_of_range(fmt::format("Table: row {} of {}", row, rows_.size()));
   return rows_[row][index];
 }
 

@@ -1,9 +1,10 @@
 #include "plot/colour_bands.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "files/number_text.hpp"
 #include "plot/plot_text.hpp"
@@ -43,15 +44,11 @@ std::string hexadecimal(int colour) {
 }
 
 /// Four digits: levels are divisions of a range, with rounding errors behind.
-std::string short_text(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
-}
+std::string short_text(double value) { return fmt::format("{:.4g}", value); }
 
 std::string rectangle(double bottom, double top, const std::string& style) {
-  return "set object rectangle from graph 1.04,graph " + number_text(bottom) + " to graph 1.09,graph " +
-         number_text(top) + " noclip front " + style + "\n";
+  return fmt::format("set object rectangle from graph 1.04,graph {} to graph 1.09,graph {} noclip front {}\n",
+                     number_text(bottom), number_text(top), style);
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +35,7 @@ std::string dash_text(Dash dash) {
 }
 
 std::string stroke(Colour colour, Dash dash, double width) {
-  return "lc rgb '" + colour_code(colour) + "' lw " + number_text(width) + " dt " + dash_text(dash);
+  return fmt::format("lc rgb '{}' lw {} dt {}", colour_code(colour), number_text(width), dash_text(dash));
 }
 
 std::string symbol(const Series& series, std::size_t index) {
@@ -73,7 +75,7 @@ bool has_points(const Series& series, const Panel& panel) {
 }
 
 std::string block_name(std::size_t panel, std::size_t series) {
-  return "$panel" + std::to_string(panel) + "_series" + std::to_string(series);
+  return fmt::format("$panel{}_series{}", panel, series);
 }
 
 std::string data_block(const Series& series, const std::string& name) {
@@ -166,17 +168,17 @@ bool has_labelled_segments(const Figure& figure) {
 }
 
 std::string rectangle_text(const Rectangle& r) {
-  return "set object rectangle from " + number_text(r.x1) + "," + number_text(r.y1) + " to " +
-         number_text(r.x2) + "," + number_text(r.y2) + " fc rgb '" + colour_code(r.fill) + "' fs solid " +
-         number_text(r.opacity) + " noborder behind\n";
+  return fmt::format("set object rectangle from {},{} to {},{} fc rgb '{}' fs solid {} noborder behind\n",
+                     number_text(r.x1), number_text(r.y1), number_text(r.x2), number_text(r.y2),
+                     colour_code(r.fill), number_text(r.opacity));
 }
 
 std::string mark_text(const TextMark& mark) {
   const char* align = mark.align == TextMark::Align::left    ? "left"
                       : mark.align == TextMark::Align::right ? "right"
                                                              : "center";
-  return "set label " + quoted(mark.text) + " at first " + number_text(mark.x) + ",first " +
-         number_text(mark.y) + " " + align + " front\n";
+  return fmt::format("set label {} at first {},first {} {} front\n", quoted(mark.text), number_text(mark.x),
+                     number_text(mark.y), align);
 }
 
 /// `aligned` panels have one left margin, so that axes stand below each other; 9 characters hold labels like
@@ -254,9 +256,9 @@ void check(const Axis& axis, const char* name) {
 
 void check(const HeatMap& map) {
   if (map.values.size() != map.x.size() * map.y.size() || map.x.size() < 2 || map.y.size() < 2)
-    throw std::invalid_argument("Figure: a heat map has " + std::to_string(map.values.size()) +
-                                " values for a grid of " + std::to_string(map.x.size()) + " x " +
-                                std::to_string(map.y.size()) + "; at least 2 x 2 are needed");
+    throw std::invalid_argument(
+        fmt::format("Figure: a heat map has {} values for a grid of {} x {}; at least 2 x 2 are needed",
+                    map.values.size(), map.x.size(), map.y.size()));
   if (!(map.largest > 0.0))
     throw std::invalid_argument("Figure: the largest value of a heat map is not positive");
 }
@@ -273,14 +275,14 @@ void check(const Figure& figure) {
     check(panel.y, "y");
     for (const Series& series : panel.series)
       if (series.x.size() != series.y.size())
-        throw std::invalid_argument(
-            "Figure: series \"" + series.label + "\" has " + std::to_string(series.x.size()) +
-            " abscissae and " + std::to_string(series.y.size()) + " ordinates; their numbers must be equal");
+        throw std::invalid_argument(fmt::format(
+            "Figure: series \"{}\" has {} abscissae and {} ordinates; their numbers must be equal",
+            series.label, series.x.size(), series.y.size()));
       else if (series.z.size() != (panel.z ? series.x.size() : 0))
-        throw std::invalid_argument(
-            "Figure: series \"" + series.label + "\" has " + std::to_string(series.z.size()) +
-            " heights for " + std::to_string(series.x.size()) + " points; a panel with a z axis needs " +
-            "as many, one without needs none");
+        throw std::invalid_argument(fmt::format(
+            "Figure: series \"{}\" has {} heights for {} points; a panel with a z axis needs as many, "
+            "one without needs none",
+            series.label, series.z.size(), series.x.size()));
   }
 }
 
@@ -311,8 +313,8 @@ std::string gnuplot_script(const Figure& figure) {
   }
   const std::size_t columns = std::min(count, static_cast<std::size_t>(figure.columns));
   const std::size_t rows = (count + columns - 1) / columns;
-  text += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns);
-  text += (figure.title.empty() ? "" : " title " + quoted(figure.title) + " font ',15'") + "\n";
+  text += fmt::format("set multiplot layout {},{}{}\n", rows, columns,
+                      figure.title.empty() ? "" : " title " + quoted(figure.title) + " font ',15'");
   for (std::size_t p = 0; p < count; ++p)
     text += panel_text(figure.panels[p], p, figure.letters ? letter_of(p) : "", figure.panels[p].title, true,
                        labelled);
