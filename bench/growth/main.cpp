@@ -20,8 +20,8 @@ namespace {
 constexpr double longest = 4.0;  // s; what is expected to take longer is not run
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// One ladder: a scene over functions or elements.
-struct Ladder {
+/// A scene over functions or elements.
+struct SizeSeries {
   std::string name, label;
   std::string variable;  ///< "functions" or "elements"
   std::vector<int> sizes;
@@ -81,9 +81,9 @@ Measured measure(const app::Scene& scene) {
   return measured;
 }
 
-app::Scene sized(const Ladder& ladder, int size) {
-  app::Scene scene = ladder.scene;
-  if (ladder.variable == "elements") {
+app::Scene sized(const SizeSeries& series, int size) {
+  app::Scene scene = series.scene;
+  if (series.variable == "elements") {
     scene.structure.elements = size;
     scene.time.functions = 63;
     return scene;
@@ -93,9 +93,9 @@ app::Scene sized(const Ladder& ladder, int size) {
   return scene;
 }
 
-Ladder ladder(const std::string& name, const std::string& label, const std::string& variable,
-              std::vector<int> sizes, int case_number, const std::string& basis, app::Colour colour,
-              int marker) {
+SizeSeries size_series(const std::string& name, const std::string& label, const std::string& variable,
+                       std::vector<int> sizes, int case_number, const std::string& basis, app::Colour colour,
+                       int marker) {
   const std::vector<std::string> overrides{"time.trial=" + basis, "time.weight=" + basis,
                                            "time.inner_products=exact", "time.functions=64"};
   return {
@@ -109,22 +109,25 @@ Ladder ladder(const std::string& name, const std::string& label, const std::stri
       marker};
 }
 
-std::vector<Ladder> ladders(bool quick) {
+std::vector<SizeSeries> all_series(bool quick) {
   using app::Colour;
   std::vector<int> functions, elements{25, 100};
   for (int size = 64; size <= (quick ? 128 : 16384); size *= 2) functions.push_back(size);
   if (!quick) elements = {25, 50, 100, 250, 500, 1000, 2500, 5000, 10000, 25000, 50000, 100000};
   return {
-      ladder("fourier_case1", "Fourier, case 1", "functions", functions, 1, "fourier", Colour::blue, 1),
-      ladder("fourier_case2", "Fourier, case 2", "functions", functions, 2, "fourier", Colour::vermillion, 2),
-      ladder("bspline_case2", "B-spline, case 2", "functions", functions, 2, "bspline", Colour::green, 3),
-      ladder("daubechies6_case2", "DB6, case 2", "functions", functions, 2, "daubechies6", Colour::orange, 4),
-      ladder("elements_case1", "case 1", "elements", elements, 1, "fourier", Colour::blue, 1),
-      ladder("elements_case2", "case 2", "elements", elements, 2, "fourier", Colour::vermillion, 2),
+      size_series("fourier_case1", "Fourier, case 1", "functions", functions, 1, "fourier", Colour::blue, 1),
+      size_series("fourier_case2", "Fourier, case 2", "functions", functions, 2, "fourier",
+                  Colour::vermillion, 2),
+      size_series("bspline_case2", "B-spline, case 2", "functions", functions, 2, "bspline", Colour::green,
+                  3),
+      size_series("daubechies6_case2", "DB6, case 2", "functions", functions, 2, "daubechies6",
+                  Colour::orange, 4),
+      size_series("elements_case1", "case 1", "elements", elements, 1, "fourier", Colour::blue, 1),
+      size_series("elements_case2", "case 2", "elements", elements, 2, "fourier", Colour::vermillion, 2),
   };
 }
 
-// Slope of ln(quantity) over ln(size) from the upper half of the ladder; for functions M also over M log M.
+// Slope of ln(quantity) over ln(size) from the upper half of the sizes; for functions M also over M log M.
 double slope(const std::vector<double>& sizes, const std::vector<double>& values) {
   std::vector<double> x, y;
   for (std::size_t i = sizes.size() / 2; i < sizes.size(); ++i)
@@ -143,7 +146,7 @@ struct Results {
                                              "slope_over_expected"}};
 };
 
-void append(Results& results, const Ladder& one, const app::Scene& scene, const Measured& m) {
+void append(Results& results, const SizeSeries& one, const app::Scene& scene, const Measured& m) {
   results.points.append_row({one.name, one.variable, scene.time.trial, std::int64_t{scene.time.functions},
                              std::int64_t{scene.time.quadrature_points},
                              std::int64_t{scene.structure.elements}, m.construction_seconds,
@@ -152,7 +155,7 @@ void append(Results& results, const Ladder& one, const app::Scene& scene, const 
 }
 
 // Expected: M log M for the time over functions, else proportional to the size.
-void fit(Results& results, const Ladder& one) {
+void fit(Results& results, const SizeSeries& one) {
   const app::Table rows = results.points.where("ladder", one.name).where("converged", "true");
   if (rows.rows() < 3) return;
   const std::vector<double> sizes = rows.numbers(one.variable);
@@ -166,18 +169,18 @@ void fit(Results& results, const Ladder& one) {
   }
 }
 
-void climb(Results& results, const Ladder& one) {
+void measure_all(Results& results, const SizeSeries& one) {
   Measured last;
-  Patience patience(longest);
+  TimeLimit limit(longest);
   for (std::size_t i = 0; i < one.sizes.size(); ++i) {
     const app::Scene scene = sized(one, one.sizes[i]);
     const double growth = i == 0 ? 1.0 : double(one.sizes[i]) / one.sizes[i - 1];
-    if (!patience.allows(growth)) {
+    if (!limit.allows(growth)) {
       append(results, one, scene, {});
       continue;
     }
     last = measure(scene);
-    patience.took(last.seconds);
+    limit.took(last.seconds);
     append(results, one, scene, last);
   }
   fit(results, one);
@@ -186,13 +189,13 @@ void climb(Results& results, const Ladder& one) {
   std::fflush(stdout);
 }
 
-void draw(app::Panel& panel, const std::vector<Ladder>& all, const Results& results,
+void draw(app::Panel& panel, const std::vector<SizeSeries>& all, const Results& results,
           const std::string& variable, const std::string& quantity, const std::string& label) {
   panel.x.label = variable == "functions" ? "Functions M, 4M points" : "Elements, 63 functions, 256 points";
   panel.y.label = label;
   panel.x.logarithmic = panel.y.logarithmic = true;
   panel.legend = app::Legend::top_left;
-  for (const Ladder& one : all) {
+  for (const SizeSeries& one : all) {
     if (one.variable != variable) continue;
     const auto rows = results.points.where("ladder", one.name).where("converged", "true");
     const auto fitted = results.slopes.where("ladder", one.name).where("quantity", quantity);
@@ -207,8 +210,8 @@ void draw(app::Panel& panel, const std::vector<Ladder>& all, const Results& resu
 
 void run(const Program& program) {
   Results results;
-  const std::vector<Ladder> all = ladders(program.quick);
-  for (const Ladder& one : all) climb(results, one);
+  const std::vector<SizeSeries> all = all_series(program.quick);
+  for (const SizeSeries& one : all) measure_all(results, one);
   app::Figure figure;
   figure.title = "Growth of one solve";
   figure.columns = 2;
@@ -224,7 +227,7 @@ void run(const Program& program) {
                "peak_bytes: resident memory that construction and solve add"}});
   write_data(
       program.output, "growth_slopes", results.slopes,
-      {"Slopes of growth.csv on logarithmic axes, upper half of each ladder",
+      {"Slopes of growth.csv on logarithmic axes, upper half of each series",
        {},
        {},
        {"slope_over_expected: beyond M log M for times over functions, beyond proportional elsewhere"}});

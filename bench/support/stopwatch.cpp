@@ -16,7 +16,7 @@ double processor_seconds() {
 double least_seconds(const std::function<void()>& work, const Repetition& repetition) {
   double least = std::numeric_limits<double>::infinity(), total = 0.0;
   for (int calls = 0; total < repetition.budget || calls < repetition.least; ++calls) {
-    if (calls > 0 && total > repetition.patience) break;
+    if (calls > 0 && total > repetition.max_seconds) break;
     const double start = processor_seconds();
     work();
     const double seconds = processor_seconds() - start;
@@ -26,12 +26,12 @@ double least_seconds(const std::function<void()>& work, const Repetition& repeti
   return least;
 }
 
-void Patience::took(double seconds) {
+void TimeLimit::took(double seconds) {
   before_ = last_;
   last_ = seconds;
 }
 
-bool Patience::allows(double growth) const {
+bool TimeLimit::allows(double growth) const {
   const double ratio = before_ > 0.0 ? last_ / before_ : growth;
   return last_ * std::clamp(ratio, growth, growth * growth * growth) <= limit_;
 }

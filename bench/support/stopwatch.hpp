@@ -8,18 +8,18 @@ namespace wavebalance::bench {
 double processor_seconds();
 
 struct Repetition {
-  double budget = 0.02;   ///< s, no further call is started after it
-  int least = 2;          ///< calls at least, unless the first alone takes more than `patience`
-  double patience = 0.5;  ///< s
+  double budget = 0.02;      ///< s, no further call is started after it
+  int least = 2;             ///< calls at least, unless the first alone takes more than `max_seconds`
+  double max_seconds = 0.5;  ///< s
 };
 
 /// The least processor seconds of one call of `work` among those that fit into the budget.
 double least_seconds(const std::function<void()>& work, const Repetition& repetition = {});
 
-/// Decides whether a ladder over doubling sizes is climbed on, by what its points took so far.
-class Patience {
+/// Decides from the times so far whether the next of a series of doubling sizes is run.
+class TimeLimit {
  public:
-  explicit Patience(double limit) : limit_(limit) {}
+  explicit TimeLimit(double limit) : limit_(limit) {}
   void took(double seconds);
   /// Whether a size `growth` times the last is expected to stay within the limit: from the last two points,
   /// as something between proportional to the size and its third power.

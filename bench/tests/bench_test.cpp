@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "ladder.hpp"
+#include "points.hpp"
 #include "stopwatch.hpp"
 
 namespace wavebalance::bench {
@@ -38,19 +38,19 @@ TEST(ParetoFront, is_an_envelope_by_rising_time_with_falling_error) {
   }
 }
 
-TEST(Patience, climbs_while_the_next_size_is_expected_within_the_limit) {
-  Patience patience(1.0);
-  EXPECT_TRUE(patience.allows());
-  patience.took(0.01);
-  EXPECT_TRUE(patience.allows());
-  patience.took(0.08);  // cubic: 0.64 s next
-  EXPECT_TRUE(patience.allows());
-  patience.took(0.64);
-  EXPECT_FALSE(patience.allows());
+TEST(TimeLimit, allows_the_next_size_while_it_is_expected_within_the_limit) {
+  TimeLimit limit(1.0);
+  EXPECT_TRUE(limit.allows());
+  limit.took(0.01);
+  EXPECT_TRUE(limit.allows());
+  limit.took(0.08);  // cubic: 0.64 s next
+  EXPECT_TRUE(limit.allows());
+  limit.took(0.64);
+  EXPECT_FALSE(limit.allows());
 }
 
-TEST(Patience, expects_proportional_growth_at_least_and_cubic_growth_at_most) {
-  Patience shrinking(1.0), jumping(1.0);
+TEST(TimeLimit, expects_proportional_growth_at_least_and_cubic_growth_at_most) {
+  TimeLimit shrinking(1.0), jumping(1.0);
   shrinking.took(5.0);
   shrinking.took(0.6);
   EXPECT_FALSE(shrinking.allows());
@@ -61,10 +61,10 @@ TEST(Patience, expects_proportional_growth_at_least_and_cubic_growth_at_most) {
 
 TEST(LeastSeconds, calls_as_often_as_asked_unless_the_first_call_takes_too_long) {
   int calls = 0;
-  EXPECT_GE(least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .patience = 1.0}), 0.0);
+  EXPECT_GE(least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .max_seconds = 1.0}), 0.0);
   EXPECT_EQ(calls, 3);
   calls = 0;
-  least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .patience = 0.0});
+  least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .max_seconds = 0.0});
   EXPECT_EQ(calls, 1);
 }
 

@@ -37,7 +37,7 @@ void append(app::Table& table, const std::string& motion, const Asked& asked, co
   const std::string none = found == nullptr ? "none" : "";
   table.append_row({motion, asked.tolerance, asked.status, asked.estimated_error, asked.error,
                     asked.error / asked.tolerance, std::int64_t{asked.functions}, std::int64_t{asked.points},
-                    std::int64_t{asked.rungs}, seconds.asked, none + fixed.trial, none + fixed.weight,
+                    std::int64_t{asked.levels}, seconds.asked, none + fixed.trial, none + fixed.weight,
                     std::int64_t{fixed.functions}, std::int64_t{fixed.points}, fixed.error, seconds.fixed,
                     seconds.asked / seconds.fixed});
 }

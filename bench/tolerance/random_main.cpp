@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t first_seed = 20140817;
 constexpr int output_points = 2048;
-constexpr double patience = 1.0;  // s: no further rung is begun after it, and the status is "cancelled"
+constexpr double max_seconds = 1.0;  // s: no further level is begun after it, and the status is "cancelled"
 
 app::Table empty_table() {
   return app::Table({"seed", "law", "frequency_Hz", "stiffness_damping_s", "gap_m", "tolerance", "status",
@@ -25,8 +25,8 @@ app::Table empty_table() {
 void append(app::Table& table, std::uint64_t seed, double tolerance) {
   const tolerance::RandomMotion motion(seed);
   const double start = processor_seconds();
-  auto found = motion.climb(tolerance,
-                            [&](const solvers::Progress&) { return processor_seconds() - start < patience; });
+  auto found = motion.refine(
+      tolerance, [&](const solvers::Progress&) { return processor_seconds() - start < max_seconds; });
   const double seconds = processor_seconds() - start;
   const auto exact = tolerance::shooting_nearby(motion, found, output_points);
   const double error =
@@ -34,8 +34,8 @@ void append(app::Table& table, std::uint64_t seed, double tolerance) {
   table.append_row({std::to_string(seed), name_of(motion.scene.contact.law), motion.scene.forcing.frequency,
                     motion.scene.structure.stiffness_damping, motion.scene.contact.gap, tolerance,
                     std::string(to_string(found.status)), found.estimated_error, error, error / tolerance,
-                    std::int64_t{found.ladder.back().functions}, std::int64_t{found.ladder.back().points},
-                    static_cast<std::int64_t>(found.ladder.size()), seconds});
+                    std::int64_t{found.levels.back().functions}, std::int64_t{found.levels.back().points},
+                    static_cast<std::int64_t>(found.levels.size()), seconds});
 }
 
 void report(const app::Table& table) {

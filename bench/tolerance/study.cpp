@@ -8,7 +8,7 @@
 #include "stopwatch.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/response/refinement.hpp"
 
 namespace wavebalance::bench {
 namespace {
@@ -71,8 +71,8 @@ double ToleranceStudy::add_row(FixedChoice choice, Search& search) const {
   for (; choice.points <= sizes_.largest_points; choice.points *= 2) {
     if (!measure(choice)) continue;
     search.choices.push_back(choice);
-    if (choice.error <= search.goal) search.patience = std::min(search.patience, choice.seconds);
-    if (choice.seconds > search.patience || std::abs(before / choice.error - 1.0) < settled) break;
+    if (choice.error <= search.goal) search.max_seconds = std::min(search.max_seconds, choice.seconds);
+    if (choice.seconds > search.max_seconds || std::abs(before / choice.error - 1.0) < settled) break;
     before = choice.error;
   }
   return choice.seconds;
@@ -81,29 +81,29 @@ double ToleranceStudy::add_row(FixedChoice choice, Search& search) const {
 void ToleranceStudy::add_pair(const std::string& trial, const std::string& weight, Search& search) const {
   const bool odd = trial == "fourier" && weight == "fourier";
   for (int size = 8; size <= sizes_.largest_functions; size *= 2)
-    if (add_row({trial, weight, odd ? size - 1 : size, size, 0.0, 0.0}, search) > search.patience) return;
+    if (add_row({trial, weight, odd ? size - 1 : size, size, 0.0, 0.0}, search) > search.max_seconds) return;
 }
 
 std::vector<FixedChoice> ToleranceStudy::fixed_choices(double goal) const {
-  Search search{.goal = goal, .patience = sizes_.patience};
+  Search search{.goal = goal, .max_seconds = sizes_.max_seconds};
   add_pair("fourier", "fourier", search);
   for (const char* basis : {"bspline", "daubechies6", "daubechies20"}) add_pair(basis, basis, search);
   add_pair("haar", "fourier", search);
   return search.choices;
 }
 
-solvers::LadderResponse ToleranceStudy::climb(double tolerance) const {
-  return tolerance::climb(scene_, model_, law_, {.tolerance = tolerance});
+solvers::RefinementResult ToleranceStudy::refine(double tolerance) const {
+  return tolerance::refine(scene_, model_, law_, {.tolerance = tolerance});
 }
 
 Asked ToleranceStudy::ask(double tolerance) const {
-  const auto found = climb(tolerance);
+  const auto found = refine(tolerance);
   Asked asked{.tolerance = tolerance, .status = std::string(to_string(found.status))};
   asked.estimated_error = found.estimated_error;
   asked.error = error_of(*found.problem, found.response);
-  asked.functions = found.ladder.back().functions;
-  asked.points = found.ladder.back().points;
-  asked.rungs = static_cast<int>(found.ladder.size());
+  asked.functions = found.levels.back().functions;
+  asked.points = found.levels.back().points;
+  asked.levels = static_cast<int>(found.levels.size());
   return asked;
 }
 
@@ -114,7 +114,7 @@ Beside ToleranceStudy::time_beside(const Asked& asked, const FixedChoice& choice
   for (double total = 0.0; total < budget || of_asked.size() < least;
        total += of_asked.back() + of_fixed.back()) {
     const double start = processor_seconds();
-    climb(asked.tolerance);
+    refine(asked.tolerance);
     const double middle = processor_seconds();
     if (!choice.trial.empty()) solve(choice);
     of_asked.push_back(middle - start);

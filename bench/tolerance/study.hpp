@@ -5,7 +5,7 @@
 
 #include "tolerance_scenes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
-#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/response/refinement.hpp"
 
 namespace wavebalance::bench {
 
@@ -24,22 +24,22 @@ struct Asked {
   std::string status;
   double estimated_error = 0.0;
   double error = 0.0;  ///< relative rms of the contact displacement
-  int functions = 0, points = 0, rungs = 0;
+  int functions = 0, points = 0, levels = 0;
 };
 
 /// Medians of the processor seconds of calls in turn.
 struct Beside {
-  double asked = 0.0;  ///< the whole ladder
+  double asked = 0.0;  ///< the whole refinement
   double fixed = 0.0;  ///< composition and solution of one choice
 };
 
 struct StudySizes {
   int largest_functions = 1 << 16;
   int largest_points = 1 << 18;
-  double patience = 1.0;  ///< s: a pair's or a row's larger sizes are left out beyond it
+  double max_seconds = 1.0;  ///< s: a pair's or a row's larger sizes are left out beyond it
 };
 
-/// One motion: the ladder and all fixed choices against one reference, timed in the same way.
+/// One motion: the refinement and all fixed choices against one reference, timed in the same way.
 class ToleranceStudy {
  public:
   /// `folder` holds the scene files.
@@ -59,14 +59,14 @@ class ToleranceStudy {
   };
   struct Search {
     double goal = 0.0;
-    double patience = 0.0;  // s
+    double max_seconds = 0.0;  // s
     std::vector<FixedChoice> choices = {};
   };
   void add_pair(const std::string& trial, const std::string& weight, Search& search) const;
   double add_row(FixedChoice choice, Search& search) const;
   bool measure(FixedChoice& choice) const;
   Solution solve(const FixedChoice& choice) const;
-  solvers::LadderResponse climb(double tolerance) const;
+  solvers::RefinementResult refine(double tolerance) const;
 
   double error_of(const solvers::CondensedProblem& problem, const solvers::PeriodicResponse& response) const;
 

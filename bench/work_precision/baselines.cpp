@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "dense_system.hpp"
-#include "ladder.hpp"
+#include "points.hpp"
 #include "stopwatch.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -30,7 +30,7 @@ double error_of(const Study& study, const Eigen::VectorXd& displacement) {
              : unknown;
 }
 
-Point dense_point(const Study& study, int functions, double patience) {
+Point dense_point(const Study& study, int functions, double max_seconds) {
   Point point = named("dense", unknown);
   point.trial = point.weight = "fourier";
   point.inner_products = "quadrature";
@@ -48,7 +48,7 @@ Point dense_point(const Study& study, int functions, double patience) {
         system.set_frequency(study.scene.forcing.frequency);
         solution = system.newton(system.linear_response(), {.tolerance = 1e-11});
       },
-      {.patience = patience / 10.0});
+      {.max_seconds = max_seconds / 10.0});
   point.converged = solution.converged;
   point.status = solution.converged ? "converged" : "not_converged";
   const int contact = study.scene.structure.elements - 1;
@@ -66,7 +66,7 @@ std::vector<Point> reference_points(const std::string& method, const Study& stud
   for (const double tolerance : tolerances) {
     Point point = named(method, tolerance);
     decltype(solve(tolerance)) result;
-    point.seconds = least_seconds([&] { result = solve(tolerance); }, {.patience = 0.2});
+    point.seconds = least_seconds([&] { result = solve(tolerance); }, {.max_seconds = 0.2});
     point.status = to_string(result.status);
     point.converged = point.status == "converged";
     point.error = error_of(study, result.samples.displacement);
@@ -77,11 +77,11 @@ std::vector<Point> reference_points(const std::string& method, const Study& stud
 
 }  // namespace
 
-std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double patience) {
+std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double max_seconds) {
   std::vector<Point> points;
   for (const int number : functions) {
-    points.push_back(dense_point(study, number, patience));
-    if (points.back().seconds > patience) break;
+    points.push_back(dense_point(study, number, max_seconds));
+    if (points.back().seconds > max_seconds) break;
   }
   return points;
 }

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "ladder.hpp"
+#include "points.hpp"
 
 namespace wavebalance::bench {
 

@@ -1,8 +1,8 @@
 #include <cstdio>
 
 #include "data_file.hpp"
-#include "ladder.hpp"
 #include "picture.hpp"
+#include "points.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
 #include "wavebalance/app/files/table.hpp"
@@ -28,18 +28,18 @@ void append(std::vector<Point>& points, std::vector<Point> more) {
   points.insert(points.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-LadderOptions penalty_ladder(bool quick) {
+SizeSeries penalty_sizes(bool quick) {
   if (quick) return {{4, 16}, {2}, 0.2};
   return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 0.5};
 }
 
-LadderOptions rigid_ladder(bool quick) {
+SizeSeries rigid_sizes(bool quick) {
   if (quick) return {{4, 16}, {1}, 0.2};
   return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 0.2};
 }
 
 std::vector<Point> penalty_points(const Study& study, bool quick) {
-  std::vector<Point> points = weighted_residual_points(study, penalty_ladder(quick));
+  std::vector<Point> points = weighted_residual_points(study, penalty_sizes(quick));
   append(points, dense_points(study, quick ? std::vector{3, 7} : std::vector{3, 7, 15, 31, 63}, 2.0));
   append(points, time_stepping_points(study, quick ? std::vector{1e-2}
                                                    : std::vector{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}));
@@ -49,7 +49,7 @@ std::vector<Point> penalty_points(const Study& study, bool quick) {
 }
 
 std::vector<Point> rigid_points(const Study& study, bool quick) {
-  std::vector<Point> points = weighted_residual_points(study, rigid_ladder(quick));
+  std::vector<Point> points = weighted_residual_points(study, rigid_sizes(quick));
   mark_front(points);
   return points;
 }
@@ -95,7 +95,7 @@ class Results {
   app::Table table_ = empty_table();
   std::vector<std::string> notes_{
       "error: relative rms over 1024 points of the period; seconds: least of repeated solves, plans made",
-      "status not_run: the ladder below took too long; on_front: no converged point beats it in both"};
+      "status not_run: smaller sizes took too long; on_front: no converged point beats it in both"};
 };
 
 void run(const Program& program) {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "ladder.hpp"
+#include "points.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::bench {

@@ -12,7 +12,7 @@
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/response/periodic_field.hpp"
-#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/response/refinement.hpp"
 
 namespace wavebalance::tolerance {
 
@@ -63,12 +63,12 @@ struct RandomMotion {
   explicit RandomMotion(std::uint64_t seed)
       : scene(random_scene(seed)), model(app::make_model(scene)), law(app::make_law(scene.contact)) {}
 
-  /// Stops when the observer says so.
-  solvers::LadderResponse climb(double tolerance, solvers::Observer observer = {}) const {
-    solvers::LadderOptions options;
+  /// Stops when the observer returns false.
+  solvers::RefinementResult refine(double tolerance, solvers::Observer observer = {}) const {
+    solvers::RefinementOptions options;
     options.tolerance = tolerance;
     options.observer = std::move(observer);
-    return tolerance::climb(scene, model, law, options);
+    return tolerance::refine(scene, model, law, options);
   }
 
   app::Scene scene;
@@ -79,7 +79,7 @@ struct RandomMotion {
 /// The tip of the periodic motion that shooting finds from the state that `found` has at t = 0, `points`
 /// times; nothing when shooting does not converge. It needs no stable motion: no period is integrated before.
 inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion,
-                                                      solvers::LadderResponse& found, int points) {
+                                                      solvers::RefinementResult& found, int points) {
   const auto field =
       solvers::periodic_field(*found.problem, found.response.contact_force, 4 * found.problem->points());
   solvers::ShootingOptions options;
@@ -93,8 +93,8 @@ inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion
   return shot.samples.displacement.col(0);
 }
 
-/// The relative rms distance of the ladder's motion from `exact`.
-inline double true_error(solvers::LadderResponse& found, const Eigen::VectorXd& exact) {
+/// The relative rms distance of the refinement's motion from `exact`.
+inline double true_error(solvers::RefinementResult& found, const Eigen::VectorXd& exact) {
   solvers::MotionEvaluator motion(found.problem->pair().trial(), static_cast<int>(exact.size()));
   const Eigen::VectorXd u = motion.displacement(Eigen::VectorXcd(found.response.coefficients.col(0)));
   return (u - exact).norm() / exact.norm();

@@ -9,7 +9,7 @@ constexpr int output_points = 2048;
 
 void expect_met(std::uint64_t seed, double tolerance) {
   const RandomMotion motion(seed);
-  auto found = motion.climb(tolerance);
+  auto found = motion.refine(tolerance);
   ASSERT_TRUE(found.converged()) << to_string(found.status) << ", seed " << seed << ", tolerance "
                                  << tolerance;
   const auto exact = shooting_nearby(motion, found, output_points);
@@ -36,12 +36,12 @@ TEST(RandomTolerance, IsMetWhereHarmonicsHardlyFallYet) {
 }
 
 TEST(RandomTolerance, IsMetByAStiffStopInLongContact) {
-  // Newton stalled from the harmonics of the rung before, which ripple between samples that touch, and the
-  // path from the contact-free response took seconds.
+  // Newton once stalled from the harmonics of the previous level, which oscillate between samples in contact,
+  // and the path from the contact-free response took seconds.
   const RandomMotion motion(283);
-  auto found = motion.climb(1e-3);
+  auto found = motion.refine(1e-3);
   ASSERT_TRUE(found.converged());
-  EXPECT_FALSE(found.ladder.back().restarted) << found.ladder.back().points << " points";
+  EXPECT_FALSE(found.levels.back().restarted) << found.levels.back().points << " points";
   expect_met(283, 1e-3);
 }
 

@@ -8,11 +8,11 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
-#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/response/refinement.hpp"
 
 namespace wavebalance::tolerance {
 
-/// One motion that a tolerance is asked of: a scene of reproduce/scenes/tolerance and what is changed in it.
+/// One motion to be solved to a tolerance: a scene of reproduce/scenes/tolerance and what is changed in it.
 struct Motion {
   const char* name;
   const char* file;
@@ -59,15 +59,15 @@ inline app::Scene scene(const Motion& motion, const std::string& folder, double 
   return result;
 }
 
-/// The ladder of a scene's structure and law, whose own [time] is not read.
-inline solvers::LadderResponse climb(const app::Scene& scene, const app::StructureModel& model,
-                                     const solvers::AnyContactLaw& law,
-                                     const solvers::LadderOptions& options) {
+/// The refinement of a scene's structure and law. Its own [time] is not read.
+inline solvers::RefinementResult refine(const app::Scene& scene, const app::StructureModel& model,
+                                        const solvers::AnyContactLaw& law,
+                                        const solvers::RefinementOptions& options) {
   const auto make = [&](int functions, int points) {
-    app::Scene rung = scene;
-    rung.time = {
+    app::Scene sized = scene;
+    sized.time = {
         .trial = "fourier", .weight = "fourier", .functions = functions, .quadrature_points = points};
-    return app::make_problem(rung, model);
+    return app::make_problem(sized, model);
   };
   return solvers::response_to_tolerance(make, law, options);
 }

@@ -37,20 +37,20 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   return options;
 }
 
-Table ladder_table(const Refinement& refinement) {
+Table level_table(const Refinement& refinement) {
   Table table({"trial", "weight", "functions", "quadrature_points", "estimated_error", "truncation_error",
                "quadrature_error", "residual", "iterations", "seconds"});
-  for (const auto& rung : refinement.ladder)
-    table.append_row({refinement.trial, refinement.weight, std::int64_t{rung.functions},
-                      std::int64_t{rung.points}, rung.estimated_error, rung.truncation, rung.quadrature,
-                      rung.residual, std::int64_t{rung.iterations}, rung.seconds});
+  for (const auto& level : refinement.levels)
+    table.append_row({refinement.trial, refinement.weight, std::int64_t{level.functions},
+                      std::int64_t{level.points}, level.estimated_error, level.truncation, level.quadrature,
+                      level.residual, std::int64_t{level.iterations}, level.seconds});
   return table;
 }
 
 void append_refinement(Summary& summary, const Refinement& refinement, double tolerance) {
   summary.emplace_back("tolerance", tolerance);
   summary.emplace_back("estimated_error", refinement.estimated_error);
-  summary.emplace_back("ladder", ladder_table(refinement));
+  summary.emplace_back("ladder", level_table(refinement));
   summary.emplace_back("ladder_seconds", refinement.seconds);
 }
 

@@ -78,8 +78,8 @@ void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem&
               options, result);
 }
 
-void solve_ladder(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
-                  Response& result) {
+void solve_refined(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                   Response& result) {
   const solvers::ContactLaws laws = make_laws(scene);
   auto found = solve_to_tolerance(scene, model, laws, options, result);
   note_motion(*found.problem, found.response, model,
@@ -113,7 +113,7 @@ ContactMotion motion_with_nearest_forces(const solvers::CondensedProblem& proble
 
 Time solved_time(Time time, const Response& response) {
   if (!response.refinement) return time;
-  const auto& last = response.refinement->ladder.back();
+  const auto& last = response.refinement->levels.back();
   time.trial = response.refinement->trial;
   time.weight = response.refinement->weight;
   time.functions = last.functions;
@@ -144,7 +144,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   result.unknowns = model.contacts() * scene.time.functions;
   try {
     if (scene.time.tolerance > 0.0) {
-      solve_ladder(scene, model, options, result);
+      solve_refined(scene, model, options, result);
     } else {
       ComposedProblem composed = compose_problem(scene, model);
       const bool rigid = scene.contact.law == ContactLawType::rigid;

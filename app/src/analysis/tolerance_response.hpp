@@ -5,8 +5,8 @@ namespace wavebalance::app {
 
 /// Solves a scene with time.tolerance and notes in `result` all but motions and wall_seconds. Throws
 /// solvers::SingularSystem.
-solvers::LadderResponse solve_to_tolerance(const Scene& scene, const StructureModel& model,
-                                           const solvers::ContactLaws& laws, const ResponseOptions& options,
-                                           Response& result);
+solvers::RefinementResult solve_to_tolerance(const Scene& scene, const StructureModel& model,
+                                             const solvers::ContactLaws& laws, const ResponseOptions& options,
+                                             Response& result);
 
 }  // namespace wavebalance::app

@@ -5,20 +5,21 @@ namespace {
 
 double relative(double value, double scale) { return value == 0.0 ? 0.0 : value / scale; }
 
-/// Below M/2 a harmonic's amplitude is its coefficient over M: those of the cardinal functions are samples.
+/// A harmonic below M/2 has its coefficient divided by M as amplitude, because the coefficients of the
+/// cardinal functions are samples.
 LevelDifference harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_functions,
                                   const Eigen::MatrixXcd& fine, int fine_functions) {
-  double within = 0.0, beyond = 0.0, scale = 0.0;
+  double resolved = 0.0, truncated = 0.0, scale = 0.0;
   for (Eigen::Index n = 0; n < fine.rows(); ++n) {
     const double weight = n == 0 ? 0.5 : 1.0;
     const Eigen::RowVectorXcd value = fine.row(n) / double(fine_functions);
     scale += weight * value.squaredNorm();
     if (n < coarse.rows())
-      within += weight * (value - coarse.row(n) / double(coarse_functions)).squaredNorm();
+      resolved += weight * (value - coarse.row(n) / double(coarse_functions)).squaredNorm();
     else
-      beyond += weight * value.squaredNorm();
+      truncated += weight * value.squaredNorm();
   }
-  return {relative(std::sqrt(within), std::sqrt(scale)), relative(std::sqrt(beyond), std::sqrt(scale))};
+  return {relative(std::sqrt(resolved), std::sqrt(scale)), relative(std::sqrt(truncated), std::sqrt(scale))};
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicR
   if (odd && pair.trial().band_limited() && pair.weight().band_limited())
     return harmonic_distance(coarse_response.coefficients, coarse.pair().functions(),
                              fine_response.coefficients, pair.functions());
-  // Contact-major samples: every (N'/N)-th of the finer ones, as N divides N'.
+  // Samples are contact-major and N divides N', so every (N'/N)-th sample of the finer response is taken.
   const Eigen::VectorXd at_points =
       fine_response.displacement(Eigen::seqN(0, coarse.samples(), fine.points() / coarse.points()));
   return {0.0, relative((at_points - coarse_response.displacement).norm(), at_points.norm())};
@@ -61,23 +62,25 @@ bool has_brief_contact(const PeriodicResponse& response, int points) {
 
 namespace {
 
-bool touches_often(const Eigen::VectorXd& u, Eigen::Index l, double gap) {
-  const auto beyond = [&](Eigen::Index m) { return u[(m + u.size()) % u.size()] > gap; };
-  return u[l] > gap &&
-         ((beyond(l - 1) && (beyond(l - 2) || beyond(l + 1))) || (beyond(l + 1) && beyond(l + 2)));
+/// Whether sample l is in a contact of at least three points.
+bool in_long_contact(const Eigen::VectorXd& u, Eigen::Index l, double gap) {
+  const auto in_contact = [&](Eigen::Index m) { return u[(m + u.size()) % u.size()] > gap; };
+  return u[l] > gap && ((in_contact(l - 1) && (in_contact(l - 2) || in_contact(l + 1))) ||
+                        (in_contact(l + 1) && in_contact(l + 2)));
 }
 
-/// Sum of what the forces, N, at the maxima beyond the gap that parabolas through the samples of one contact
-/// reach exceed those at the samples, with twice what a parabola misses of a smooth maximum half-way, 3/128
-/// of the fourth difference. A force yields to itself by `compliance`, m/N, of a point. Maxima in contacts of
-/// more than two points are left to the order of the sums.
+/// Force, N, that the samples of one contact miss: the force at the maximum of the parabola through three
+/// samples less the force at the sample, summed over the maxima. The maximum is raised by 3/64 of the fourth
+/// difference, which is twice the interpolation error of a parabola half-way between two points. The
+/// `compliance` of one point, m/N, reduces the force. Maxima in contacts of more than two points are left
+/// out, because the order of the sums includes them.
 double missed_force(const Eigen::VectorXd& u, const AnyContactLaw& law, double compliance) {
   const Eigen::Index points = u.size();
   const auto at = [&](Eigen::Index l) { return u[(l + points) % points]; };
   double force = 0.0;
   for (Eigen::Index l = 0; l < points; ++l) {
     const double before = at(l - 1), after = at(l + 1);
-    if (u[l] < before || u[l] < after || touches_often(u, l, law.gap())) continue;
+    if (u[l] < before || u[l] < after || in_long_contact(u, l, law.gap())) continue;
     const double bend = before - 2.0 * u[l] + after, rise = after - before;
     if (!(bend < 0.0)) continue;
     const double fourth = at(l - 2) + at(l + 2) - 4.0 * (before + after) + 6.0 * u[l];

@@ -12,7 +12,7 @@
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/reference/period_samples.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/response/refinement.hpp"
 
 namespace wavebalance::app {
 
@@ -29,10 +29,10 @@ struct RigidContact {
 
 /// How a scene with time.tolerance was resolved.
 struct Refinement {
-  std::string trial, weight;     ///< the pair, of all rungs
-  double estimated_error = 0.0;  ///< relative rms of the last rung, see solvers::response_to_tolerance
-  double seconds = 0.0;          ///< wall time of all rungs
-  std::vector<solvers::LadderRung> ladder;  ///< in the order climbed
+  std::string trial, weight;     ///< the pair, of all levels
+  double estimated_error = 0.0;  ///< relative rms of the last level, see solvers::response_to_tolerance
+  double seconds = 0.0;          ///< wall time of all levels
+  std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
 /// A periodic response of a scene's contacts, or an honest failure to find one.

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/response/resolution_ladder.hpp"
+#include "wavebalance/solvers/response/refinement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,113 +58,113 @@ double distance(const Eigen::VectorXd& u, const Eigen::VectorXd& reference) {
   return (u - reference).norm() / reference.norm();
 }
 
-void expect_within(const ProblemFactory& make, LadderOptions options, const Eigen::VectorXd& reference) {
-  const LadderResponse found = response_to_tolerance(make, law_1, options);
+void expect_within(const ProblemFactory& make, RefinementOptions options, const Eigen::VectorXd& reference) {
+  const RefinementResult found = response_to_tolerance(make, law_1, options);
   ASSERT_TRUE(found.converged()) << to_string(found.status) << " at tolerance " << options.tolerance;
   EXPECT_LE(found.estimated_error, options.tolerance);
   EXPECT_LE(distance(motion(found.problem->pair().trial(), found.response), reference), 3 * options.tolerance)
       << "tolerance " << options.tolerance;
 }
 
-TEST(ResolutionLadder, MeetsItsTolerance) {
+TEST(Refinement, MeetsItsTolerance) {
   const Eigen::VectorXd reference = finest();
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5})
     expect_within(bar, {.tolerance = tolerance}, reference);
 }
 
-TEST(ResolutionLadder, MeetsItsToleranceInBasesThatAreNotBandLimited) {
+TEST(Refinement, MeetsItsToleranceInBasesThatAreNotBandLimited) {
   const Eigen::VectorXd reference = finest();
   for (const double tolerance : {1e-1, 1e-2, 1e-3})
     expect_within(bar_in<testing::CubicBasis>(Formulation::weak),
                   {.tolerance = tolerance, .first_functions = 16, .first_points = 32}, reference);
 }
 
-TEST(ResolutionLadder, RecordsEveryRung) {
-  int told = 0;
-  LadderOptions options{.tolerance = 1e-4};
+TEST(Refinement, RecordsEveryLevel) {
+  int calls = 0;
+  RefinementOptions options{.tolerance = 1e-4};
   options.observer = [&](const Progress& progress) {
-    if (progress.phase == "refinement") ++told;
+    if (progress.phase == "refinement") ++calls;
     return true;
   };
-  const LadderResponse found = response_to_tolerance(bar, law_1, options);
+  const RefinementResult found = response_to_tolerance(bar, law_1, options);
   ASSERT_TRUE(found.converged());
-  ASSERT_EQ(told, static_cast<int>(found.ladder.size()));
-  ASSERT_GE(found.ladder.size(), 2u);
+  ASSERT_EQ(calls, static_cast<int>(found.levels.size()));
+  ASSERT_GE(found.levels.size(), 2u);
   double seconds = 0.0;
-  for (std::size_t i = 0; i < found.ladder.size(); ++i) {
-    const LadderRung& rung = found.ladder[i];
-    EXPECT_LE(rung.residual, options.solver.newton.tolerance);
-    EXPECT_EQ(rung.estimated_error <= options.tolerance, i + 1 == found.ladder.size());
-    EXPECT_EQ(std::isnan(rung.change), i == 0);
-    EXPECT_EQ(std::isnan(rung.estimated_error), i == 0);
-    seconds += rung.seconds;
+  for (std::size_t i = 0; i < found.levels.size(); ++i) {
+    const RefinementLevel& level = found.levels[i];
+    EXPECT_LE(level.residual, options.solver.newton.tolerance);
+    EXPECT_EQ(level.estimated_error <= options.tolerance, i + 1 == found.levels.size());
+    EXPECT_EQ(std::isnan(level.change), i == 0);
+    EXPECT_EQ(std::isnan(level.estimated_error), i == 0);
+    seconds += level.seconds;
     if (i == 0) continue;
-    EXPECT_GT(rung.functions + rung.points, found.ladder[i - 1].functions + found.ladder[i - 1].points);
+    EXPECT_GT(level.functions + level.points, found.levels[i - 1].functions + found.levels[i - 1].points);
   }
   EXPECT_LE(seconds, found.seconds);
-  EXPECT_EQ(found.estimated_error, found.ladder.back().estimated_error);
-  EXPECT_EQ(found.problem->pair().functions(), found.ladder.back().functions);
-  EXPECT_EQ(found.response.displacement.size(), found.ladder.back().points);
+  EXPECT_EQ(found.estimated_error, found.levels.back().estimated_error);
+  EXPECT_EQ(found.problem->pair().functions(), found.levels.back().functions);
+  EXPECT_EQ(found.response.displacement.size(), found.levels.back().points);
 }
 
-TEST(ResolutionLadder, LinearResponseTakesTwoRungsAndIsRounding) {
-  const LadderResponse found = response_to_tolerance(bar, AnyContactLaw(), {.tolerance = 1e-10});
+TEST(Refinement, LinearResponseTakesTwoLevelsAndIsRounding) {
+  const RefinementResult found = response_to_tolerance(bar, AnyContactLaw(), {.tolerance = 1e-10});
   EXPECT_TRUE(found.converged());
-  EXPECT_EQ(found.ladder.size(), 2u);
+  EXPECT_EQ(found.levels.size(), 2u);
   EXPECT_LE(found.estimated_error, 1000 * eps);
 }
 
-TEST(ResolutionLadder, EstimateIsNearTheTrueErrorOnEveryRung) {
+TEST(Refinement, EstimateIsNearTheTrueErrorOnEveryLevel) {
   const Eigen::VectorXd reference = finest();
-  LadderOptions options{.tolerance = 1e-5};
-  const LadderResponse found = response_to_tolerance(bar, law_1, options);
+  RefinementOptions options{.tolerance = 1e-5};
+  const RefinementResult found = response_to_tolerance(bar, law_1, options);
   ASSERT_TRUE(found.converged());
-  for (const LadderRung& rung : found.ladder) {
-    if (std::isnan(rung.estimated_error) || rung.points >= 1024) continue;  // the reference has 4096
-    CondensedProblem problem = bar(rung.functions, rung.points);
+  for (const RefinementLevel& level : found.levels) {
+    if (std::isnan(level.estimated_error) || level.points >= 1024) continue;  // the reference has 4096
+    CondensedProblem problem = bar(level.functions, level.points);
     const PeriodicResponse response = forced_response(problem, law_1, {});
     const double true_error = distance(motion(problem.pair().trial(), response), reference);
-    EXPECT_GT(rung.estimated_error, true_error / 3.0) << rung.functions << " functions";
-    EXPECT_LT(rung.estimated_error, true_error * 20.0) << rung.functions << " functions";
-    EXPECT_NEAR(std::hypot(rung.truncation, rung.quadrature), rung.estimated_error, 10 * eps);
+    EXPECT_GT(level.estimated_error, true_error / 3.0) << level.functions << " functions";
+    EXPECT_LT(level.estimated_error, true_error * 20.0) << level.functions << " functions";
+    EXPECT_NEAR(std::hypot(level.truncation, level.quadrature), level.estimated_error, 10 * eps);
   }
 }
 
-TEST(ResolutionLadder, ChangeIsTheErrorOfTheRungBefore) {
+TEST(Refinement, ChangeIsTheErrorOfThePreviousLevel) {
   const Eigen::VectorXd reference = finest();
-  LadderOptions options{.tolerance = 1e-4};
-  const LadderResponse found = response_to_tolerance(bar, law_1, options);
-  ASSERT_GE(found.ladder.size(), 3u);
-  const LadderRung& before = found.ladder[1];
+  RefinementOptions options{.tolerance = 1e-4};
+  const RefinementResult found = response_to_tolerance(bar, law_1, options);
+  ASSERT_GE(found.levels.size(), 3u);
+  const RefinementLevel& before = found.levels[1];
   CondensedProblem problem = bar(before.functions, before.points);
   const PeriodicResponse response = forced_response(problem, law_1, {});
   const double true_error = distance(motion(problem.pair().trial(), response), reference);
-  EXPECT_NEAR(found.ladder[2].change, true_error, 0.5 * true_error);
+  EXPECT_NEAR(found.levels[2].change, true_error, 0.5 * true_error);
 }
 
-/// A stop half-way between the largest displacement and the largest at 64 points, rigid but for 1e-9: its
-/// force is what keeps the motion from exceeding the gap.
+/// A stop half-way between the largest displacement and the largest at 64 points. It is rigid to 1e-9, so its
+/// force keeps the motion from exceeding the gap.
 std::vector<std::pair<testing::Oscillator, testing::LinearContact>> stops_between_points() {
   std::vector<std::pair<testing::Oscillator, testing::LinearContact>> stops;
   testing::Oscillator one;
   for (one.frequency = 20.0; one.frequency < 40.0; one.frequency += 0.5) {
     const double peak = std::abs(one.amplitude());
-    const double seen = oscillator(one, 31, 64).contact_free_response().maxCoeff();
-    if (seen < (1.0 - 5e-4) * peak) stops.push_back({one, {1e12, 0.5 * (seen + peak)}});
+    const double sampled_peak = oscillator(one, 31, 64).contact_free_response().maxCoeff();
+    if (sampled_peak < (1.0 - 5e-4) * peak) stops.push_back({one, {1e12, 0.5 * (sampled_peak + peak)}});
   }
   return stops;
 }
 
-TEST(ResolutionLadder, SeesAContactBetweenThePoints) {
-  const LadderOptions options{.tolerance = 1e-3, .max_points = 1024};
+TEST(Refinement, EstimateIncludesAContactBetweenThePoints) {
+  const RefinementOptions options{.tolerance = 1e-3, .max_points = 1024};
   int compared = 0;
   for (const auto& [one, stop] : stops_between_points()) {
     const auto make = [&one = one](int functions, int points) { return oscillator(one, functions, points); };
-    const LadderResponse found = response_to_tolerance(make, stop, options);
-    ASSERT_GE(found.ladder.size(), 3u);
-    EXPECT_LE(found.ladder[1].change, 1000 * eps) << "no contact at the points of the first two";
-    EXPECT_GT(found.ladder[1].estimated_error, options.tolerance) << one.frequency << " Hz";
-    EXPECT_NE(found.status, LadderStatus::stagnated) << one.frequency << " Hz";
+    const RefinementResult found = response_to_tolerance(make, stop, options);
+    ASSERT_GE(found.levels.size(), 3u);
+    EXPECT_LE(found.levels[1].change, 1000 * eps) << "no contact at the points of the first two";
+    EXPECT_GT(found.levels[1].estimated_error, options.tolerance) << one.frequency << " Hz";
+    EXPECT_NE(found.status, RefinementStatus::stagnated) << one.frequency << " Hz";
     if (!found.converged())
       continue;  // above the natural frequency a rigid stop may have many answers, or none
     CondensedProblem fine = oscillator(one, 511, 4096);
@@ -179,74 +179,74 @@ TEST(ResolutionLadder, SeesAContactBetweenThePoints) {
   EXPECT_GE(compared, 5);
 }
 
-void expect_covered(double frequency, double below) {
+void expect_estimate_not_exceeded(double frequency, double below) {
   const auto make = [frequency](int functions, int points) { return bar_at(frequency, functions, points); };
   CondensedProblem fine = make(1023, 8192);
   const testing::LinearContact stop{5e9, (1.0 - below) * fine.contact_free_response().maxCoeff()};
   const PeriodicResponse exact = forced_response(fine, stop, {});
   ASSERT_TRUE(exact.converged());
-  const LadderResponse found = response_to_tolerance(make, stop, {.tolerance = 1e-5});
+  const RefinementResult found = response_to_tolerance(make, stop, {.tolerance = 1e-5});
   ASSERT_TRUE(found.converged()) << to_string(found.status);
-  for (const LadderRung& rung : found.ladder) {
-    if (std::isnan(rung.estimated_error) || rung.points < 32) continue;
-    CondensedProblem problem = make(rung.functions, rung.points);
+  for (const RefinementLevel& level : found.levels) {
+    if (std::isnan(level.estimated_error) || level.points < 32) continue;
+    CondensedProblem problem = make(level.functions, level.points);
     const PeriodicResponse response = forced_response(problem, stop, {});
     const double error = distance(motion(problem.pair().trial(), response), exact.displacement);
-    EXPECT_LE(error, 3.0 * rung.estimated_error + 2e-6)  // the reference's own error
-        << frequency << " Hz, " << below << " of the amplitude, " << rung.functions << " functions, "
-        << rung.points << " points";
+    EXPECT_LE(error, 3.0 * level.estimated_error + 2e-6)  // the reference's own error
+        << frequency << " Hz, " << below << " of the amplitude, " << level.functions << " functions, "
+        << level.points << " points";
   }
 }
 
-TEST(ResolutionLadder, EstimateCoversContactsThatOneOrTwoPointsSee) {
+TEST(Refinement, EstimateCoversContactsOfOneOrTwoPoints) {
   // Gaps just below the amplitude, so that the contact lasts from much less than a point to some points; the
   // damping moves it away from the points.
   for (double frequency = 150.0; frequency < 1000.0; frequency += 50.0)
-    for (double below = 1e-4; below < 3e-2; below *= 2.0) expect_covered(frequency, below);
+    for (double below = 1e-4; below < 3e-2; below *= 2.0) expect_estimate_not_exceeded(frequency, below);
 }
 
-TEST(ResolutionLadder, SaysThatTheSizesDoNotSuffice) {
-  LadderOptions options{.tolerance = 1e-6, .max_functions = 63, .max_points = 256};
-  const LadderResponse found = response_to_tolerance(bar, law_1, options);
-  EXPECT_EQ(found.status, LadderStatus::size_limit);
+TEST(Refinement, ReportsThatTheSizesDoNotSuffice) {
+  RefinementOptions options{.tolerance = 1e-6, .max_functions = 63, .max_points = 256};
+  const RefinementResult found = response_to_tolerance(bar, law_1, options);
+  EXPECT_EQ(found.status, RefinementStatus::size_limit);
   EXPECT_FALSE(found.converged());
   EXPECT_TRUE(found.response.converged());
   EXPECT_GT(found.estimated_error, options.tolerance);
-  EXPECT_LE(found.ladder.back().points, 256);
+  EXPECT_LE(found.levels.back().points, 256);
 }
 
-TEST(ResolutionLadder, SaysThatRoundingIsReached) {
-  // Smooth all period long: the obstacle presses from the start on, and Fourier series converge to rounding.
+TEST(Refinement, ReportsThatRoundingIsReached) {
+  // The contact lasts all period, so that the motion is smooth and its Fourier series converges to rounding.
   testing::ExponentialLaw pressing = law_1;
   pressing.start = -5e-3;
-  const LadderOptions options{.tolerance = 1e-18};
-  const LadderResponse found = response_to_tolerance(bar, pressing, options);
-  EXPECT_EQ(found.status, LadderStatus::stagnated);
+  const RefinementOptions options{.tolerance = 1e-18};
+  const RefinementResult found = response_to_tolerance(bar, pressing, options);
+  EXPECT_EQ(found.status, RefinementStatus::stagnated);
   EXPECT_LE(found.estimated_error, 1e-9);
 }
 
-TEST(ResolutionLadder, SaysThatARungHasNoResponse) {
-  LadderOptions options;
+TEST(Refinement, ReportsThatLevelsHaveNoResponse) {
+  RefinementOptions options;
   options.solver.newton.max_iterations = 1;
   options.solver.complementarity = false;
-  const LadderResponse found = response_to_tolerance(bar, law_1, options);
-  EXPECT_EQ(found.status, LadderStatus::not_converged);
+  const RefinementResult found = response_to_tolerance(bar, law_1, options);
+  EXPECT_EQ(found.status, RefinementStatus::not_converged);
   EXPECT_TRUE(std::isnan(found.estimated_error));
 }
 
-TEST(ResolutionLadder, StopsWhenTold) {
-  LadderOptions options{.tolerance = 1e-8};
+TEST(Refinement, StopsWhenTheObserverReturnsFalse) {
+  RefinementOptions options{.tolerance = 1e-8};
   options.observer = [](const Progress& progress) { return progress.phase != "refinement"; };
-  const LadderResponse found = response_to_tolerance(bar, law_1, options);
-  EXPECT_EQ(found.status, LadderStatus::cancelled);
-  EXPECT_EQ(found.ladder.size(), 1u);
+  const RefinementResult found = response_to_tolerance(bar, law_1, options);
+  EXPECT_EQ(found.status, RefinementStatus::cancelled);
+  EXPECT_EQ(found.levels.size(), 1u);
 }
 
-TEST(ResolutionLadder, RefusesOptionsOutOfRange) {
-  for (const LadderOptions& options :
-       {LadderOptions{.tolerance = 0.0}, LadderOptions{.tolerance = std::nan("")},
-        LadderOptions{.first_functions = 0}, LadderOptions{.first_points = 6},
-        LadderOptions{.max_functions = 6}, LadderOptions{.max_points = 7}})
+TEST(Refinement, RefusesOptionsOutOfRange) {
+  for (const RefinementOptions& options :
+       {RefinementOptions{.tolerance = 0.0}, RefinementOptions{.tolerance = std::nan("")},
+        RefinementOptions{.first_functions = 0}, RefinementOptions{.first_points = 6},
+        RefinementOptions{.max_functions = 6}, RefinementOptions{.max_points = 7}})
     EXPECT_THROW(response_to_tolerance(bar, law_1, options), std::invalid_argument);
 }
 

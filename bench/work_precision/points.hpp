@@ -18,20 +18,20 @@ struct Point {
   double seconds = 0.0;  ///< least of several solves from the contact-free response, plans made before
   double error = 0.0;    ///< relative rms of the tip displacement against the reference
   bool converged = false;
-  std::string status;  ///< why not; "not_run" when the ladder below took too long
+  std::string status;  ///< why not; "not_run" when smaller sizes took too long
   bool on_front = false;
 };
 
-struct LadderOptions {
+struct SizeSeries {
   std::vector<int> functions;            ///< rising powers of two
   std::vector<int> points_per_function;  ///< rising
-  double patience = 1.0;  ///< s: what is expected to take longer is not run, and a homotopy ends there
+  double max_seconds = 1.0;  ///< s: what is expected to take longer is not run, and a homotopy ends there
 };
 
 /// Every pair over functions and points.
-std::vector<Point> weighted_residual_points(const Study& study, const LadderOptions& options);
+std::vector<Point> weighted_residual_points(const Study& study, const SizeSeries& series);
 /// Fourier functions through the assembled system of all unknowns.
-std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double patience);
+std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double max_seconds);
 /// Time stepping to each tolerance on the difference of two periods, and shooting to each on its steps.
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances);
 std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances);

@@ -1,4 +1,4 @@
-#include "ladder.hpp"
+#include "points.hpp"
 
 #include <limits>
 
@@ -19,22 +19,22 @@ solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
 }
 
 // Ends a solve that takes too long; it has not converged then.
-solvers::Observer deadline(double patience) {
-  return [patience, start = processor_seconds()](const solvers::Progress&) {
-    return processor_seconds() - start < patience;
+solvers::Observer deadline(double max_seconds) {
+  return [max_seconds, start = processor_seconds()](const solvers::Progress&) {
+    return processor_seconds() - start < max_seconds;
   };
 }
 
 solvers::PeriodicResponse solve(const app::Scene& scene, solvers::CondensedProblem& problem,
-                                double patience) {
+                                double max_seconds) {
   problem.set_frequency(scene.forcing.frequency);
   if (scene.contact.law == app::ContactLawType::rigid) {
     solvers::RigidResponseOptions options;
-    options.observer = deadline(patience);
+    options.observer = deadline(max_seconds);
     return solvers::rigid_response(problem, scene.contact.gap, options).response;
   }
   solvers::ForcedResponseOptions options;
-  options.observer = deadline(patience);
+  options.observer = deadline(max_seconds);
   return solvers::forced_response(problem, app::make_law(scene.contact), options);
 }
 
@@ -59,13 +59,13 @@ Point blank(const Pair& pair, const app::Time& time) {
   return point;
 }
 
-Point measure(const Study& study, const Pair& pair, const app::Scene& scene, double patience) {
+Point measure(const Study& study, const Pair& pair, const app::Scene& scene, double max_seconds) {
   Point point = blank(pair, scene.time);
   point.construction_seconds = least_seconds([&] { condensed_problem(scene); }, {0.0, 2, 0.1});
   solvers::CondensedProblem problem = condensed_problem(scene);
   solvers::PeriodicResponse response;
   try {
-    point.seconds = least_seconds([&] { response = solve(scene, problem, patience); });
+    point.seconds = least_seconds([&] { response = solve(scene, problem, max_seconds); });
   } catch (const solvers::SingularSystem&) {
     point.status = "singular";
     return point;
@@ -77,16 +77,16 @@ Point measure(const Study& study, const Pair& pair, const app::Scene& scene, dou
   return point;
 }
 
-void climb(const Study& study, const Pair& pair, const LadderOptions& options, int points_per_function,
-           int change, std::vector<Point>& points) {
-  Patience patience(options.patience);
-  for (const int functions : options.functions) {
+void add_series(const Study& study, const Pair& pair, const SizeSeries& series, int points_per_function,
+                int change, std::vector<Point>& points) {
+  TimeLimit limit(series.max_seconds);
+  for (const int functions : series.functions) {
     const int number = functions + change;
     const app::Scene scene =
         discretised(study, pair, number, std::max(number, functions) * points_per_function);
-    if (patience.allows()) {
-      points.push_back(measure(study, pair, scene, options.patience));
-      if (points.back().status != "singular") patience.took(points.back().seconds);
+    if (limit.allows()) {
+      points.push_back(measure(study, pair, scene, series.max_seconds));
+      if (points.back().status != "singular") limit.took(points.back().seconds);
     } else {
       points.push_back(blank(pair, scene.time));
       points.back().status = "not_run";
@@ -96,13 +96,13 @@ void climb(const Study& study, const Pair& pair, const LadderOptions& options, i
 
 }  // namespace
 
-std::vector<Point> weighted_residual_points(const Study& study, const LadderOptions& options) {
+std::vector<Point> weighted_residual_points(const Study& study, const SizeSeries& series) {
   std::vector<Point> points;
   for (const Pair& pair : pairs())
-    for (const int points_per_function : options.points_per_function) {
-      climb(study, pair, options, points_per_function, 0, points);
+    for (const int points_per_function : series.points_per_function) {
+      add_series(study, pair, series, points_per_function, 0, points);
       // An odd number of Fourier functions has no Nyquist coefficient.
-      if (pair.trial == "fourier") climb(study, pair, options, points_per_function, -1, points);
+      if (pair.trial == "fourier") add_series(study, pair, series, points_per_function, -1, points);
     }
   return points;
 }
