@@ -38,7 +38,7 @@ app::Table campbell(const RotatingBlade& blade, const app::Scene& scene, std::st
     for (const auto& gap : curve.interruptions)
       interruptions += fmt::format(
           "{}{} 1/min: {} at {}", interruptions.empty() ? "" : ", ", report::number(rpm, 5),
-          gap.tongues.empty() ? gap.status : gap.tongues.front(), report::number(gap.first_ratio, 4));
+          gap.resonances.empty() ? gap.status : gap.resonances.front(), report::number(gap.first_ratio, 4));
     std::vector<app::Cell> row{rpm, study.linear_frequency()};
     for (const double energy : energies) {
       const auto point = study.at_energy(curve, energy);

@@ -48,14 +48,14 @@ app::Figure drawn(const app::ModeStudy& study, const app::Backbone& backbone, co
                   Colour::vermillion, Dash::dash_dotted, 0));
   std::vector<double> energy, ratio;
   for (const auto& point : backbone.points)
-    if (point.status == solvers::ModeStatus::tongue) {
+    if (point.status == solvers::ModeStatus::internal_resonance) {
       energy.push_back(point.energy_ratio);
       ratio.push_back(point.omega / study.mode().linear_omega());
     }
-  app::Series tongues("internal resonances", energy, ratio, SeriesStyle::points);
-  tongues.colour = Colour::grey;
-  tongues.marker = 8;
-  panel.add(tongues);
+  app::Series resonances("internal resonances", energy, ratio, SeriesStyle::points);
+  resonances.colour = Colour::grey;
+  resonances.marker = 8;
+  panel.add(resonances);
   panel.mark_x(1.0);
   panel.segments.push_back({0.0, 1.0, 1.0, 1.0, false, Dash::solid, Colour::black, 1.6});
   return figure;
@@ -116,7 +116,7 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, con
            "<force> gap / m: met to {}.",
            report::number(point.omega / linear, 5), report::number(root, 5),
            report::number(exact.frequency_ratio(), 5), report::number(exact.rayleigh_frequency_ratio(), 5),
-           report::number(point.identity_defect, 2)),
+           report::number(point.virial_residual, 2)),
        std::abs(root * linear / point.omega - 1.0) < 0.01});
 }
 
@@ -179,7 +179,7 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
   for (std::size_t i = 0; i < backbone.points.size(); ++i)
     if (const auto& point = backbone.points[i]; point.accepted()) {
       residual = std::max(residual, backbone.residuals[i]);
-      identity = std::max(identity, point.identity_defect);
+      identity = std::max(identity, point.virial_residual);
       penetration = std::max(penetration, point.max_penetration);
       force = std::min(force, point.min_force);
     }
@@ -189,7 +189,7 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
       "(cycling).",
       report::number(residual, 2), report::number(identity, 2), report::number(force, 2),
       report::percent(penetration, 2), backbone.points.size(), report::number(1e3 * backbone.wall_seconds, 3),
-      backbone.count(solvers::ModeStatus::tongue), backbone.count(solvers::ModeStatus::cycling)));
+      backbone.count(solvers::ModeStatus::internal_resonance), backbone.count(solvers::ModeStatus::cycling)));
   artefact.note(
       "Half consistent, half lumped mass instead of eq. (28): the consistent one puts omega_2/omega_1 at "
       "3.0062, and an internal resonance 3:1 just above omega_1 ends the branch near grazing. The mixture "

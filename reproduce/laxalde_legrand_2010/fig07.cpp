@@ -37,7 +37,7 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::
   published.style = app::SeriesStyle::line_points;
   published.marker = 1;
   panel.add(published);
-  std::vector<double> x, y, tongue_x, tongue_y;
+  std::vector<double> x, y, resonance_energy, resonance_frequency;
   for (const auto& listed : listed_points) {
     x.push_back(listed.energy_ratio);
     y.push_back(listed.frequency_ratio);
@@ -47,14 +47,15 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::
   listed.marker = 7;
   panel.add(listed);
   for (const auto& point : curve.points)
-    if (point.status == solvers::ModeStatus::tongue) {
-      tongue_x.push_back(point.energy_ratio);
-      tongue_y.push_back(point.omega / study.mode().linear_omega());
+    if (point.status == solvers::ModeStatus::internal_resonance) {
+      resonance_energy.push_back(point.energy_ratio);
+      resonance_frequency.push_back(point.omega / study.mode().linear_omega());
     }
-  app::Series tongues("internal resonances", tongue_x, tongue_y, app::SeriesStyle::points);
-  tongues.colour = Colour::grey;
-  tongues.marker = 8;
-  if (!tongue_x.empty()) panel.add(tongues);
+  app::Series resonances("internal resonances", resonance_energy, resonance_frequency,
+                         app::SeriesStyle::points);
+  resonances.colour = Colour::grey;
+  resonances.marker = 8;
+  if (!resonance_energy.empty()) panel.add(resonances);
   panel.mark_x(1.0);
 }
 
@@ -129,7 +130,7 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, con
   double identity = 0.0, residual = 0.0;
   for (std::size_t i = 0; i < curve.points.size(); ++i)
     if (curve.points[i].accepted()) {
-      identity = std::max(identity, curve.points[i].identity_defect);
+      identity = std::max(identity, curve.points[i].virial_residual);
       residual = std::max(residual, curve.residuals[i]);
     }
   artefact.claim(
@@ -150,8 +151,9 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
       "The curve, {} points, took {} ms after assembly and reduction in {} s. {} points on internal "
       "resonances, {} unsolved.",
       curve.points.size(), report::number(1e3 * curve.wall_seconds, 3),
-      report::number(study.model().reduction_seconds, 3), curve.count(solvers::ModeStatus::tongue),
-      static_cast<int>(curve.points.size()) - curve.count(solvers::ModeStatus::tongue) -
+      report::number(study.model().reduction_seconds, 3),
+      curve.count(solvers::ModeStatus::internal_resonance),
+      static_cast<int>(curve.points.size()) - curve.count(solvers::ModeStatus::internal_resonance) -
           curve.count(solvers::ModeStatus::converged)));
   artefact.note(fmt::format(
       "Published is Algorithm 2 on the printed equations, all 112 coordinates and two harmonics, which is as "

@@ -31,10 +31,10 @@ std::string joined_names(const std::vector<std::string>& names) {
   return text;
 }
 
-std::vector<std::string> all_tongues(const Backbone& curve) {
+std::vector<std::string> all_resonances(const Backbone& curve) {
   std::vector<std::string> names;
   for (const Interruption& gap : curve.interruptions)
-    for (const auto& name : gap.tongues)
+    for (const auto& name : gap.resonances)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return names;
 }
@@ -81,17 +81,17 @@ void append_curve(Summary& summary, const Backbone& curve, double gap) {
 
 void append_statuses(Summary& summary, const Backbone& curve) {
   summary.emplace_back("points", static_cast<std::int64_t>(curve.points.size()));
-  for (const auto status : {ModeStatus::converged, ModeStatus::tongue, ModeStatus::cycling,
+  for (const auto status : {ModeStatus::converged, ModeStatus::internal_resonance, ModeStatus::cycling,
                             ModeStatus::no_contact, ModeStatus::singular})
     summary.emplace_back("points_" + std::string(to_string(status)), std::int64_t{curve.count(status)});
-  summary.emplace_back("tongues", joined_names(all_tongues(curve)));
+  summary.emplace_back("tongues", joined_names(all_resonances(curve)));
   summary.emplace_back("interruptions", static_cast<std::int64_t>(curve.interruptions.size()));
 }
 
-void append_quality(Summary& summary, double penetration, double min_force, double identity) {
+void append_quality(Summary& summary, double penetration, double min_force, double virial_residual) {
   summary.emplace_back("max_penetration_over_gap", std::max(0.0, penetration));
   summary.emplace_back("min_contact_force_N", min_force);
-  summary.emplace_back("identity_defect", identity);
+  summary.emplace_back("virial_residual", virial_residual);
 }
 
 Record curve_record(const ModeStudy& study) {
@@ -107,7 +107,7 @@ Record curve_record(const ModeStudy& study) {
   append_statuses(record.summary, curve);
   append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
                  -largest(curve, [](const auto& point) { return -point.min_force; }),
-                 largest(curve, [](const auto& point) { return point.identity_defect; }));
+                 largest(curve, [](const auto& point) { return point.virial_residual; }));
   record.summary.emplace_back("largest_energy_ratio",
                               largest(curve, [](const auto& point) { return point.energy_ratio; }));
   record.summary.emplace_back("largest_frequency_ratio", largest(curve, [&](const auto& point) {
@@ -132,7 +132,7 @@ Record motion_record(const ModeStudy& study) {
   Record record;
   record.converged = response.converged = point.accepted();
   record.status = to_string(point.status);
-  if (point.status == ModeStatus::tongue) record.status += " " + tongue_name(point.tongue);
+  if (point.status == ModeStatus::internal_resonance) record.status += " " + resonance_name(point.resonance);
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
                                     point.iterations, study.model().contacts() * scene.analysis.samples,
                                     response.wall_seconds);
@@ -145,7 +145,7 @@ Record motion_record(const ModeStudy& study) {
                               moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
   record.summary.emplace_back("energy_ratio", moves ? point.energy_ratio : missing);
   append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
-                 moves ? point.identity_defect : missing);
+                 moves ? point.virial_residual : missing);
   if (!moves) return record;
   record.response = response_table(response.samples);
   add_contacts(record, contacts, response.contact);

@@ -19,7 +19,9 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_penalty = 300.0;  // in units omega_1 = gap = 1
 constexpr int linear_points = 6;         // of the branch below contact, energies 0, 0.2, ..
 
-bool is_solution(const ModePoint& point) { return point.accepted() || point.status == ModeStatus::tongue; }
+bool is_solution(const ModePoint& point) {
+  return point.accepted() || point.status == ModeStatus::internal_resonance;
+}
 
 solvers::BackboneOptions curve_options(const Analysis& analysis) {
   solvers::BackboneOptions options;
@@ -31,13 +33,13 @@ solvers::BackboneOptions curve_options(const Analysis& analysis) {
 
 void add_to(Interruption& gap, const ModePoint& point, double ratio) {
   gap.last_ratio = ratio;
-  if (point.status != ModeStatus::tongue) {
+  if (point.status != ModeStatus::internal_resonance) {
     if (gap.status.empty()) gap.status = std::string(to_string(point.status));
     return;
   }
-  const std::string name = tongue_name(point.tongue);
-  if (std::find(gap.tongues.begin(), gap.tongues.end(), name) == gap.tongues.end())
-    gap.tongues.push_back(name);
+  const std::string name = resonance_name(point.resonance);
+  if (std::find(gap.resonances.begin(), gap.resonances.end(), name) == gap.resonances.end())
+    gap.resonances.push_back(name);
 }
 
 std::vector<Interruption> interruptions_of(const std::vector<ModePoint>& points, double linear_omega) {
@@ -92,8 +94,9 @@ bool Backbone::converged() const { return status() == "converged"; }
 std::string Backbone::status() const {
   if (count(ModeStatus::converged) == 0) return "no motion with contact was found";
   for (const Interruption& gap : interruptions)
-    if (gap.tongues.empty())
-      return gap.status + " at frequency ratio " + std::to_string(gap.first_ratio) + ", on no known tongue";
+    if (gap.resonances.empty())
+      return gap.status + " at frequency ratio " + std::to_string(gap.first_ratio) +
+             ", on no known internal resonance";
   return "converged";
 }
 
@@ -207,15 +210,15 @@ double ModeStudy::residual(const ModePoint& point) const {
   return scale > 0.0 ? largest / scale : missing;
 }
 
-std::string tongue_name(const solvers::Tongue& tongue) {
-  return std::to_string(tongue.harmonic) + ":" + std::to_string(tongue.mode);
+std::string resonance_name(const solvers::InternalResonance& resonance) {
+  return std::to_string(resonance.harmonic) + ":" + std::to_string(resonance.mode);
 }
 
 namespace {
 
 Table empty_backbone() {
   return Table({"energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio",
-                "contact_fraction", "status", "residual", "identity_defect", "max_penetration_over_gap",
+                "contact_fraction", "status", "residual", "virial_residual", "max_penetration_over_gap",
                 "min_contact_force_N", "tongue", "tongue_share"});
 }
 
@@ -231,7 +234,7 @@ Table backbone_table(const ModeStudy& study, const std::vector<solvers::Lagrangi
     table.append_row({point.prescribed_ratio, value(point.omega / (2.0 * std::numbers::pi)),
                       value(point.omega / linear), value(std::sqrt(point.rayleigh) / linear), missing,
                       std::string(to_string(point.status)), value(point.equation_residual),
-                      value(point.identity_defect), value(point.max_penetration), value(point.min_force),
+                      value(point.virial_residual), value(point.max_penetration), value(point.min_force),
                       "none", missing});
   }
   return table;
@@ -245,10 +248,10 @@ Table backbone_table(const ModeStudy& study, const Backbone& curve) {
     const auto value = [&](double number) { return found ? number : missing; };
     table.append_row({value(point.energy_ratio), point.omega / (2.0 * std::numbers::pi), point.omega / linear,
                       value(std::sqrt(point.rayleigh) / linear), value(point.contact_fraction),
-                      std::string(to_string(point.status)), residual, value(point.identity_defect),
+                      std::string(to_string(point.status)), residual, value(point.virial_residual),
                       value(point.max_penetration), value(point.min_force),
-                      point.tongue.harmonic > 0 ? tongue_name(point.tongue) : std::string("none"),
-                      value(point.tongue.share)});
+                      point.resonance.harmonic > 0 ? resonance_name(point.resonance) : std::string("none"),
+                      value(point.resonance.share)});
   };
   for (int i = 0; i < linear_points; ++i) {
     const auto point = study.mode().linear_mode(static_cast<double>(i) / (linear_points - 1));

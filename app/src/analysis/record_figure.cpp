@@ -137,12 +137,12 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
 }
 
 Figure backbone_figure(const Scene& scene, const Table& backbone) {
-  const auto column = [&](std::string_view name, bool tongues) {
+  const auto column = [&](std::string_view name, bool on_resonance) {
     auto values = backbone.numbers(name);
     const auto statuses = backbone.texts("status");
     for (std::size_t i = 0; i < values.size(); ++i) {
       const bool accepted = statuses[i] == "converged" || statuses[i] == "linear";
-      if (tongues ? statuses[i] != "tongue" : !accepted) values[i] = std::nan("");
+      if (on_resonance ? statuses[i] != "tongue" : !accepted) values[i] = std::nan("");
     }
     return values;
   };
@@ -160,10 +160,10 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
   panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false), SeriesStyle::points});
   panel.add({"√r, Rayleigh quotient", column("energy_ratio", false),
              column("rayleigh_frequency_ratio", false), SeriesStyle::points});
-  Series tongues("on an internal resonance", column("energy_ratio", true), column("frequency_ratio", true),
-                 SeriesStyle::points);
-  tongues.colour = Colour::grey;
-  panel.add(std::move(tongues)).mark_x(1.0);
+  Series resonances("on an internal resonance", column("energy_ratio", true), column("frequency_ratio", true),
+                    SeriesStyle::points);
+  resonances.colour = Colour::grey;
+  panel.add(std::move(resonances)).mark_x(1.0);
   return figure;
 }
 

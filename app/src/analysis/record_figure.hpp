@@ -11,7 +11,7 @@ Figure response_figure(const Scene& scene, const Response& response);
 Figure motion_figure(const Scene& scene, const Response& response, double frequency);
 
 /// Frequency over energy from a backbone_table(): accepted points, what the generalised Rayleigh quotient
-/// would give, and points on tongues as marks.
+/// would give, and points on internal resonances as marks.
 Figure backbone_figure(const Scene& scene, const Table& backbone);
 
 /// Largest and rms displacement over the frequency, with its turning points.

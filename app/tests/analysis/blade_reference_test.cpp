@@ -39,7 +39,7 @@ TEST(BladeMode, BackboneIsThatFoundIndependently) {
     ASSERT_EQ(point.status, ModeStatus::converged) << energy;
     EXPECT_NEAR(point.omega / blade_study().mode().linear_omega(), ratio, 0.003) << energy;
     EXPECT_LT(blade_study().residual(point), 1e-9);
-    EXPECT_LT(point.identity_defect, 1e-12);
+    EXPECT_LT(point.virial_residual, 1e-12);
     EXPECT_GE(point.min_force, 0.0);
   }
 }

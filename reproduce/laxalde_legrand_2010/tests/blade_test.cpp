@@ -98,7 +98,7 @@ TEST(Ll10Blade, EveryPointBalancesItsForces) {
   const auto curve = study.backbone();
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     if (!curve.points[i].accepted()) continue;
-    EXPECT_LT(curve.points[i].identity_defect, 1e-12) << i;  // omega^2 = r + <force> gap / m
+    EXPECT_LT(curve.points[i].virial_residual, 1e-12) << i;  // omega^2 = r + <force> gap / m
     EXPECT_LT(curve.residuals[i], 1e-9) << i;
     EXPECT_GE(curve.points[i].min_force, 0.0) << i;
   }

@@ -9,6 +9,7 @@
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
+#include "modes/mode_option_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -21,8 +22,10 @@ std::span<const double> view(const Eigen::VectorXd& values) {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-ModalModel checked(ModalModel model, int mode) {
+ModalModel checked(ModalModel model, const LagrangianModeOptions& options) {
+  options.validate();
   model.validate();
+  const int mode = options.mode;
   if (mode < 1 || mode > model.modes())
     detail::reject("LagrangianMode", "mode", mode, ("in 1.." + std::to_string(model.modes())).c_str());
   if (model.contact_shapes.col(mode - 1).isZero(0.0))
@@ -31,7 +34,7 @@ ModalModel checked(ModalModel model, int mode) {
   return model;
 }
 
-// The contact that the growing mode reaches first.
+// The contact that the linear mode reaches first as it grows.
 Eigen::Index first_contact(const ModalModel& model, int mode) {
   Eigen::Index contact = 0;
   model.contact_shapes.col(mode - 1).cwiseQuotient(model.gaps).cwiseAbs().maxCoeff(&contact);
@@ -51,8 +54,8 @@ ModalModel scaled(const ModalModel& model, int mode) {
           model.gaps / gap};
 }
 
-// A step of Newton; where the matrix is singular (a motion without contact may be shifted in time) the
-// shortest one.
+// A Newton step. If the matrix is singular, as for a motion without contact, which may be shifted in time, it
+// is the step of least norm.
 bool newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {
   constexpr double tiny = 1e-14;
   const detail::Lu<double> lu(hessian);
@@ -78,12 +81,24 @@ std::string_view to_string(LagrangianStatus status) {
       return "outer_stalled";
     case LagrangianStatus::outer_limit:
       return "outer_limit";
-    case LagrangianStatus::tongue:
+    case LagrangianStatus::internal_resonance:
       return "tongue";
     case LagrangianStatus::left_mode:
       return "left_mode";
   }
   return "unknown";
+}
+
+void LagrangianModeOptions::validate() const {
+  constexpr const char* who = "LagrangianModeOptions";
+  detail::require_mode_discretisation(who, mode, harmonics, samples);
+  detail::require_positive(who, "inner_tolerance", inner_tolerance);
+  detail::require_at_least(who, "max_inner_iterations", max_inner_iterations, 1);
+  detail::require_at_least(who, "max_outer_iterations", max_outer_iterations, 1);
+  detail::require_at_least(who, "max_step_halvings", max_step_halvings, 0);
+  detail::require_share(who, "min_fundamental_share", min_fundamental_share);
+  detail::require_share(who, "resonance_share", resonance_share);
+  detail::require_share(who, "resonance_detuning", resonance_detuning);
 }
 
 int LagrangianPoint::newton_iterations() const {
@@ -93,17 +108,12 @@ int LagrangianPoint::newton_iterations() const {
 }
 
 LagrangianMode::LagrangianMode(ModalModel model, LagrangianModeOptions options)
-    : model_(checked(std::move(model), options.mode)),
+    : model_(checked(std::move(model), options)),
       options_(options),
       amplitude_(grazing_amplitude(model_, options.mode)),
       gap_(first_gap(model_, options.mode)),
       functional_(scaled(model_, options.mode), {options.harmonics, options.cosine_only}, options.samples,
-                  options.formulation) {
-  detail::require_positive("LagrangianMode", "inner_tolerance", options_.inner_tolerance);
-  detail::require_at_least("LagrangianMode", "inner_iterations", options_.inner_iterations, 1);
-  detail::require_at_least("LagrangianMode", "outer_iterations", options_.outer_iterations, 1);
-  detail::require_at_least("LagrangianMode", "step_halvings", options_.step_halvings, 0);
-}
+                  options.formulation) {}
 
 double LagrangianMode::linear_omega() const { return std::sqrt(model_.omega_squared[options_.mode - 1]); }
 
@@ -214,7 +224,7 @@ LagrangianMode::Newton LagrangianMode::critical_point(Eigen::VectorXd& x, double
                                                       std::optional<double> frozen) const {
   constexpr double min_step = 1.0 / (1 << 29);
   Stationarity condition(*this, gamma, multipliers, frozen);
-  const detail::NewtonRun run = detail::damped_newton(condition, x, options_.inner_iterations, min_step);
+  const detail::NewtonRun run = detail::damped_newton(condition, x, options_.max_inner_iterations, min_step);
   const auto status = [&] {
     switch (run.end) {
       case detail::NewtonEnd::solved:
@@ -247,7 +257,7 @@ LagrangianPoint LagrangianMode::solve_with(double energy_ratio, Multipliers& mul
   start_multipliers(multipliers, x, start.force, frozen);
   LagrangianPoint point;
   point.prescribed_ratio = energy_ratio;
-  for (int outer = 0; outer < options_.outer_iterations; ++outer)
+  for (int outer = 0; outer < options_.max_outer_iterations; ++outer)
     if (const auto status = outer_iteration(point, x, multipliers, frozen)) {
       point.status = *status;
       break;
@@ -255,7 +265,7 @@ LagrangianPoint LagrangianMode::solve_with(double energy_ratio, Multipliers& mul
   return point;
 }
 
-// The status when the iteration ends.
+// The status if the iteration ends here.
 std::optional<LagrangianStatus> LagrangianMode::outer_iteration(LagrangianPoint& point, Eigen::VectorXd& x,
                                                                 Multipliers& multipliers,
                                                                 std::optional<double> frozen) const {
@@ -272,7 +282,7 @@ std::optional<LagrangianStatus> LagrangianMode::outer_iteration(LagrangianPoint&
   const MultiplierReport report = multipliers.update(view(g), h);
   point.history.back().inequality_measure = report.inequality_measure;
   point.history.back().equality_measure = report.equality_measure;
-  if (report.converged) return judge(point);
+  if (report.converged) return classify(point);
   if (report.stalled) return LagrangianStatus::outer_stalled;
   return {};
 }
@@ -289,7 +299,7 @@ void LagrangianMode::measure(LagrangianPoint& point, const Eigen::VectorXd& x,
   const Eigen::Map<const RowMajor> lambda(multiplier.data(), model_.contacts(), options_.samples);
   if (options_.formulation == ModeFormulation::consistent)
     squared += 0.5 * lambda.cwiseProduct(gaps).sum() / options_.samples;
-  // Blocks carry the weights w_b throughout.
+  // All blocks are multiplied by their weights w_b.
   const Eigen::VectorXd residual =
       elastic - squared * inertia + 0.5 * m * functional_.generalised_force(multiplier);
   const double balance = frozen.value_or(r) - 0.5 * m * pull;
@@ -299,7 +309,7 @@ void LagrangianMode::measure(LagrangianPoint& point, const Eigen::VectorXd& x,
   point.amplitudes = to_amplitudes(x);
   point.force = (0.5 * m * unit * amplitude_ * amplitude_ / gap_) * lambda;
   point.equation_residual = residual.norm() / elastic.norm();
-  point.identity_defect = std::abs(squared - balance) / squared;
+  point.virial_residual = std::abs(squared - balance) / squared;
   const Eigen::VectorXd g = functional_.gap_function(x);
   point.max_penetration =
       Eigen::Map<const RowMajor>(g.data(), gaps.rows(), gaps.cols()).cwiseQuotient(gaps).maxCoeff();
@@ -314,34 +324,35 @@ void LagrangianMode::measure_shares(LagrangianPoint& point) const {
       point.amplitudes.rightCols(harmonics).cwiseAbs2() * n.cwiseAbs2().asDiagonal();  // r x N, from n = 1
   shares /= shares.sum();
   point.fundamental_share = shares.col(0).sum();
-  point.tongue = {};
+  point.resonance = {};
   for (Eigen::Index column = 1; column < harmonics; ++column) {
     Eigen::Index mode = 0;
     const double share = shares.col(column).maxCoeff(&mode);
-    if (share > point.tongue.share)
-      point.tongue = {static_cast<int>(column + 1), static_cast<int>(mode + 1), share};
+    if (share > point.resonance.share)
+      point.resonance = {static_cast<int>(column + 1), static_cast<int>(mode + 1), share};
   }
 }
 
-LagrangianStatus LagrangianMode::judge(const LagrangianPoint& point) const {
-  if (point.fundamental_share < options_.least_share) return LagrangianStatus::left_mode;
+LagrangianStatus LagrangianMode::classify(const LagrangianPoint& point) const {
+  if (point.fundamental_share < options_.min_fundamental_share) return LagrangianStatus::left_mode;
   if (point.force.isZero(0.0)) return LagrangianStatus::linear;
-  if (point.tongue.share < options_.tongue_share) return LagrangianStatus::converged;
-  const double resonance = std::sqrt(model_.omega_squared[point.tongue.mode - 1]);
-  const double detuning = std::abs(point.tongue.harmonic * point.omega - resonance) / resonance;
-  return detuning <= options_.tongue_detuning ? LagrangianStatus::tongue : LagrangianStatus::converged;
+  if (point.resonance.share < options_.resonance_share) return LagrangianStatus::converged;
+  const double omega_j = std::sqrt(model_.omega_squared[point.resonance.mode - 1]);
+  const double detuning = std::abs(point.resonance.harmonic * point.omega - omega_j) / omega_j;
+  return detuning <= options_.resonance_detuning ? LagrangianStatus::internal_resonance
+                                                 : LagrangianStatus::converged;
 }
 
 std::vector<LagrangianPoint> LagrangianMode::follow(
     std::span<const double> energy_ratios, const LagrangianStart& start,
     const std::function<LagrangianPoint(double, const Prediction&)>& solve_from) const {
-  std::vector<LagrangianPoint> points, path;  // path: also those between
+  std::vector<LagrangianPoint> points, path;  // path holds the points between, too
   for (const double target : energy_ratios) {
     double ratio = target;
     for (int halvings = 0;;) {
       const LagrangianPoint point = solve_from(ratio, predict(path, ratio, start));
       if (point.accepted()) path.push_back(point);
-      const bool given_up = !point.accepted() && (path.empty() || halvings == options_.step_halvings);
+      const bool given_up = !point.accepted() && (path.empty() || halvings == options_.max_step_halvings);
       if (given_up || (point.accepted() && ratio == target)) points.push_back(point);
       if (given_up) return points;
       if (point.accepted() && ratio == target) break;
@@ -361,7 +372,7 @@ LagrangianMode::Prediction LagrangianMode::predict(const std::vector<LagrangianP
   if (points.size() < 2) return result;
   const LagrangianPoint& before = points[points.size() - 2];
   const double width = last.prescribed_ratio - before.prescribed_ratio;
-  // Across grazing the secant has no meaning: the branch has a corner there.
+  // The branch has a kink at grazing, so a secant across it is no prediction.
   if (before.status == LagrangianStatus::linear || width == 0.0) return result;
   const double t = (energy_ratio - last.prescribed_ratio) / width;
   result.start.amplitudes += t * (last.amplitudes - before.amplitudes);

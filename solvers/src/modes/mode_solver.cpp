@@ -52,7 +52,7 @@ double ModeSolver::compliance(int a, int b) const {
   return lags_[static_cast<std::size_t>(lag)](a / samples_, b / samples_);
 }
 
-// G_AA force_A = -gap on representatives of the orbits; false when singular.
+// Solves G_AA force_A = -gap, with one unknown per sample and its time mirror; false when singular.
 bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& force) {
   std::vector<int> representatives;
   for (const int index : active)
@@ -79,7 +79,7 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
   return values.allFinite() && !lu.is_singular(tiny);
 }
 
-// How far a sample is from its condition, relative to gap or largest force; not positive when it holds.
+// Violation of a sample's condition, relative to its gap or to the largest force; not positive if it holds.
 double ModeSolver::violation(int index, const Eigen::VectorXd& force, const std::vector<int>& active) const {
   if (contains(active, index)) return -force[index] / force.cwiseAbs().maxCoeff();
   const double gap = mode_.model().gaps[index / samples_];
@@ -156,7 +156,7 @@ void ModeSolver::finish(ModePoint& point, int harmonics, const Eigen::VectorXd& 
   point.status = ModeStatus::converged;
   measure_energy(point);
   measure_complementarity(point);
-  judge_tongue(point);
+  classify_resonance(point);
 }
 
 // m = sum n^2 |q_n|^2 over n = -N..N, k likewise with omega_j^2; <force> gap / m closes the balance.
@@ -172,7 +172,7 @@ void ModeSolver::measure_energy(ModePoint& point) const {
   point.energy_ratio = 0.5 * mass / mode_.grazing_energy();
   point.rayleigh = stiffness / mass;
   const double virial = model.gaps.dot(point.force.rowwise().mean());
-  point.identity_defect = std::abs(omega_ * omega_ - point.rayleigh - virial / mass) / (omega_ * omega_);
+  point.virial_residual = std::abs(omega_ * omega_ - point.rayleigh - virial / mass) / (omega_ * omega_);
 }
 
 void ModeSolver::measure_complementarity(ModePoint& point) const {
@@ -192,20 +192,21 @@ void ModeSolver::measure_complementarity(ModePoint& point) const {
   point.contact_fraction = (largest.array() > 0.0).cast<double>().mean();
 }
 
-void ModeSolver::judge_tongue(ModePoint& point) const {
+void ModeSolver::classify_resonance(ModePoint& point) const {
   double mass = 0.0;
   for (Eigen::Index n = 1; n < point.amplitudes.cols(); ++n)
     mass += double(n * n) * point.amplitudes.col(n).cwiseAbs2().sum();
   for (Eigen::Index n = 2; n < point.amplitudes.cols(); ++n)
     for (Eigen::Index j = 0; j < point.amplitudes.rows(); ++j) {
       const double share = double(n * n) * std::norm(point.amplitudes(j, n)) / mass;
-      if (share > point.tongue.share) point.tongue = {static_cast<int>(n), static_cast<int>(j + 1), share};
+      if (share > point.resonance.share)
+        point.resonance = {static_cast<int>(n), static_cast<int>(j + 1), share};
     }
   const NonlinearModeOptions& options = mode_.options();
-  if (point.tongue.share < options.tongue_share) return;
-  const double resonance = std::sqrt(mode_.model().omega_squared[point.tongue.mode - 1]);
-  const double detuning = std::abs(point.tongue.harmonic * omega_ - resonance) / resonance;
-  if (detuning <= options.tongue_detuning) point.status = ModeStatus::tongue;
+  if (point.resonance.share < options.resonance_share) return;
+  const double omega_j = std::sqrt(mode_.model().omega_squared[point.resonance.mode - 1]);
+  const double detuning = std::abs(point.resonance.harmonic * omega_ - omega_j) / omega_j;
+  if (detuning <= options.resonance_detuning) point.status = ModeStatus::internal_resonance;
 }
 
 }  // namespace wavebalance::solvers

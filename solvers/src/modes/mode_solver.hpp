@@ -11,13 +11,13 @@ class ModeSolver {
  public:
   ModeSolver(const NonlinearMode& mode, double omega);
 
-  /// Active-set iteration with `harmonics` <= N harmonics. Starts by exchanging every sample that violates
-  /// its condition; once an active set comes back, only the worst one, and when that comes back too, gives
-  /// up.
+  /// Active-set iteration with `harmonics` <= N harmonics. At first it exchanges all samples that violate
+  /// their condition. Once an active set recurs it exchanges only the worst one. When a set recurs again, the
+  /// status is cycling.
   ModePoint solve(int harmonics, const std::vector<int>& active);
 
  private:
-  // Samples that must carry the same force: one, or with cosine_only also its mirror in time.
+  // The samples that have the same force: the sample itself and, with cosine_only, its mirror in time.
   std::vector<int> time_mirror(int index) const;
   void assemble_lags(int harmonics);
   double compliance(int a, int b) const;  // between samples a and b (contact * m + time)
@@ -28,7 +28,7 @@ class ModeSolver {
   void finish(ModePoint& point, int harmonics, const Eigen::VectorXd& force) const;
   void measure_energy(ModePoint& point) const;
   void measure_complementarity(ModePoint& point) const;
-  void judge_tongue(ModePoint& point) const;
+  void classify_resonance(ModePoint& point) const;
 
   const NonlinearMode& mode_;
   double omega_;

@@ -7,6 +7,7 @@
 
 #include "linalg/bracket.hpp"
 #include "linalg/option_checks.hpp"
+#include "modes/mode_option_checks.hpp"
 #include "modes/mode_solver.hpp"
 
 namespace wavebalance::solvers {
@@ -23,7 +24,7 @@ std::string_view to_string(ModeStatus status) {
       return "cycling";
     case ModeStatus::singular:
       return "singular";
-    case ModeStatus::tongue:
+    case ModeStatus::internal_resonance:
       return "tongue";
   }
   return "unknown";
@@ -41,19 +42,25 @@ void ModalModel::validate() const {
     fail("gaps must be positive; the smallest is " + std::to_string(gaps.minCoeff()));
 }
 
+void NonlinearModeOptions::validate() const {
+  constexpr const char* who = "NonlinearModeOptions";
+  detail::require_mode_discretisation(who, mode, harmonics, samples);
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_at_least(who, "max_iterations", max_iterations, 1);
+  detail::require_share(who, "resonance_share", resonance_share);
+  detail::require_share(who, "resonance_detuning", resonance_detuning);
+}
+
 NonlinearMode::NonlinearMode(ModalModel model, NonlinearModeOptions options)
     : model_(std::move(model)), options_(options) {
+  options_.validate();
   model_.validate();
-  const auto fail = [](const std::string& text) { throw std::invalid_argument("NonlinearMode: " + text); };
-  if (options_.mode < 1 || options_.mode > model_.modes())
-    fail("mode is " + std::to_string(options_.mode) + "; it must be in 1.." + std::to_string(model_.modes()));
-  if (options_.harmonics < 1)
-    fail("harmonics is " + std::to_string(options_.harmonics) + "; at least 1 is needed");
-  if (options_.samples < 2 * options_.harmonics)
-    fail("samples is " + std::to_string(options_.samples) + "; at least twice the " +
-         std::to_string(options_.harmonics) + " harmonics are needed");
+  if (options_.mode > model_.modes())
+    detail::reject("NonlinearMode", "mode", options_.mode,
+                   ("in 1.." + std::to_string(model_.modes())).c_str());
   if (model_.contact_shapes.col(options_.mode - 1).isZero(0.0))
-    fail("the mode does not move any contact point");
+    throw std::invalid_argument("NonlinearMode: mode " + std::to_string(options_.mode) +
+                                " does not move any contact point");
 }
 
 double NonlinearMode::linear_omega() const { return std::sqrt(model_.omega_squared[options_.mode - 1]); }
@@ -85,9 +92,9 @@ ModePoint NonlinearMode::at_frequency_by_harmonic_continuation(double omega) con
   std::vector<int> active = grazing_samples();
   int iterations = 0;
   for (int harmonics = std::min(2, options_.harmonics); harmonics < options_.harmonics; ++harmonics) {
-    const ModePoint level = solver.solve(harmonics, active);
-    iterations += level.iterations;
-    active = level.active.empty() || level.status == ModeStatus::cycling ? grazing_samples() : level.active;
+    const ModePoint point = solver.solve(harmonics, active);
+    iterations += point.iterations;
+    active = point.active.empty() || point.status == ModeStatus::cycling ? grazing_samples() : point.active;
   }
   ModePoint point = solver.solve(options_.harmonics, active);
   point.iterations += iterations;
@@ -145,7 +152,7 @@ std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions
       point = mode.at_frequency_by_harmonic_continuation(omega);
       point.iterations += spent;
     }
-    if (point.status == ModeStatus::converged && !close(point)) point.status = ModeStatus::tongue;
+    if (point.status == ModeStatus::converged && !close(point)) point.status = ModeStatus::internal_resonance;
     if (point.status == ModeStatus::converged) {
       active = point.active;
       last_energy = point.energy_ratio;
@@ -186,7 +193,8 @@ ModePoint at_energy(const NonlinearMode& mode, const std::vector<ModePoint>& poi
     return std::abs(value / energy_ratio) <= tolerance;
   };
   if (!detail::narrow(bracket, max_steps, miss_at, is_close)) return point;
-  if (std::abs(point.energy_ratio / energy_ratio - 1.0) > tolerance) point.status = ModeStatus::tongue;
+  if (std::abs(point.energy_ratio / energy_ratio - 1.0) > tolerance)
+    point.status = ModeStatus::internal_resonance;
   return point;
 }
 

@@ -98,7 +98,7 @@ TEST_P(ColdBranch, AgreesWithTheCondensedSolverToSevenDigits) {
     EXPECT_LE(relative(point.omega, expected.omega), 1e-7);
     EXPECT_LE(relative(point.rayleigh, expected.rayleigh), 2e-7);
     EXPECT_LE(equation_residual(rod, point), 1e-9);
-    EXPECT_LE(point.identity_defect, 1e-9);
+    EXPECT_LE(point.virial_residual, 1e-9);
   }
 }
 
@@ -287,20 +287,21 @@ TEST(LagrangianMode, AllEnergyInHarmonicTwoIsACriticalPointThatLeftTheMode) {
 
 TEST(LagrangianMode, RunningOutOfIterationsIsAStatus) {
   const UnitRod rod(20);
-  const LagrangianMode newton(rod.model, {.inner_iterations = 1}), outer(rod.model, {.outer_iterations = 1});
+  const LagrangianMode newton(rod.model, {.max_inner_iterations = 1}),
+      outer(rod.model, {.max_outer_iterations = 1});
   auto few = strategy(newton), one = strategy(outer);
   EXPECT_EQ(newton.solve(2.0, few, newton.linear_start(2.0)).status, LagrangianStatus::inner_limit);
   EXPECT_EQ(outer.solve(1.1, one, outer.linear_start(1.1)).status, LagrangianStatus::outer_limit);
 }
 
 // Cold, more harmonics follow the 3:1 resonance with mode 2, 2.7 Hz above the mode.
-TEST(LagrangianMode, ColdWithThreeHarmonicsTheTongueIsNamed) {
+TEST(LagrangianMode, ColdWithThreeHarmonicsTheInternalResonanceIsNamed) {
   const UnitRod rod(20);
   const LagrangianMode mode(rod.model, {.harmonics = 3, .cosine_only = true});
   const LagrangianPoint point = cold_branch(mode, 3.0, 0.05).back();
-  EXPECT_EQ(point.status, LagrangianStatus::tongue);
-  EXPECT_EQ(point.tongue.harmonic, 3);
-  EXPECT_EQ(point.tongue.mode, 2);
+  EXPECT_EQ(point.status, LagrangianStatus::internal_resonance);
+  EXPECT_EQ(point.resonance.harmonic, 3);
+  EXPECT_EQ(point.resonance.mode, 2);
   EXPECT_LE(point.equation_residual, 1e-9);
 }
 
@@ -312,6 +313,46 @@ TEST(LagrangianMode, ColdAtAnExactResonanceTheFailureIsNamed) {
   EXPECT_EQ(points.front().status, LagrangianStatus::linear);
   EXPECT_EQ(to_string(points.back().status), "inner_stalled");
   EXPECT_LT(points.back().prescribed_ratio, 1.25);
+}
+
+TEST(LagrangianModeOptions, ValidateNamesTheFieldTheValueAndWhatIsAllowed) {
+  const auto message = [](const LagrangianModeOptions& options) -> std::string {
+    try {
+      options.validate();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const double nan = std::nan("");
+  EXPECT_EQ(message({}), "accepted");
+  EXPECT_EQ(message({.mode = 0}), "LagrangianModeOptions: mode is 0; it must be at least 1");
+  EXPECT_EQ(message({.harmonics = 0}), "LagrangianModeOptions: harmonics is 0; it must be at least 1");
+  EXPECT_EQ(message({.harmonics = 10, .samples = 19}),
+            "LagrangianModeOptions: samples is 19; it must be at least twice the harmonics, which are 10");
+  EXPECT_EQ(message({.inner_tolerance = 0.0}),
+            "LagrangianModeOptions: inner_tolerance is 0; it must be positive and finite");
+  EXPECT_EQ(message({.max_inner_iterations = 0}),
+            "LagrangianModeOptions: max_inner_iterations is 0; it must be at least 1");
+  EXPECT_EQ(message({.max_outer_iterations = -1}),
+            "LagrangianModeOptions: max_outer_iterations is -1; it must be at least 1");
+  EXPECT_EQ(message({.max_step_halvings = -1}),
+            "LagrangianModeOptions: max_step_halvings is -1; it must be at least 0");
+  EXPECT_EQ(message({.min_fundamental_share = 1.5}),
+            "LagrangianModeOptions: min_fundamental_share is 1.5; it must be in 0..1");
+  EXPECT_EQ(message({.resonance_share = -0.1}),
+            "LagrangianModeOptions: resonance_share is -0.1; it must be in 0..1");
+  EXPECT_EQ(message({.resonance_detuning = nan}),
+            "LagrangianModeOptions: resonance_detuning is nan; it must be in 0..1");
+}
+
+TEST(LagrangianMode, ChecksItsOptionsBeforeTheModel) {
+  try {
+    LagrangianMode(ModalModel{}, {.max_inner_iterations = 0});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("max_inner_iterations is 0"), std::string::npos) << error.what();
+  }
 }
 
 TEST(LagrangianMode, BadArgumentsAreErrors) {

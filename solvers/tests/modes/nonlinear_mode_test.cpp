@@ -85,7 +85,7 @@ TEST(NonlinearMode, EveryAcceptedPointHoldsEquationIdentityAndComplementarity) {
   for (const ModePoint& point : points) {
     if (!point.accepted()) continue;
     ++accepted;
-    EXPECT_LE(point.identity_defect, 1e-12);
+    EXPECT_LE(point.virial_residual, 1e-12);
     EXPECT_LE(equation_residual(rod, point), 1e-9);
     EXPECT_GE(point.min_force, 0.0);
     for (Eigen::Index k = 0; k < point.force.cols(); ++k) {
@@ -104,17 +104,17 @@ TEST(NonlinearMode, EveryAcceptedPointHoldsEquationIdentityAndComplementarity) {
   EXPECT_GE(accepted, 40);
 }
 
-TEST(NonlinearMode, ThreeToOneTongueIsNamedBesideTheLinearFrequency) {
+TEST(NonlinearMode, ThreeToOneResonanceIsNamedBesideTheLinearFrequency) {
   const UnitRod rod(20);
   EXPECT_NEAR(std::sqrt(rod.model.omega_squared[1] / rod.model.omega_squared[0]), 3.00617, 5e-6);
   const NonlinearMode mode = rod_mode(rod, 3, 20);
   const ModePoint point = mode.at_frequency_by_harmonic_continuation(1.0025 * mode.linear_omega());
-  EXPECT_EQ(point.status, ModeStatus::tongue);
-  EXPECT_EQ(point.tongue.harmonic, 3);
-  EXPECT_EQ(point.tongue.mode, 2);
+  EXPECT_EQ(point.status, ModeStatus::internal_resonance);
+  EXPECT_EQ(point.resonance.harmonic, 3);
+  EXPECT_EQ(point.resonance.mode, 2);
 }
 
-TEST(NonlinearMode, BackboneStepsOverTonguesWithoutASilentJump) {
+TEST(NonlinearMode, BackbonePassesInternalResonancesWithoutAnUnreportedJump) {
   const UnitRod rod(20);
   const NonlinearMode mode = rod_mode(rod, 5, 20);
   const BackboneOptions options{.points = 150};
@@ -157,6 +157,39 @@ TEST(NonlinearMode, MotionShiftedByASampleIsTheSameMotion) {
   EXPECT_NEAR(moved.energy_ratio, point.energy_ratio, 1e-11 * point.energy_ratio);
   for (int k = 0; k < 20; ++k)
     EXPECT_NEAR(moved.force(0, (k + 7) % 20), point.force(0, k), 1e-10 * point.force.maxCoeff());
+}
+
+TEST(NonlinearModeOptions, ValidateNamesTheFieldTheValueAndWhatIsAllowed) {
+  const auto message = [](const NonlinearModeOptions& options) -> std::string {
+    try {
+      options.validate();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message({}), "accepted");
+  EXPECT_EQ(message({.mode = 0}), "NonlinearModeOptions: mode is 0; it must be at least 1");
+  EXPECT_EQ(message({.harmonics = 0}), "NonlinearModeOptions: harmonics is 0; it must be at least 1");
+  EXPECT_EQ(message({.harmonics = 10, .samples = 19}),
+            "NonlinearModeOptions: samples is 19; it must be at least twice the harmonics, which are 10");
+  EXPECT_EQ(message({.tolerance = -1e-3}),
+            "NonlinearModeOptions: tolerance is -0.001; it must be positive and finite");
+  EXPECT_EQ(message({.max_iterations = 0}),
+            "NonlinearModeOptions: max_iterations is 0; it must be at least 1");
+  EXPECT_EQ(message({.resonance_share = 1.5}),
+            "NonlinearModeOptions: resonance_share is 1.5; it must be in 0..1");
+  EXPECT_EQ(message({.resonance_detuning = std::nan("")}),
+            "NonlinearModeOptions: resonance_detuning is nan; it must be in 0..1");
+}
+
+TEST(NonlinearMode, ChecksItsOptionsBeforeTheModel) {
+  try {
+    NonlinearMode(ModalModel{}, {.max_iterations = 0});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("max_iterations is 0"), std::string::npos) << error.what();
+  }
 }
 
 TEST(NonlinearMode, BadOptionsAreErrorsThatNameTheValue) {

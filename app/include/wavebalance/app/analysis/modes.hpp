@@ -15,7 +15,7 @@ namespace wavebalance::app {
 struct Interruption {
   double first_ratio = 0.0;  ///< frequency over the linear one
   double last_ratio = 0.0;
-  std::vector<std::string> tongues;  ///< internal resonances on it, "3:2" for harmonic 3 and linear mode 2
+  std::vector<std::string> resonances;  ///< internal resonances on it, "3:2" for harmonic 3 and linear mode 2
   std::string status;    ///< status of its first point that lies on no internal resonance; empty if all do
   bool bridged = false;  ///< accepted points with contact follow
 };
@@ -28,13 +28,13 @@ struct Backbone {
   double wall_seconds = 0.0;
 
   int count(solvers::ModeStatus status) const;
-  /// There are accepted points with contact, and each interruption holds a tongue with a name.
+  /// There are accepted points with contact, and each interruption lies on a named internal resonance.
   bool converged() const;
   /// "converged" or why not.
   std::string status() const;
 };
 
-/// A scene's nonlinear mode: its linear modes, computed once, and what is asked of them. Immutable.
+/// A scene's nonlinear mode and its linear modes, which are computed once. Immutable.
 class ModeStudy {
  public:
   /// O(n^3). Throws std::invalid_argument for scenes that load_scene() would not have let pass, and
@@ -54,7 +54,7 @@ class ModeStudy {
   Backbone backbone() const;
   /// The motion of an energy ratio > 0: the linear mode up to 1, beyond it a point of the curve.
   solvers::ModePoint at_energy(double energy_ratio) const;
-  /// The same on a curve that is there already.
+  /// The same on a given curve.
   solvers::ModePoint at_energy(const Backbone& curve, double energy_ratio) const;
 
   /// One period at `points` uniform times from the middle of the motion's symmetry on; contact forces are
@@ -69,7 +69,7 @@ class ModeStudy {
   /// ratio `largest` > 1 in analysis.points points, uniform. Ends at the first that is not accepted, which is
   /// kept. O(points (n N)^3).
   std::vector<solvers::LagrangianPoint> published_branch(double largest) const;
-  /// As above, of an accepted point; empty otherwise.
+  /// As above, for an accepted point; empty otherwise.
   ContactMotion contact_motion(const solvers::LagrangianPoint& point, int points) const;
   solvers::PeriodSamples samples(const solvers::LagrangianPoint& point, int points, bool full_history) const;
 
@@ -90,10 +90,10 @@ class ModeStudy {
 };
 
 /// "3:2"
-std::string tongue_name(const solvers::Tongue& tongue);
+std::string resonance_name(const solvers::InternalResonance& resonance);
 
 /// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,
-/// identity_defect, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
+/// virial_residual, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
 /// and the curve. Values of points that are not solutions are missing.
 Table backbone_table(const ModeStudy& study, const Backbone& curve);
 /// The same columns for a published branch, energies those prescribed; contact fractions and tongues are

@@ -12,15 +12,15 @@ namespace wavebalance::solvers {
 
 /// How a point of the augmented Lagrangian was found, or why not.
 enum class LagrangianStatus {
-  converged,      ///< critical point, and both of Powell's measures below the strategy's tolerances
-  linear,         ///< the same without a contact force: the linear mode
-  inner_stalled,  ///< Newton could not reduce the gradient
-  inner_limit,    ///< Newton ran out of iterations
-  singular,       ///< the Hessian is singular to working precision and its least-squares step no help
-  outer_stalled,  ///< the multiplier strategy had nothing left to change
-  outer_limit,    ///< multipliers ran out of iterations
-  tongue,         ///< solved, but on an internal resonance: see LagrangianPoint::tongue
-  left_mode       ///< solved, but too little of the kinetic energy is in harmonic 1: another critical point
+  converged,           ///< critical point, and both of Powell's measures below the strategy's tolerances
+  linear,              ///< the same without a contact force: the linear mode
+  inner_stalled,       ///< Newton could not reduce the gradient
+  inner_limit,         ///< Newton ran out of iterations
+  singular,            ///< the Hessian is singular to working precision, and its least-squares step is not finite
+  outer_stalled,       ///< the multiplier strategy had nothing left to change
+  outer_limit,         ///< multipliers ran out of iterations
+  internal_resonance,  ///< "tongue": solved, but on an internal resonance, LagrangianPoint::resonance
+  left_mode  ///< solved, but too little of the kinetic energy is in harmonic 1: another critical point
 };
 
 std::string_view to_string(LagrangianStatus status);
@@ -30,6 +30,7 @@ enum class EigenvalueUpdate {
   sequential     ///< r frozen at its prediction, then updated [LL10, Algorithm 2]
 };
 
+/// The discretisation of a mode by the augmented Lagrangian, and when its iterations end.
 struct LagrangianModeOptions {
   int mode = 1;              ///< the linear mode that the nonlinear one continues, from 1
   int harmonics = 2;         ///< N
@@ -38,12 +39,16 @@ struct LagrangianModeOptions {
   ModeFormulation formulation = ModeFormulation::consistent;
   EigenvalueUpdate eigenvalue = EigenvalueUpdate::simultaneous;
   double inner_tolerance = 1e-11;  ///< largest entry of the gradient, in units omega_1 = gap = 1
-  int inner_iterations = 60;       ///< of Newton, an outer iteration
-  int outer_iterations = 60;       ///< of the multipliers, an energy
-  int step_halvings = 12;          ///< of an energy step that fails, in branch()
-  double least_share = 0.5;        ///< of the kinetic energy in harmonic 1, below which the mode was left
-  double tongue_share = 0.15;      ///< as in NonlinearModeOptions
-  double tongue_detuning = 0.1;    ///< likewise
+  int max_inner_iterations = 60;   ///< of Newton, per outer iteration
+  int max_outer_iterations = 60;   ///< of the multipliers, per energy
+  int max_step_halvings = 12;      ///< of an energy step that fails, per energy in branch()
+  double min_fundamental_share =
+      0.5;                          ///< of the kinetic energy in harmonic 1; below it the status is left_mode
+  double resonance_share = 0.15;    ///< as in NonlinearModeOptions
+  double resonance_detuning = 0.1;  ///< as in NonlinearModeOptions
+
+  /// Throws std::invalid_argument for a number out of its range, whatever the model.
+  void validate() const;
 };
 
 /// One outer iteration. The measures are not a number where Newton failed.
@@ -57,24 +62,25 @@ struct OuterIteration {
 /// Where to start: a motion and its contact force, of any number of harmonics up to N (absent ones are zero).
 /// A ModePoint of the condensed solver or a point of this one has both members.
 struct LagrangianStart {
-  Eigen::MatrixXcd amplitudes;  ///< r x (<= N+1), modal amplitude of exp(i n omega t)
+  Eigen::MatrixXcd amplitudes;  ///< r x (<= N+1), m sqrt(kg), q_n as in ModePoint
   Eigen::MatrixXd force;        ///< c x m, N; or empty: none
 };
 
+/// A motion of prescribed energy; its series and its units are those of ModePoint.
 struct LagrangianPoint {
   LagrangianStatus status = LagrangianStatus::outer_limit;
-  double prescribed_ratio = 0.0;   ///< gamma over its value at linear grazing, asked for
+  double prescribed_ratio = 0.0;   ///< gamma over its value at linear grazing, as prescribed
   double energy_ratio = 0.0;       ///< of the motion found: m/2 with n^2, over the same
   double omega = 0.0;              ///< rad/s, by the formulation's own formula
   double rayleigh = 0.0;           ///< r, (rad/s)^2 [LL10, eq. (24a)]
-  Eigen::MatrixXcd amplitudes;     ///< r x (N+1)
-  Eigen::MatrixXd force;           ///< c x m, N: lambda m/2
+  Eigen::MatrixXcd amplitudes;     ///< r x (N+1), m sqrt(kg)
+  Eigen::MatrixXd force;           ///< c x m, N, at the samples: lambda m/2
   double equation_residual = 0.0;  ///< norm of K u_n - n^2 omega^2 M u_n + force_n over that of K u_n, all n
-  double identity_defect = 0.0;    ///< |omega^2 - (r - mu m/2)| / omega^2, mu the multiplier of h
+  double virial_residual = 0.0;    ///< |omega^2 - (r - mu m/2)| / omega^2, mu the multiplier of h
   double max_penetration = 0.0;    ///< over the gap, at the samples
   double min_force = 0.0;          ///< N
   double fundamental_share = 0.0;  ///< of the kinetic energy in harmonic 1
-  Tongue tongue;                   ///< the strongest internal resonance, whatever its share
+  InternalResonance resonance;     ///< the strongest internal resonance, whatever its share
   std::vector<OuterIteration> history;
 
   bool accepted() const {
@@ -84,20 +90,20 @@ struct LagrangianPoint {
 };
 
 /// Nonlinear modes with rigid contact by the augmented Lagrangian of [LL10, sections 3.3 and 4]: critical
-/// points of ModeLagrangian by Newton (steps halved on the gradient's norm; L itself is never descended,
-/// since modes are saddle points), inside an outer iteration on the multipliers. All r (2N + 1) unknowns in
-/// one dense matrix, as the paper describes it; NonlinearMode is the fast way.
+/// points of ModeLagrangian by Newton, inside an outer iteration on the multipliers. Newton's steps are
+/// halved until the gradient's norm decreases; L itself is not minimised, since modes are saddle points. All
+/// r (2N + 1) unknowns in one dense matrix, as the paper describes it; NonlinearMode is the fast way.
 ///
 ///     contact::MultiplierUpdate outer(std::vector<double>(mode.constraints(), 300.0), {300.0});
 ///     const LagrangianPoint point = mode.solve(1.5, outer, mode.linear_start(1.5));
 ///
-/// The strategy sees everything in units omega_1 = gap = 1 (of the mode continued and the contact that it
-/// reaches first), with that mode's amplitude 1 at grazing: penalties of 1e2 to 1e3 and tolerances are of
-/// these. Cold starts, in energy steps from grazing, work for N <= 2; for more harmonics start from a
+/// The strategy works in units omega_1 = gap = 1, those of the mode continued and of the contact that it
+/// reaches first; the mode's amplitude at grazing is 1. Penalties of 1e2 to 1e3 and tolerances are in these
+/// units. Cold starts, in energy steps from grazing, work for N <= 2; for more harmonics start from a
 /// condensed point. Immutable.
 class LagrangianMode {
  public:
-  /// Throws std::invalid_argument for a model or options out of range.
+  /// Throws std::invalid_argument for a model or options out of range, options first.
   LagrangianMode(ModalModel model, LagrangianModeOptions options);
 
   const LagrangianModeOptions& options() const { return options_; }
@@ -121,10 +127,10 @@ class LagrangianMode {
   }
 
   /// Energy steps [LL10, Algorithms 1 and 2], each predicted by the secant through the two before (the first
-  /// from `start`). A step that fails is halved, up to step_halvings times an energy; the points between are
-  /// not returned. Ends at the first point that is not accepted even so, which is kept with its status and
-  /// the ratio it was tried at. The strategy is copied for each point: penalties do not grow from one to the
-  /// next.
+  /// from `start`). A step that fails is halved, up to max_step_halvings times per energy; the points between
+  /// are not returned. The branch ends at the first point that is not accepted even so; that point is kept
+  /// with its status and its ratio. The strategy is copied for each point, so that penalties do not grow from
+  /// one point to the next.
   template <MultiplierStrategy Strategy>
   std::vector<LagrangianPoint> branch(std::span<const double> energy_ratios, const Strategy& strategy,
                                       const LagrangianStart& start) const {
@@ -165,7 +171,7 @@ class LagrangianMode {
   void measure(LagrangianPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& multiplier,
                double pull, std::optional<double> frozen) const;
   void measure_shares(LagrangianPoint& point) const;
-  LagrangianStatus judge(const LagrangianPoint& point) const;
+  LagrangianStatus classify(const LagrangianPoint& point) const;
   Eigen::VectorXd to_unknowns(const Eigen::MatrixXcd& amplitudes) const;
   Eigen::MatrixXcd to_amplitudes(const Eigen::VectorXd& x) const;
 

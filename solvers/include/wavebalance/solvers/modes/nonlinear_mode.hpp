@@ -8,7 +8,7 @@
 
 namespace wavebalance::solvers {
 
-/// An undamped structure in its own linear modes, seen from its contact degrees of freedom.
+/// An undamped structure in its linear modes, with the shapes at its contact degrees of freedom.
 struct ModalModel {
   Eigen::VectorXd omega_squared;   ///< r, (rad/s)^2, ascending, > 0
   Eigen::MatrixXd contact_shapes;  ///< c x r, mass-normalised mode shapes at the contact degrees of freedom
@@ -22,50 +22,59 @@ struct ModalModel {
 
 /// How a point of a nonlinear mode was found, or why not.
 enum class ModeStatus {
-  converged,   ///< gap >= 0, force >= 0, product 0 at every sample
-  linear,      ///< below contact: the linear mode
-  no_contact,  ///< the active set emptied: only the motion at rest was found
-  cycling,     ///< the active set came back to itself
-  singular,    ///< the compliance of the active samples is singular
-  tongue       ///< complementarity holds, but on an internal resonance: see ModePoint::tongue
+  converged,          ///< gap >= 0, force >= 0, product 0 at every sample
+  linear,             ///< below contact: the linear mode
+  no_contact,         ///< the active set emptied: only the motion at rest was found
+  cycling,            ///< the active set came back to itself
+  singular,           ///< the compliance of the active samples is singular
+  internal_resonance  ///< "tongue": complementarity holds, but on an internal resonance, ModePoint::resonance
 };
 
 std::string_view to_string(ModeStatus status);
 
 /// An internal resonance: harmonic `harmonic` of the motion drives linear mode `mode` (both from 1), which
 /// holds `share` of the kinetic energy.
-struct Tongue {
+struct InternalResonance {
   int harmonic = 0;
   int mode = 0;
   double share = 0.0;
 };
 
+/// The discretisation of a nonlinear mode, and when a solution is accepted.
 struct NonlinearModeOptions {
-  int mode = 1;                  ///< the linear mode that the nonlinear one continues, from 1
-  int harmonics = 10;            ///< N, n = -N..N
-  int samples = 20;              ///< m >= 2N, uniform times t_k = k T/m at which complementarity holds
-  bool cosine_only = false;      ///< seek motions that are even in time: half the unknowns
-  double tolerance = 1e-10;      ///< penetration over the gap that counts as contact
-  int max_iterations = 200;      ///< of the active set, a harmonic level
-  double tongue_share = 0.15;    ///< of the kinetic energy in one mode by one higher harmonic ...
-  double tongue_detuning = 0.1;  ///< ... with |n omega - omega_j| below this share of omega_j: a tongue
+  int mode = 1;              ///< the linear mode that the nonlinear one continues, from 1
+  int harmonics = 10;        ///< N, n = -N..N
+  int samples = 20;          ///< m >= 2N, uniform times t_k = k T/m at which complementarity holds
+  bool cosine_only = false;  ///< seek motions that are even in time: half the unknowns
+  double tolerance = 1e-10;  ///< penetration over the gap that counts as contact
+  int max_iterations = 200;  ///< of the active set, per number of harmonics
+  /// A point is on an internal resonance if one higher harmonic n of one mode j has this share of the kinetic
+  /// energy, and |n omega - omega_j| is below resonance_detuning omega_j.
+  double resonance_share = 0.15;
+  double resonance_detuning = 0.1;
+
+  /// Throws std::invalid_argument for a number out of its range, whatever the model.
+  void validate() const;
 };
 
-/// A point of a nonlinear mode: the periodic motion of frequency omega with rigid contact.
+/// A point of a nonlinear mode: the periodic motion of frequency omega with rigid contact,
+///   u(t) = Phi sum_{n=-N..N} q_n exp(i n omega t),   q_-n = conj q_n,
+/// Phi the mass-normalised mode shapes, c x r at the contacts. q_n is half of an amplitude in cos and sin:
+/// the motion a cos(n omega t) + b sin(n omega t) has q_n = (a - i b)/2.
 struct ModePoint {
   ModeStatus status = ModeStatus::no_contact;
   double omega = 0.0;             ///< rad/s
-  int iterations = 0;             ///< of the active set, all harmonic levels
+  int iterations = 0;             ///< of the active set, over all numbers of harmonics
   std::vector<int> active;        ///< contact * samples + time of the samples in contact
   Eigen::MatrixXd force;          ///< c x m, N, contact force at the samples
-  Eigen::MatrixXcd amplitudes;    ///< r x (N+1), modal amplitude of exp(i n omega t), n = 0..N
+  Eigen::MatrixXcd amplitudes;    ///< r x (N+1), m sqrt(kg), q_n for n = 0..N
   double energy_ratio = 0.0;      ///< gamma over its value at linear grazing
   double rayleigh = 0.0;          ///< generalised Rayleigh quotient r, (rad/s)^2 [LL10, eq. (24a)]
-  double identity_defect = 0.0;   ///< |omega^2 - r - <force> g0 / m| / omega^2
+  double virial_residual = 0.0;   ///< |omega^2 - r - <force> g0 / m| / omega^2, zero for exact motions
   double max_penetration = 0.0;   ///< over the gap, between the samples too
   double min_force = 0.0;         ///< N, the smallest force at a sample
   double contact_fraction = 0.0;  ///< of the samples, any contact degree of freedom
-  Tongue tongue;                  ///< the strongest internal resonance, whatever its share
+  InternalResonance resonance;    ///< the strongest internal resonance, whatever its share
 
   bool accepted() const { return status == ModeStatus::converged || status == ModeStatus::linear; }
 };
@@ -73,12 +82,13 @@ struct ModePoint {
 /// Nonlinear modes with rigid (Signorini) contact, condensed on the contact force samples. At a fixed omega
 /// the motion is u = -G(omega) force, G the undamped dynamic compliance between samples (N harmonics), and
 ///   gap - u >= 0,   force >= 0,   product 0   at each of the m samples
-/// is a linear complementarity problem; an active set, kept from the point before, solves it. The harmonic
-/// balance K u_n - n^2 omega^2 M u_n = -force_n [LL10, eq. (17a) with its errors removed] then holds exactly
-/// for n = 0..N, and the energy is a result. Owns no plans; immutable, may be shared between threads.
+/// is a linear complementarity problem, solved by an active set that starts from that of the previous point.
+/// The harmonic balance K u_n - n^2 omega^2 M u_n = -force_n [LL10, eq. (17a) with its errors removed] then
+/// holds exactly for n = 0..N, and the energy is a result. Owns no plans; immutable, may be shared between
+/// threads.
 class NonlinearMode {
  public:
-  /// Throws std::invalid_argument for a model or options out of range. O(1).
+  /// Throws std::invalid_argument for a model or options out of range, options first. O(1).
   NonlinearMode(ModalModel model, NonlinearModeOptions options);
 
   const ModalModel& model() const { return model_; }
@@ -89,8 +99,8 @@ class NonlinearMode {
   /// The motion at omega from an active set; empty: that of the grazing linear mode. O(active^3 + c^2 (r N +
   /// m)).
   ModePoint at_frequency(double omega, const std::vector<int>& active = {}) const;
-  /// The same through the harmonic levels 2, 3, .., N, each from the active set of the one before: reaches
-  /// the mode beyond a tongue, where continuation in omega leads onto it.
+  /// The same, solved with 2, 3, .., N harmonics in turn, each from the previous active set. This reaches the
+  /// mode beyond an internal resonance, where continuation in omega leads onto the resonance.
   ModePoint at_frequency_by_harmonic_continuation(double omega) const;
   /// The linear mode at an energy ratio <= 1.
   ModePoint linear_mode(double energy_ratio) const;
@@ -110,15 +120,16 @@ struct BackboneOptions {
   /// Of ln(energy ratio) between accepted neighbours; above it a point is solved anew by harmonic
   /// continuation.
   double max_jump = 0.25;
-  Observer observer = {};  ///< called before each point; the curve ends where it asks to stop
+  Observer observer = {};  ///< called before each point; the curve ends when it returns false
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
 };
 
-/// The points of a mode over omega, those that failed or lie on a tongue with their status. Never a silent
-/// jump: a point whose energy is more than max_jump away from its accepted neighbour, warm-started or
-/// lifted, is on another branch, and is kept with the status tongue.
+/// The points of a mode over omega. Points that failed or lie on an internal resonance are kept with their
+/// status. If the energy of a point differs by more than max_jump from that of its accepted neighbour, it is
+/// solved anew by harmonic continuation; if it still does, the point is on another branch and has the status
+/// internal_resonance.
 std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options);
 
 /// The point of prescribed energy ratio on a backbone, by false position in omega between the first accepted

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+
+#include "linalg/option_checks.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// What the options of both mode solvers have in common.
+inline void require_mode_discretisation(const char* who, int mode, int harmonics, int samples) {
+  require_at_least(who, "mode", mode, 1);
+  require_at_least(who, "harmonics", harmonics, 1);
+  if (samples / 2 < harmonics)
+    reject(who, "samples", samples,
+           ("at least twice the harmonics, which are " + std::to_string(harmonics)).c_str());
+}
+
+inline void require_share(const char* who, const char* name, double value) {
+  if (!(value >= 0.0 && value <= 1.0)) reject(who, name, value, "in 0..1");
+}
+
+}  // namespace wavebalance::solvers::detail
