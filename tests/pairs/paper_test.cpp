@@ -139,7 +139,7 @@ TEST(PaperPairs, EnergyNormOfDaubechies6IsThatOfAnIndependentComputation) {
 }
 
 // The steps of Haar functions make the discrete curve turn several times beside its fold; coarse steps may
-// pass some of these turns, but not the fold nor the grazing corner.
+// pass some of these turns, but not the fold nor the grazing point.
 TEST(PaperPairs, SweepsOfFourierAndHaarPassFoldAndCornerInBothDirections) {
   for (const Pair& pair : {table_2[0], table_2[3]})
     for (const bool rising : {true, false}) {
@@ -153,10 +153,10 @@ TEST(PaperPairs, SweepsOfFourierAndHaarPassFoldAndCornerInBothDirections) {
       ASSERT_EQ(sweep.status, solvers::SweepStatus::reached_end) << pair.name;
       ASSERT_GE(sweep.turning_points.size(), 2u);
       const auto& fold = rising ? sweep.turning_points.front() : sweep.turning_points.back();
-      const auto& corner = rising ? sweep.turning_points.back() : sweep.turning_points.front();
+      const auto& turn = rising ? sweep.turning_points.back() : sweep.turning_points.front();
       EXPECT_NEAR(fold.frequency, 1337.748, pair.trial == Family::haar ? 1.5 : 0.1);
-      EXPECT_NEAR(corner.frequency, 1315.067, 0.1);
-      EXPECT_TRUE(corner.corner);
+      EXPECT_NEAR(turn.frequency, 1315.067, 0.1);
+      EXPECT_TRUE(turn.grazing);
     }
 }
 

@@ -53,11 +53,11 @@ void ArcLength::normalize(CurvePoint& point) const {
   point.parameter_tangent /= length;
 }
 
-// The tangent at an evaluated point, oriented along that of `along`.
+// Computes the tangent at an evaluated point, with the orientation of the tangent of `along`.
 bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
   parameter_.slope(system_, slope_);
-  const double corner = along.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
-  if (!system_.factorize_bordered(slope_, scaled(along.displacement_tangent), corner)) return false;
+  const double last = along.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+  if (!system_.factorize_bordered(slope_, scaled(along.displacement_tangent), last)) return false;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slope_.size());
   if (!system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent)) return false;
   if (!point.displacement_tangent.allFinite() || !std::isfinite(point.parameter_tangent)) return false;
@@ -119,7 +119,7 @@ CurvePoint ArcLength::ahead(const CurvePoint& from, double step) const {
   return point;
 }
 
-// The point in the plane at distance `step` along the tangent of `from`, with its tangent.
+// Solves for the point in the plane at distance `step` along the tangent of `from`, and for its tangent.
 bool ArcLength::correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to,
                         int& corrections) {
   to = ahead(from, step);
@@ -133,7 +133,7 @@ bool ArcLength::is_at_gap(const CurvePoint& point, int sample) const {
   return std::abs(point.displacement[sample] - system_.gap_at(sample)) <= 1e-8 * options_.displacement_scale;
 }
 
-// On which side of the gap the curve goes on: a sample at its gap has been turned there.
+// The sides of the gaps on which the curve continues. The tangent decides for a sample at its gap.
 ActiveMask ArcLength::sides_of(const CurvePoint& point) const {
   ActiveMask sides(point.displacement.size());
   for (int l = 0; l < sides.size(); ++l)
@@ -150,7 +150,7 @@ CurvePoint ArcLength::chord(const CurvePoint& to) const {
   return chord;
 }
 
-// Whether the straight way to the candidate and the curve there point about as the curve does here.
+// True if the chord to the candidate and the tangent there are within max_angle of the present tangent.
 bool ArcLength::is_ahead(const CurvePoint& candidate) const {
   const double least = std::cos(options_.max_angle);
   const CurvePoint way = chord(candidate);
@@ -175,15 +175,15 @@ ArcLength::Status ArcLength::advance() {
   return Status::advanced;
 }
 
-// A turn over corners, or the first or last touch, is followed piece by piece: there the curve turns at a
-// corner.
-bool ArcLength::turns_unseen(const CurvePoint& candidate) const {
+// True if the step contains a turning point at a grazing event, or the first or the last contact. The curve
+// is then followed piece by piece.
+bool ArcLength::skips_grazing_turn(const CurvePoint& candidate) const {
   const ActiveMask here = sides_of(point_), there = sides_of(candidate);
   if ((here == there).all()) return false;
   return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || here.any() != there.any();
 }
 
-// A step of the whole system, shorter until it keeps to the curve or few corners are left on its way.
+// A step of the whole system. It is halved until it stays on the curve, or few grazing events lie on its way.
 bool ArcLength::step_far() {
   constexpr int comfortable_corrections = 3;
   constexpr double few = 4.0;
@@ -194,7 +194,7 @@ bool ArcLength::step_far() {
   for (; step_ >= options_.min_step; step_ *= 0.5) {
     const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
     if (found && candidate.orientation * point_.orientation >= 0) {
-      if (options_.grazing_events != GrazingEvents::where_needed && turns_unseen(candidate)) {
+      if (options_.grazing_events != GrazingEvents::where_needed && skips_grazing_turn(candidate)) {
         const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
         if (turns && sides_of(point_).any()) piecewise_arc_length_ = reversal_step_ = step_;
         return false;

@@ -1,4 +1,4 @@
-// The curve piece by piece: from corner to corner.
+// Follows the curve piece by piece, from one grazing event to the next.
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers {
 
-// The sample that the tangent takes through the gap first; -1 when none within `distance`.
+// The sample that reaches its gap first along the tangent; -1 if none does within `distance`.
 int ArcLength::crossing_ahead(double& distance) const {
   int sample = -1;
   for (int l = 0; l < point_.displacement.size(); ++l) {
@@ -19,7 +19,7 @@ int ArcLength::crossing_ahead(double& distance) const {
   return sample;
 }
 
-// The sample that leaves its side first on the way to the candidate; -1 when none does.
+// The sample that changes sides first between point_ and the candidate; -1 if none does.
 int ArcLength::passed(const CurvePoint& candidate, const ActiveMask& sides, double& fraction) const {
   int first = -1;
   fraction = 1.0;
@@ -34,9 +34,9 @@ int ArcLength::passed(const CurvePoint& candidate, const ActiveMask& sides, doub
   return first;
 }
 
-// Goes on within the piece of the curve that point_ lies on, to its end or by a step that ends within.
+// One step within the piece that point_ lies on, at most to the end of the piece.
 bool ArcLength::step_in_piece() {
-  constexpr double shortest = 1e-4;  // of the smallest step
+  constexpr double shortest = 1e-4;  // times min_step
   const ActiveMask sides = sides_of(point_);
   CurvePoint candidate;
   for (double length = step_; length >= shortest * options_.min_step;) {
@@ -59,15 +59,14 @@ bool ArcLength::step_in_piece() {
   return false;
 }
 
-// Where another curve crosses this one within the piece the orientation changes; but then a short step will
-// do.
+// At a branch point within the piece the orientation changes. A short step is then accepted.
 bool ArcLength::step_smoothly(double step, const ActiveMask& sides, CurvePoint& candidate) {
   int corrections = 0;
   if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate)) return false;
   return candidate.orientation * point_.orientation >= 0 || step < 2.0 * options_.min_step;
 }
 
-// Ends the piece where a sample reaches its gap. False when the corner is not found or cannot be left.
+// Ends the piece where a sample reaches its gap. False if that point is not found, or no tangent leaves it.
 bool ArcLength::pass_grazing_event(int sample, double distance, const ActiveMask& sides) {
   constexpr int attempts = 10;
   Plane plane{Eigen::VectorXd::Zero(sides.size()), 0.0, 0.0, 1e-9 * options_.displacement_scale};
@@ -75,14 +74,14 @@ bool ArcLength::pass_grazing_event(int sample, double distance, const ActiveMask
   for (int attempt = 0; sample >= 0 && attempt < attempts; ++attempt) {
     plane.row[sample] = 1.0;
     plane.offset = system_.gap_at(sample);
-    CurvePoint corner = ahead(point_, distance);
-    corner.corner = true;
-    if (!solve_in(plane, &sides, corner, corrections)) return false;
+    CurvePoint event = ahead(point_, distance);
+    event.grazing = true;
+    if (!solve_in(plane, &sides, event, corrections)) return false;
     double fraction = 1.0;
-    const int earlier = passed(corner, sides, fraction);
+    const int earlier = passed(event, sides, fraction);
     if (earlier < 0) {
-      if (!arrives(sample, sides, corner) || !leave_grazing_event(sample, sides, corner)) return false;
-      accept(std::move(corner), sides);
+      if (!leads_to(sample, sides, event) || !leave_grazing_event(sample, sides, event)) return false;
+      accept(std::move(event), sides);
       step_ = std::clamp(1.6 * step_, options_.min_step, options_.max_step);
       return true;
     }
@@ -94,9 +93,9 @@ bool ArcLength::pass_grazing_event(int sample, double distance, const ActiveMask
   return false;
 }
 
-// Whether the piece leads from point_ to the corner without turning far.
-bool ArcLength::arrives(int sample, const ActiveMask& sides, CurvePoint corner) {
-  return tangent_through(sample, !sides[sample], corner) && is_ahead(corner);
+// True if the piece leads from point_ to the event without a large change of direction.
+bool ArcLength::leads_to(int sample, const ActiveMask& sides, CurvePoint event) {
+  return tangent_through(sample, !sides[sample], event) && is_ahead(event);
 }
 
 std::vector<int> ArcLength::samples_at_gap(const CurvePoint& point) const {
@@ -106,51 +105,53 @@ std::vector<int> ArcLength::samples_at_gap(const CurvePoint& point) const {
   return samples;
 }
 
-// The tangent of the system as it is, along which the sample moves into contact or out of it.
-bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& corner) {
+// The tangent along which the sample moves into contact or out of it, with the present stiffnesses.
+bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& event) {
   parameter_.slope(system_, slope_);
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(corner.displacement.size());
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(event.displacement.size());
   row[sample] = 1.0;
   if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
   const int sign = system_.determinant_sign() * (inwards ? 1 : -1);
   row.setZero();
-  if (!system_.solve_bordered(row, inwards ? 1.0 : -1.0, corner.displacement_tangent,
-                              corner.parameter_tangent))
+  if (!system_.solve_bordered(row, inwards ? 1.0 : -1.0, event.displacement_tangent, event.parameter_tangent))
     return false;
-  if (!corner.displacement_tangent.allFinite() || !std::isfinite(corner.parameter_tangent)) return false;
-  corner.orientation = sign == 0 ? point_.orientation : sign;
-  normalize(corner);
+  if (!event.displacement_tangent.allFinite() || !std::isfinite(event.parameter_tangent)) return false;
+  event.orientation = sign == 0 ? point_.orientation : sign;
+  normalize(event);
   return true;
 }
 
-// The tangent with `together`, the samples at their gaps, as stiff as `presses` says, along which each moves
-// to the side whose stiffness it has. False when there is none.
+// The samples `together` are at their gaps and take the stiffness of the side given by `presses`. Finds the
+// tangent along which each of them moves to that side. False if there is none.
 bool ArcLength::grazing_tangent(int sample, const std::vector<int>& together,
-                                const std::vector<bool>& presses, CurvePoint& corner) {
+                                const std::vector<bool>& presses, CurvePoint& event) {
   bool onwards = true;
   for (std::size_t i = 0; i < together.size(); ++i) {
     const double stiffness = system_.law_at(together[i]).tangent(system_.gap_at(together[i]));
     system_.set_tangent(together[i], presses[i] ? stiffness : 0.0);
     if (together[i] == sample) onwards = presses[i];
   }
-  if (!tangent_through(sample, onwards, corner)) return false;
+  if (!tangent_through(sample, onwards, event)) return false;
   for (std::size_t i = 0; i < together.size(); ++i)
-    if (presses[i] != (corner.displacement_tangent[together[i]] > 0.0)) return false;
+    if (presses[i] != (event.displacement_tangent[together[i]] > 0.0)) return false;
   return true;
 }
 
-// All samples at their gaps go on through together where they can, as one always does and those of symmetric
-// contacts do. Otherwise some of them turn back: of such ways the first that keeps the orientation.
-bool ArcLength::leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& corner) {
+// Finds how the curve continues when several samples are at their gaps.
+// A single sample always passes through its gap.
+// Samples of symmetric contacts pass through together.
+// In general some pass and the others return to their sides; the first combination that keeps the orientation
+// is taken.
+bool ArcLength::leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& event) {
   constexpr std::size_t most = 8;
-  const std::vector<int> together = samples_at_gap(corner);
+  const std::vector<int> together = samples_at_gap(event);
   for (const int l : together)
     orientation_unknown_ =
         orientation_unknown_ || l / system_.problem().points() != sample / system_.problem().points();
   std::vector<bool> through;
   for (const int l : together) through.push_back(is_at_gap(point_, l) ? sides[l] : !sides[l]);
-  if (grazing_tangent(sample, together, through, corner))
-    return together.size() > 1 || corner.orientation * point_.orientation >= 0;
+  if (grazing_tangent(sample, together, through, event))
+    return together.size() > 1 || event.orientation * point_.orientation >= 0;
   if (together.size() > most) return false;
   const unsigned all = 1u << together.size();
   for (const bool oriented : {true, false})
@@ -158,8 +159,8 @@ bool ArcLength::leave_grazing_event(int sample, const ActiveMask& sides, CurvePo
       std::vector<bool> presses = through;
       for (std::size_t i = 0; i < together.size(); ++i)
         if (back >> i & 1u) presses[i] = !presses[i];
-      if (!grazing_tangent(sample, together, presses, corner)) continue;
-      if (!oriented || corner.orientation == point_.orientation) return true;
+      if (!grazing_tangent(sample, together, presses, event)) continue;
+      if (!oriented || event.orientation == point_.orientation) return true;
     }
   return false;
 }

@@ -36,8 +36,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // A response with contact larger than this many gaps, and than this many times that without contact.
 constexpr double bound = 100.0;
 
-// Leaves out neighbours that are less than `least` apart in frequency, the nearest first: what remains are
-// the turns of the curve on that scale.
+// Leaves out neighbours that are less than `least` apart in frequency, the nearest first. The turning points
+// of the curve on that scale remain.
 void leave_out_small_returns(std::vector<TurningPoint>& turns, double least) {
   const auto apart = [&](std::size_t i) { return std::abs(turns[i + 1].frequency - turns[i].frequency); };
   while (turns.size() > 1) {
@@ -59,7 +59,8 @@ class Sweep {
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   FrequencySweep run() {
-    // Long steps pass a narrow resonance without damping, or do not, by where they land.
+    // Whether long steps pass a narrow undamped resonance depends on where they end, so other lengths are
+    // tried.
     for (const double share : {1.0, 0.7, 1.4}) {
       step_share_ = share;
       largest_free_ = 0.0;
@@ -119,7 +120,7 @@ class Sweep {
     return SweepStatus::point_limit;
   }
 
-  // With the contact-free response of the frequency last measured.
+  // Uses the contact-free response of the last point measured.
   bool has_grown_past_bounds() {
     largest_free_ = std::max(largest_free_, problem_.contact_free_response().cwiseAbs().maxCoeff());
     const double gap = system_.laws().largest_gap();
@@ -128,15 +129,15 @@ class Sweep {
 
   void note_turning_point(ArcLength& curve) {
     if (curve.previous().parameter_tangent * curve.point().parameter_tangent >= 0.0) return;
-    // At a corner the sign changes across the point itself: the tangent stored is that of the side ahead.
+    // At a grazing event the sign changes at the point itself, since its tangent is that of the next piece.
     CurvePoint turning = curve.point();
-    if (!turning.corner) {
+    if (!turning.grazing) {
       const auto rate = [](const CurvePoint& p) { return p.parameter_tangent; };
       if (!curve.locate(rate, turning)) turning = curve.point();
     }
     const SweepPoint measured = measure(turning);
     result_.turning_points.push_back(
-        {measured.frequency, measured.max_displacement, measured.max_abs_displacement, turning.corner});
+        {measured.frequency, measured.max_displacement, measured.max_abs_displacement, turning.grazing});
   }
 
   SweepPoint measure(const CurvePoint& point) {
@@ -144,7 +145,7 @@ class Sweep {
     result_.condition = std::max(result_.condition, problem_.condensation().condition());
     system_.evaluate(point.displacement);
     const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
-    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.corner};
+    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.grazing};
     for (int c = 0; c < problem_.contacts(); ++c) {
       const Eigen::VectorXd u = evaluator_(coefficients.col(c));
       measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
@@ -168,7 +169,7 @@ class Sweep {
   TrialEvaluator evaluator_;
   FrequencySweep result_;
   double largest_free_ = 0.0;
-  double step_share_ = 1.0;  // of the largest step asked for
+  double step_share_ = 1.0;  // factor on the largest step
 };
 
 }  // namespace

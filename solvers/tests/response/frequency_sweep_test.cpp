@@ -32,7 +32,7 @@ double grazing_frequency(CondensedProblem& problem, double gap, double low, doub
   return low;
 }
 
-TEST(FrequencySweep, TurnsAtTheGrazingCornerOfTheBar) {
+TEST(FrequencySweep, ReversesWhereTheBarGrazes) {
   for (const bool haar : {false, true})
     for (const bool rising : {true, false}) {
       BarSweep sweep(haar ? testing::make_pair(testing::HaarBasis{64}, spectral::FourierBasis(64), 256)
@@ -41,11 +41,11 @@ TEST(FrequencySweep, TurnsAtTheGrazingCornerOfTheBar) {
       const FrequencySweep result = sweep.run();
       ASSERT_EQ(result.status, SweepStatus::reached_end);
       ASSERT_GE(result.turning_points.size(), 2u);
-      const TurningPoint& corner = rising ? result.turning_points.back() : result.turning_points.front();
+      const TurningPoint& turn = rising ? result.turning_points.back() : result.turning_points.front();
       const double grazing = grazing_frequency(sweep.problem, testing::jl14_case_2.law.start, 1300.0, 1400.0);
-      EXPECT_TRUE(corner.corner);
-      EXPECT_NEAR(corner.frequency, grazing, haar ? 1e-4 : 2e-2);
-      EXPECT_NEAR(corner.max_displacement, testing::jl14_case_2.law.start, 2e-5);
+      EXPECT_TRUE(turn.grazing);
+      EXPECT_NEAR(turn.frequency, grazing, haar ? 1e-4 : 2e-2);
+      EXPECT_NEAR(turn.max_displacement, testing::jl14_case_2.law.start, 2e-5);
       for (const SweepPoint& point : result.points) EXPECT_LE(point.residual, 1e-10);
     }
 }
@@ -82,7 +82,7 @@ TEST_F(BarCurve, EndsWhereItsOperationsAreUsedUp) {
   EXPECT_LT(system_->operations(), 2e5);
 }
 
-// Points, unit tangents and corners of the curve, each checked with a problem of its own.
+// Points, unit tangents and grazing events of the curve, each checked with a problem of its own.
 TEST_F(BarCurve, SolvesItsFrequencyAtEveryPoint) {
   ArcLength curve(*system_, parameter_, options_);
   ASSERT_EQ(curve.start(first_, 1275.0, 1.0), ArcLength::Status::advanced);

@@ -66,7 +66,7 @@ TEST(FrequencySweep, PointsLieOnTheClosedFormOfTheDuffingCurve) {
     const double k = 1.0 + 0.75 * a * a - w * w;
     EXPECT_NEAR(a * std::hypot(k, duffing_damping * w), duffing_load, 1e-8) << point.frequency;
     EXPECT_NEAR(point.max_displacement, a, 1e-5 * a);  // 1024 points miss the top by less than (pi/1024)^2/2
-    EXPECT_FALSE(point.corner);
+    EXPECT_FALSE(point.grazing);
   }
   EXPECT_EQ(sweep.points.front().frequency, 0.05);
   EXPECT_NEAR(sweep.points.back().frequency, 0.5, 1e-9);

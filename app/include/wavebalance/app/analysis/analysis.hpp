@@ -30,7 +30,7 @@ struct Sweep {
 /// change of displacement by the gap count alike; analysis.first_step and analysis.largest_step are in Hz of
 /// the former.
 ///
-/// With rigid contact each sample that opens or closes makes a corner of the curve, and arc length with a
+/// With rigid contact each sample that opens or closes gives a kink of the curve, and arc length with a
 /// spring stiff enough to stand for the obstacle loses its way among them. The response is solved anew
 /// instead at uniform frequencies, analysis.largest_step apart at most: all points meet complementarity, but
 /// where several responses exist which one is found may change from one frequency to the next.

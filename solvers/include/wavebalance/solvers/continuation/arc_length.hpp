@@ -32,7 +32,7 @@ class FrequencyParameter final : public CurveParameter {
 /// law's slope jumps and the curve has a kink.
 enum class GrazingEvents {
   where_needed,       ///< those that no step passes
-  at_turning_points,  ///< also those at which the parameter turns back, and the first and last contact
+  at_turning_points,  ///< also those at turning points, and the first and the last contact
   all                 ///< no turning point can be missed; a few solves per event
 };
 
@@ -41,14 +41,14 @@ enum class GrazingEvents {
 struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
-  double initial_step = 0.02;
-  double min_step = 1e-3;  ///< of long steps; within a piece of the curve 1e-4 of it
-  double max_step = 0.25;
+  double initial_step = 0.02;       ///< scaled arc length
+  double min_step = 1e-3;    ///< scaled arc length of a long step; within a piece steps may be 1e-4 of it
+  double max_step = 0.25;    ///< scaled arc length
   double max_angle = 0.35;   ///< rad, between the tangents of successive points
-  int max_corrections = 8;   ///< of a point; half as many after a long step
+  int max_corrections = 8;   ///< Newton steps per point, half as many after a long step
   double tolerance = 1e-10;  ///< on the relative residual
   GrazingEvents grazing_events = GrazingEvents::at_turning_points;
-  /// Of the linear systems of all points; the curve ends with no_point where they are used up.
+  /// Operations of the linear systems of all points. The curve ends with no_point when they are used up.
   double max_operations = std::numeric_limits<double>::infinity();
 
   /// Throws std::invalid_argument for a number out of its range; scales of 0 stand for a default of the
@@ -65,8 +65,8 @@ struct CurvePoint {
   double parameter_tangent = 0.0;
   double residual = 0.0;
   int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
-  bool corner =
-      false;  ///< a grazing event: the law's slope jumps here, and the tangent is that of the piece ahead
+  bool grazing =
+      false;  ///< a grazing event: the law's slope jumps, and the tangent is that of the next piece
 };
 
 /// Pseudo-arc-length continuation [H. B. Keller, in: Applications of Bifurcation Theory, 1977; R. Seydel,
@@ -91,9 +91,8 @@ class ArcLength {
   Status start(const Eigen::VectorXd& displacement, double p, double direction);
   /// Goes one step along the curve. O(corrections (active^3 + N log N)).
   Status advance();
-  /// Between previous() and point(), the point where `value` vanishes, by false position along the last step;
-  /// `value` must change its sign between the two. False when the corrector fails or the sign does not
-  /// change.
+  /// Finds the zero of `value` between previous() and point(), by false position along the last step. False
+  /// when the corrector fails or `value` has the same sign at both.
   bool locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point);
 
   const CurvePoint& point() const { return point_; }
@@ -118,7 +117,7 @@ class ArcLength {
   CurvePoint chord(const CurvePoint& to) const;
   bool is_ahead(const CurvePoint& candidate) const;
   bool is_at_gap(const CurvePoint& point, int sample) const;
-  bool turns_unseen(const CurvePoint& candidate) const;
+  bool skips_grazing_turn(const CurvePoint& candidate) const;
   void accept(CurvePoint&& candidate, const ActiveMask& sides);
 
   bool step_far();
@@ -129,11 +128,11 @@ class ArcLength {
   int passed(const CurvePoint& candidate, const ActiveMask& sides, double& fraction) const;
   ActiveMask sides_of(const CurvePoint& point) const;
   std::vector<int> samples_at_gap(const CurvePoint& point) const;
-  bool arrives(int sample, const ActiveMask& sides, CurvePoint corner);
-  bool tangent_through(int sample, bool inwards, CurvePoint& corner);
+  bool leads_to(int sample, const ActiveMask& sides, CurvePoint event);
+  bool tangent_through(int sample, bool inwards, CurvePoint& event);
   bool grazing_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
-                       CurvePoint& corner);
-  bool leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& corner);
+                       CurvePoint& event);
+  bool leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& event);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;
   Eigen::VectorXd scaled(const Eigen::VectorXd& tangent) const;
@@ -144,12 +143,12 @@ class ArcLength {
   CurvePoint point_, previous_;
   double step_ = 0.0;
   double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
-  ActiveMask last_sides_;              // of the piece that both lie on; empty when it may be several
+  ActiveMask last_sides_;              // sides of the piece that both lie on; empty if there may be several
   double reversal_step_ = 0.0;         // length of the last long step that contained a turning point
   double operation_limit_ = 0.0;       // value of the operation counter at which the curve must stop
   double piecewise_arc_length_ = 0.0;  // arc length that is to be followed piece by piece
   bool orientation_unknown_ =
-      false;  // whether curves have crossed, so that long steps cannot be judged by the orientation
+      false;  // curves have crossed, so that the orientation does not check long steps
   Eigen::VectorXd slope_, change_;
 };
 

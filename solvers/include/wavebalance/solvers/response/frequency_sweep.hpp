@@ -11,46 +11,45 @@ enum class SweepStatus {
   reached_end,  ///< the curve left the frequency interval at its far end
   returned,     ///< the curve left the interval at the end where it started
   no_start,     ///< no periodic response was found at the first frequency
-  lost,         ///< no further point was found, neither along the tangent nor round a corner
+  lost,         ///< no further point was found, neither along the tangent nor at a grazing event
   unbounded,    ///< the response grew past all bounds, as it does at a resonance without damping: that of the
                 ///< Nyquist function which an even number of functions keeps
   point_limit,  ///< max_points used up
-  cancelled     ///< the observer asked to stop
+  cancelled     ///< the observer returned false
 };
 
 std::string_view to_string(SweepStatus status);
 
-/// Displacements are each the largest that one of the contacts has.
+/// A point of a response curve. Each displacement is the largest among the contacts.
 struct SweepPoint {
   double frequency = 0.0;             ///< Hz
   double max_displacement = 0.0;      ///< m, over output_points of the period
   double rms_displacement = 0.0;      ///< m
   double max_abs_displacement = 0.0;  ///< m
   double residual = 0.0;              ///< relative
-  bool corner = false;                ///< the law's slope jumps here (a sample reaches the gap)
+  bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
 };
 
-/// Where the curve turns in frequency, at a smooth fold or at a corner. A sampled stop makes a corner of
-/// every sample that touches, and near folds the curve turns at many of them, to and fro.
+/// A point where the curve reverses in frequency: a smooth fold or a grazing event. With a sampled stop each
+/// sample that touches gives a kink, and near folds the curve reverses at many of them.
 struct TurningPoint {
   double frequency = 0.0;             ///< Hz
   double max_displacement = 0.0;      ///< m, as in SweepPoint
   double max_abs_displacement = 0.0;  ///< m
-  bool corner = false;
+  bool grazing = false;               ///< as in SweepPoint
 };
 
 /// Where a curve starts and ends, and how it is followed.
 struct FrequencySweepOptions {
   double from = 0.0;         ///< Hz
   double to = 0.0;           ///< Hz, either side of `from`
-  int output_points = 1024;  ///< of the period, for the maximum and the rms
+  int output_points = 1024;  ///< times per period at which the maximum and the rms are taken
   int max_points = 20000;
-  /// Hz; turning points between which the frequency goes back by less are left out. 0 stands for a thousandth
-  /// of the interval. Those that long steps pass unseen are small, too; GrazingEvents::all in arc_length
-  /// passes none.
+  /// Hz; turning points between which the frequency goes back by less are left out. 0 means a thousandth of
+  /// the interval. Long steps may miss small ones, too; GrazingEvents::all in arc_length finds every one.
   double smallest_return = 0.0;
-  /// Arc length: displacement_scale 0 stands for the largest gap, or without contact the rms response at
-  /// `from`; parameter_scale 0 stands for a 20th of the interval.
+  /// A displacement_scale of 0 means the largest gap, or without contact the rms response at `from`. A
+  /// parameter_scale of 0 means a 20th of the interval.
   ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
   ForcedResponseOptions start;  ///< the solver of the first point
   /// Called after each point with its frequency, and during the solution of the first. A curve that ends as
@@ -72,9 +71,9 @@ struct FrequencySweep {
 };
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
-/// folds and corners, from `from` until it leaves the interval. Throws std::invalid_argument for frequencies
-/// that are not positive, finite and different, and for laws that are neither one nor one per contact.
-/// O(points (active^3 + N log N)).
+/// folds and grazing events, from `from` until it leaves the interval. Throws std::invalid_argument for
+/// frequencies that are not positive, finite and different, and for laws that are neither one nor one per
+/// contact. O(points (active^3 + N log N)).
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options);
 

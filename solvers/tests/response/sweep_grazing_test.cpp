@@ -19,7 +19,7 @@ struct StoppedOscillators {
   int count = 1;
 
   FrequencySweep sweep(TimePair pair, double from, double to,
-                       GrazingEvents corners = GrazingEvents::at_turning_points) const {
+                       GrazingEvents events = GrazingEvents::at_turning_points) const {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
     LinearStructure structure;
     structure.mass = structure.stiffness = identity.sparseView();
@@ -31,8 +31,8 @@ struct StoppedOscillators {
     FrequencySweepOptions options;
     options.from = from;
     options.to = to;
-    options.arc_length.grazing_events = corners;
-    if (corners == GrazingEvents::all) options.smallest_return = 1e-12;
+    options.arc_length.grazing_events = events;
+    if (events == GrazingEvents::all) options.smallest_return = 1e-12;
     return frequency_sweep(problem, testing::LinearContact{stiffness, 1.0}, options);
   }
 };
@@ -48,7 +48,8 @@ void expect_near(const std::vector<double>& a, const std::vector<double>& b, dou
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
 }
 
-// Their samples reach the gaps together, and at each turn three curves meet: all touch, one does, none does.
+// Their samples reach the gaps together. At each turning point three curves meet: with contact of all, of one
+// and of none.
 TEST(FrequencySweep, OfTwinsThatTouchTogetherIsThatOfOne) {
   for (const bool haar : {false, true})
     for (const bool rising : {true, false}) {
@@ -68,7 +69,7 @@ TEST(FrequencySweep, OfTwinsThatTouchTogetherIsThatOfOne) {
     }
 }
 
-TEST(FrequencySweep, OfEveryCornerIsTheSameUpAndDown) {
+TEST(FrequencySweep, OfEveryGrazingEventIsTheSameUpAndDown) {
   for (const double stiffness : {1.0, 10.0, 100.0}) {
     const StoppedOscillators one{stiffness};
     for (const int functions : {7, 15}) {
@@ -104,7 +105,7 @@ int count_responses(CondensedProblem& problem, double frequency, const testing::
   return found;
 }
 
-TEST(FrequencySweep, OfEveryCornerPassesAllResponsesThatThereAre) {
+TEST(FrequencySweep, OfEveryGrazingEventPassesAllResponses) {
   const testing::LinearContact law{1.0, 1.0};
   const TimePair pair = testing::fourier_pair(15, 32);
   const FrequencySweep sweep = StoppedOscillators{1.0}.sweep(pair, 0.1, 0.35, GrazingEvents::all);
@@ -125,8 +126,8 @@ TEST(FrequencySweep, OfEveryCornerPassesAllResponsesThatThereAre) {
   }
 }
 
-// Long steps may leave out small returns, but what they report is on the curve.
-TEST(FrequencySweep, TurnsReportedWithLongStepsAreTurnsOfTheCurve) {
+// Long steps may miss small returns, but the turning points found are on the curve.
+TEST(FrequencySweep, TurningPointsFoundWithLongStepsLieOnTheCurve) {
   const StoppedOscillators one{1.0};
   for (const TimePair& pair : {testing::fourier_pair(15, 32), testing::fourier_pair(31, 128)}) {
     const FrequencySweep every = one.sweep(pair, 0.1, 0.35, GrazingEvents::all);
@@ -204,7 +205,7 @@ TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefa
 }
 
 // Equal sectors under equal loads: the coupling does not act while all move alike, but curves of unlike
-// motions leave the common one at its turns.
+// motions leave the common one at its turning points.
 TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {
   constexpr int sectors = 4;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Identity(sectors, sectors);
