@@ -3,7 +3,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-std::vector<int> contacts_of(std::span<const int> active, int points) {
+std::vector<int> contacts_with(std::span<const int> active, int points) {
   std::vector<int> contacts;
   for (const int sample : active)
     if (contacts.empty() || contacts.back() != sample / points) contacts.push_back(sample / points);
@@ -12,12 +12,12 @@ std::vector<int> contacts_of(std::span<const int> active, int points) {
 
 }  // namespace
 
-// The column of a point is that of the point modulo the shift period, each contact's samples shifted by the
-// rest.
+// K is invariant under shifts by the shift period. The column of a point is that of the point modulo the
+// period, with the samples of each contact shifted by the remaining points.
 void fill_active_compliance(CondensedProblem& problem, std::span<const int> active, Eigen::MatrixXd& matrix) {
   if (active.empty()) return;
   const int points = problem.points(), period = problem.pair().shift_period();
-  const Eigen::MatrixXd& columns = problem.columns(contacts_of(active, points));
+  const Eigen::MatrixXd& columns = problem.columns(contacts_with(active, points));
   std::vector<int> row_point(active.size()), row_start(active.size());
   for (std::size_t i = 0; i < active.size(); ++i) {
     row_point[i] = active[i] % points;
@@ -49,7 +49,7 @@ void ActiveBlock::fill(CondensedProblem& problem) {
   block.diagonal().array() += 1.0;
 }
 
-// x = r - K D x, the active values of x known.
+// x = r - K D x, from the known active values of x.
 void ActiveBlock::complete(CondensedProblem& problem, const Eigen::VectorXd& r,
                            const Eigen::VectorXd& active_values, Eigen::VectorXd& x) {
   x = r;
@@ -103,8 +103,8 @@ void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorX
 
 double ActiveBlock::condition() const { return lu_.condition(); }
 
-// Eliminating the samples without stiffness, on whose columns J is the identity, leaves the determinant as it
-// is.
+// Eliminating the samples without stiffness, on whose columns J is the identity, does not change the
+// determinant.
 int ActiveBlock::determinant_sign() const { return lu_.determinant_sign(); }
 
 }  // namespace wavebalance::solvers

@@ -8,8 +8,8 @@
 
 namespace wavebalance::solvers {
 
-/// K at the rows and columns `active` (ascending samples), into the leading block of `matrix`, which is at
-/// least that large. O(active^2), and the columns of K of the contacts that take part.
+/// Writes K at the rows and columns `active` (ascending samples) into the leading block of `matrix`, which
+/// must be at least that large. O(active^2), and the columns of K of the contacts in `active`.
 void fill_active_compliance(CondensedProblem& problem, std::span<const int> active, Eigen::MatrixXd& matrix);
 
 /// Solves with J = I + K D, D diagonal, plain or bordered, all vectors over samples(). Exact reduction to the
@@ -22,7 +22,7 @@ class ActiveBlock {
   /// x = J^-1 r.
   void solve(CondensedProblem& problem, const Eigen::VectorXd& r, Eigen::VectorXd& x);
 
-  /// The same of [J b; c^T d].
+  /// The same for [J b; c^T d].
   bool factorize_bordered(CondensedProblem& problem, const Eigen::VectorXd& tangent, const Eigen::VectorXd& b,
                           const Eigen::VectorXd& c, double d);
   /// J x + b y = r, c.x + d y = s.
@@ -31,7 +31,7 @@ class ActiveBlock {
   /// 1 or -1: the sign of the determinant of the matrix last factorized, that of the whole [J b; c^T d].
   int determinant_sign() const;
 
-  /// Estimate of the condition number, in the 1-norm, of what was factorized last. O(active^2).
+  /// Estimate of the condition number, in the 1-norm, of the matrix last factorized. O(active^2).
   double condition() const;
 
  private:

@@ -16,7 +16,7 @@ struct CondensedProblem::Work {
       : fft(points), spectrum(points / 2 + 1), translates(static_cast<std::size_t>(contacts)) {}
   spectral::RealFft fft;
   Eigen::VectorXcd spectrum;
-  std::vector<Eigen::VectorXcd> translates;  // of each contact; empty where nothing acts
+  std::vector<Eigen::VectorXcd> translates;  // one spectrum per contact; empty where no force acts
   Eigen::VectorXcd product;
 };
 
@@ -42,9 +42,9 @@ void CondensedProblem::set_frequency(double frequency_hz) {
                                 " Hz; it must be positive and finite");
   frequency_ = frequency_hz;
   factors_ = {pair_.symbol(2) * (frequency_ * frequency_), pair_.symbol(1) * frequency_, pair_.symbol(0)};
-  rates_ = {pair_.symbol(2) * (2.0 * frequency_), pair_.symbol(1),
-            Eigen::VectorXcd::Zero(pair_.spectrum_size())};
-  condensation_.condense(factors_, rates_, condensed_);
+  derivatives_ = {pair_.symbol(2) * (2.0 * frequency_), pair_.symbol(1),
+                  Eigen::VectorXcd::Zero(pair_.spectrum_size())};
+  condensation_.condense(factors_, derivatives_, condensed_);
   condensed_.load_response.array().colwise() *= load_.array();
   condensed_.load_response_slope.array().colwise() *= load_.array();
   slope_is_current_ = false;

@@ -50,7 +50,7 @@ void HarmonicCoarseSpace::synthesise(const Eigen::VectorXd& coefficients, Eigen:
   }
 }
 
-// g cos + h sin is Re((g - i h) exp): a response H turns it into Re(H (g - i h) exp).
+// g cos + h sin is Re((g - i h) exp): a response H gives Re(H (g - i h) exp).
 void HarmonicCoarseSpace::respond(const Eigen::VectorXd& forces, Eigen::VectorXd& displacements) const {
   displacements.setZero(size());
   for (Eigen::Index from = 0; from < contacts_; ++from)
@@ -84,7 +84,7 @@ void HarmonicCoarseSpace::respond_transposed(const Eigen::VectorXd& values, Eige
 }
 
 // W^T D W of one contact: products of cosines and sines are those of sums and differences, so that its
-// entries are Fourier coefficients of D up to 2h, wrapped around where the samples cannot tell them apart.
+// entries are Fourier coefficients of D up to 2h, aliased where there are fewer samples.
 void HarmonicCoarseSpace::fill_contact(const Eigen::VectorXd& tangent, Eigen::Index contact,
                                        Eigen::MatrixXd& gram) {
   fft_->forward({tangent.data() + contact * points_, static_cast<std::size_t>(points_)},

@@ -8,7 +8,7 @@
 
 namespace wavebalance::solvers {
 
-/// What an iterative solver needs of the compliance K between the samples of C contacts, N each,
+/// The products that an iterative solver needs of the compliance K between the samples of C contacts, N each,
 /// contact-major.
 struct ComplianceOperator {
   int contacts = 1;
@@ -21,10 +21,10 @@ struct ComplianceOperator {
 
 /// The harmonics |n| <= h of the samples of each contact, where the compliance is large: with W
 /// (C N x C (2h + 1)) their orthonormal synthesis (mean, cosines, sines), K is nearly W B W^T plus a part
-/// that decays as the harmonics beyond h do, like 1 / n^2. Owns a plan and buffers: one object a thread.
+/// that decays as the harmonics beyond h do, like 1 / n^2. Owns a plan and buffers: one object per thread.
 class HarmonicCoarseSpace {
  public:
-  /// Takes the responses of the harmonics 0..h of K; h < N/2.
+  /// Reads the responses of the harmonics 0..h of K; h < N/2.
   void set(const ComplianceOperator& compliance, int harmonics);
 
   int harmonics() const { return harmonics_; }

@@ -5,14 +5,13 @@
 namespace wavebalance::solvers {
 namespace {
 
-// Active samples of one contact up to which LU is faster than GMRES, as measured on both cases of JL14.
+// Beyond this many active samples of one contact GMRES is faster than LU.
 constexpr Eigen::Index crossover = 96;
 
-// With several contacts the preconditioner holds few harmonics of each, and LU is used up to about a second
-// per system.
+// With several contacts the preconditioner holds few harmonics of each, so LU is used up to more samples.
 constexpr Eigen::Index crossover_of_several = 2048;
 
-// A larger LU takes more than several seconds.
+// The largest LU, also as a fallback of GMRES.
 constexpr Eigen::Index largest_dense = 4096;
 
 ComplianceOperator compliance_of(CondensedProblem& problem) {

@@ -8,14 +8,15 @@
 namespace wavebalance::solvers {
 
 /// Solves with J = I + K D, plain or bordered, by LU of the active samples or by GMRES, chosen by their
-/// number. Where GMRES gets nowhere and the LU is still affordable, that is taken from then on.
+/// number. If GMRES does not converge and an LU is affordable, the LU is used from then on.
 class JacobianSolver {
  public:
   void set_method(LinearSolver method) { method_ = method; }
 
   /// False when singular to working precision.
   bool factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent);
-  /// J x = r to `reduction` of r on the active samples (the LU: exactly). False when that was not reached.
+  /// Solves J x = r to `reduction` of r on the active samples, by LU exactly. False when that was not
+  /// reached.
   bool solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction, Eigen::VectorXd& x);
 
   bool factorize_bordered(CondensedProblem& problem, const Eigen::VectorXd& tangent, const Eigen::VectorXd& b,
@@ -26,10 +27,10 @@ class JacobianSolver {
   /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
   int determinant_sign() const { return used_ == Used::dense ? dense_.determinant_sign() : 0; }
 
-  /// Floating-point operations so far: 2/3 active^3 an LU, four transforms an iteration of GMRES.
+  /// Floating-point operations so far: 2/3 active^3 per LU, four transforms per iteration of GMRES.
   double operations() const { return operations_; }
 
-  /// Condition of what was factorized last: see NewtonResult. 0 before.
+  /// Condition of the matrix last factorized, as in NewtonResult; 0 before any.
   double condition(CondensedProblem& problem);
 
  private:
@@ -46,7 +47,7 @@ class JacobianSolver {
   double operations_ = 0.0;
   ActiveBlock dense_;
   KrylovBlock krylov_;
-  Eigen::VectorXd tangent_, border_column_, border_row_;  // of the last factorisation, to fall back on
+  Eigen::VectorXd tangent_, border_column_, border_row_;  // those of the last factorisation, for a later LU
   double border_corner_ = 0.0;
 };
 

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int max_iterations = 200;
 
-// Beyond the harmonics kept, |D| ||H(n)|| <= largest_remainder where their number allows it: that bounds what
-// P leaves out, and with it the number of iterations.
+// As many harmonics are kept as are needed for |D| ||H(n)|| <= largest_remainder beyond them, up to a limit.
+// This bounds J - P, and with it the number of iterations.
 constexpr double largest_remainder = 0.25;
 
 // The dense system of the preconditioner costs as much as one product with K at 4 N^(1/3) unknowns, and as
@@ -68,8 +68,8 @@ bool KrylovBlock::factorize(const ComplianceOperator& compliance, const Eigen::V
   return prepare(compliance, tangent) && factorize_coarse();
 }
 
-// On the active samples x = r - K D z - b y turns the last row into -(D K^T c).z + (d - c.b) y = s - c.r, and
-// the preconditioner's z = v - W B g - b y turns that into one for g = W^T D z and y.
+// On the active samples x = r - K D z - b y, the last row is -(D K^T c).z + (d - c.b) y = s - c.r, and
+// with the preconditioner's z = v - W B g - b y it is an equation for g = W^T D z and y.
 bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent,
                                      const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   bordered_ = true;
@@ -123,7 +123,8 @@ void KrylovBlock::multiply(const ComplianceOperator& compliance, const Unknown& 
   if (bordered_) product += unknown.y * active_column_;
 }
 
-// P keeps the last row of the bordered system exactly: after P^-1 (r, s) only the others have a residual.
+// P contains the last row of the bordered system exactly, so that after P^-1 (r, s) only the others have a
+// residual.
 KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
                                                double s, double reduction, Unknown& unknown) {
   precondition(r, s, unknown);
@@ -146,8 +147,8 @@ KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& complia
   return {found.solved, found.iterations, size > 0.0 ? found.residual / size : 0.0};
 }
 
-// x = r - K D z, which on the active samples differs from z by the residual. That is kept there: K D would
-// magnify it.
+// x = r - K D z differs from z by the residual on the active samples. There x = z is used, because K D would
+// magnify the residual.
 void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
                            const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome) {
   scatter_weighted(z);
@@ -156,7 +157,7 @@ void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::Ve
   x = r - x;
   const double size = gather(r).norm(), residual = (gather(x) - z).norm();
   x(active_) = z;
-  // The residual that GMRES keeps count of drifts off the true one where J is nearly singular.
+  // The residual that GMRES updates differs from the true one when J is nearly singular.
   constexpr double rounding = 1e-13, drift = 2.0;
   outcome.solved = outcome.solved && residual <= drift * reduction * size + rounding * (product + r.norm());
   if (size > 0.0) outcome.reduction = residual / size;
@@ -186,7 +187,8 @@ KrylovBlock::Outcome KrylovBlock::solve_bordered(const ComplianceOperator& compl
 }
 
 // Power iteration on J estimates the largest singular value, on P^-1 the smallest. Both
-// start with a part of every frequency: the smoothest motion may be the very one that J shrinks.
+// start from a vector with all frequencies, because the smallest singular value may belong to a smooth
+// motion.
 double KrylovBlock::condition(const ComplianceOperator& compliance) {
   if (active_.empty()) return 1.0;
   Unknown unknown;

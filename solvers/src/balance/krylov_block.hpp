@@ -11,18 +11,18 @@ namespace wavebalance::solvers {
 /// Solves with J = I + K D, D diagonal, plain or bordered [J b; c^T d], without the matrix over the active
 /// samples (those where D is not zero): GMRES with FFT products.
 ///
-/// K decays over harmonics, so that J is the identity plus what few harmonics carry. The preconditioner
+/// K decays over harmonics, so that J is the identity plus a part of few harmonics. The preconditioner
 ///   P = I + W B W^T D   (bordered: with b, c, d as J)
 /// takes K on the harmonics |n| <= h exactly and leaves it out beyond; its inverse costs two FFTs and a
 /// dense solve of size C (2h + 1). J P^-1 = I + (K - W B W^T) D P^-1 is then the identity plus what is small
 /// and compact, and the number of iterations does not grow with the number of samples.
-/// Cost of an iteration: two products with K. Of factorize: O(C N log N + (C (2h + 1))^3).
+/// An iteration costs two products with K, factorize() O(C N log N + (C (2h + 1))^3).
 class KrylovBlock {
  public:
-  /// Of the last solve: how far it got.
+  /// Iterations and residual of the last solve.
   struct Outcome {
     bool solved = false;
-    int iterations = 0;      ///< of GMRES
+    int iterations = 0;      ///< products of GMRES
     double reduction = 0.0;  ///< ||r - J x|| over ||r|| on the active samples
   };
 
@@ -44,8 +44,8 @@ class KrylovBlock {
   /// Harmonics in the preconditioner.
   int harmonics() const { return coarse_.harmonics(); }
   /// Lower bound of the condition number, in the 2-norm, of J on the active samples: the largest over the
-  /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation and of a few of iterations
-  /// with J and P^-1. Three products more.
+  /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation, and of a few power iterations
+  /// with J and P^-1. Three further products.
   double condition(const ComplianceOperator& compliance);
 
  private:
@@ -72,7 +72,7 @@ class KrylovBlock {
   Eigen::MatrixXd matrix_;
   detail::Lu<double> lu_;
   Eigen::VectorXd weighted_, samples_, coefficients_, responses_;  // work
-  double largest_gain_ = 0.0, smallest_gain_ = 0.0;                // of ||J z|| / ||z||
+  double largest_gain_ = 0.0, smallest_gain_ = 0.0;                // extremes of ||J z|| / ||z||
   bool bordered_ = false;
   Eigen::VectorXd column_, row_;   // b and c over all samples
   Eigen::VectorXd active_column_;  // b at the active samples

@@ -37,8 +37,8 @@ void NewtonOptions::validate() const {
 
 namespace {
 
-// Residual to which a Newton system is solved by iteration: so small that the active sets, and with them the
-// steps, are those of exact solves, and not below what the tolerance asks for.
+// Relative residual to which a Newton system is solved by iteration. It is small enough for the active sets
+// and steps of exact solves, and not below what the tolerance needs.
 double forcing_term(double residual, double tolerance) {
   constexpr double exact_enough = 1e-6, share = 0.1, least = 1e-12;
   return std::max({least, share * tolerance / residual, exact_enough * std::min(1.0, 100.0 * residual)});
@@ -47,9 +47,8 @@ double forcing_term(double residual, double tolerance) {
 // Target for force_defect(), and the value above which a small residual is not trusted.
 constexpr double sought_defect = 1e-9, largest_defect = 1e-7;
 
-// The force makes the motion u - R, whose own force is f - D R, and u is rounded: how far the law's force at
-// the motion may be from the force that makes it, over the largest force, times the share that it has in the
-// motion.
+// The force f gives the motion u - R, at which the law has the force f - D R; u is rounded, too. Returns this
+// difference of forces, over the largest force, times the force's share of the motion.
 double force_defect(ContactSystem& system, const Eigen::VectorXd& u) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const double largest = system.force().cwiseAbs().maxCoeff();
@@ -71,7 +70,7 @@ class ContactEquation {
   }
   double norm() const { return safe_norm(system_.residual()); }
 
-  // Where rounding allows it a stiff law's force is improved further.
+  // The force of a stiff law is improved further, as far as rounding allows.
   bool is_solved() {
     const double before = std::exchange(residual_, system_.relative_residual());
     history_.push_back(residual_);

@@ -11,10 +11,11 @@
 namespace wavebalance::solvers {
 namespace {
 
-// An update of the inverse loses digits: it is made anew after this many, more where that is dear.
+// Each update of the inverse loses accuracy. After this many it is computed anew; large ones, which cost
+// more, less often.
 Eigen::Index most_updates(Eigen::Index size) { return std::max<Eigen::Index>(50, 2 * size); }
 
-// GrazingEvents from one correction of force and slope by the whole inverse to the next.
+// Force and slope are recomputed from the whole inverse every so many pivots, to remove accumulated rounding.
 constexpr int pivots_per_correction = 8;
 
 }  // namespace
@@ -22,7 +23,8 @@ constexpr int pivots_per_correction = 8;
 ComplementarityPath::ComplementarityPath(CondensedProblem& problem)
     : problem_(problem), inverse_(problem.samples()), max_segment_(10 * problem.samples()) {}
 
-// The column of a point is that of the point modulo the shift period, shifted by the rest.
+// K is invariant under shifts by the shift period. The column of a point is therefore that of the point
+// modulo the period, with the rows shifted by the remaining points.
 double ComplementarityPath::entry(int row, int column) const {
   const int points = problem_.points(), period = problem_.pair().shift_period();
   const int remainder = column % points % period;
@@ -87,7 +89,7 @@ void ComplementarityPath::leave(int sample) {
   slope_[sample] = state_.force[sample] = distance_[sample] = 0.0;
 }
 
-// Takes `values`, which are in the slots of the inverse, from those of all samples.
+// Subtracts `values`, indexed by slot of the inverse, from `all`, indexed by sample.
 void ComplementarityPath::subtract(const Eigen::VectorXd& values, Eigen::VectorXd& all) const {
   for (Eigen::Index slot = 0; slot < inverse_.size(); ++slot)
     if (const int member = inverse_.members()[static_cast<std::size_t>(slot)]; member >= 0)
@@ -116,13 +118,13 @@ void ComplementarityPath::correct() {
   keep_in_contact(distance_);
 }
 
-// Zero at the samples that press.
+// Sets the distance to zero at the samples in contact.
 void ComplementarityPath::keep_in_contact(Eigen::VectorXd& distance) const {
   for (const int member : inverse_.members())
     if (member >= 0) distance[member] = 0.0;
 }
 
-// At the end of a leg: the solution, if it holds to rounding of the terms that make a distance.
+// Ends a segment: accepts the solution if the distances hold to rounding of the terms they are sums of.
 ComplementarityPath::End ComplementarityPath::finish() {
   constexpr double rounding = 1e-10;
   correct();
@@ -152,7 +154,8 @@ void ComplementarityPath::set_rates(int pivoted) {
   distance_rate_ *= direction_;
 }
 
-// The sample that reaches its bound first and the length up to there; -1 when z = 0 comes before, or nothing.
+// The sample that reaches its bound first, and the length up to there; -1 if z = 0 is reached before, or if
+// no sample reaches its bound.
 int ComplementarityPath::next_pivot(double& length) const {
   int sample = -1;
   length = direction_ < 0.0 ? z_ : std::numeric_limits<double>::infinity();
@@ -200,7 +203,8 @@ ComplementarityPath::End ComplementarityPath::lower(Obstacles goal, const Eigen:
 
 ComplementarityPath::End ComplementarityPath::follow(Obstacles goal) {
   covering_vector_ = (state_.obstacles.flexibility - goal.flexibility).cwiseProduct(state_.force);
-  for (Eigen::Index l = 0; l < covering_vector_.size(); ++l)  // where there is no obstacle both are infinite
+  // Both gaps are infinite where there is no obstacle.
+  for (Eigen::Index l = 0; l < covering_vector_.size(); ++l)
     if (std::isfinite(goal.gap_without_force[l]))
       covering_vector_[l] += state_.obstacles.gap_without_force[l] - goal.gap_without_force[l];
   state_.obstacles = std::move(goal);

@@ -27,12 +27,13 @@ struct Obstacles {
 /// or out of it; z may grow again on the way. The unknowns are forces and not penetrations, so that the
 /// accuracy does not degrade with stiffness.
 ///
-/// With exact inner products and damping no path of obstacles lowered evenly leads to infinity: a motion
-/// without load would do work. Sums over points may do some, and then it can.
+/// With exact inner products and damping the path of obstacles lowered evenly cannot end on an unbounded ray,
+/// because a motion without load would do work. It can if quadrature aliasing makes the contact force do
+/// work.
 ///
-/// The inverse over the samples that press and the slope of the path are updated, and corrected from time to
-/// time: O(active^2 + C N log N + C^2 M) per pivot. Lost digits are found at the end of the path, by the
-/// residual of the problem.
+/// The inverse over the samples in contact and the slope of the path are updated, and corrected every few
+/// pivots: O(active^2 + C N log N + C^2 M) per pivot. Loss of accuracy is detected at the end of the path, by
+/// the residual of the problem.
 class ComplementarityPath {
  public:
   enum class End { reached, ray, effort_limit, lost, cancelled };
@@ -41,32 +42,32 @@ class ComplementarityPath {
 
   explicit ComplementarityPath(CondensedProblem& problem);
 
-  /// GrazingEvents of one leg at most.
-  void set_max_segment(int corners) { max_segment_ = corners; }
-  /// Floating-point operations of all segments to come at most.
+  /// Limits the pivots of one segment, which is a call of lower() or follow().
+  void set_max_segment(int pivots) { max_segment_ = pivots; }
+  /// Limits the floating-point operations of all further segments together.
   void limit_operations(double most) { operations_ = std::min(operations_, most); }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
 
-  /// Lowers the obstacles, raised by z covering_vector, from where they touch first to z = 0.
-  /// `covering_vector` > 0.
+  /// Lowers the obstacles, raised by z covering_vector with covering_vector > 0, from the height at which
+  /// they first touch to z = 0.
   End lower(Obstacles goal, const Eigen::VectorXd& covering_vector);
-  /// From the force at present obstacles to other ones, all moved in proportion.
+  /// Moves the present obstacles to `goal`, all in proportion.
   End follow(Obstacles goal);
 
-  /// A solution to come back to.
+  /// A solution that can be restored.
   struct State {
     Obstacles obstacles;
-    std::vector<int> active;  ///< samples that press, ascending
+    std::vector<int> active;  ///< samples in contact, ascending
     Eigen::VectorXd force;    ///< N
   };
   const State& state() const { return state_; }
   void restore(State state) { state_ = std::move(state); }
 
   const Eigen::VectorXd& force() const { return state_.force; }
-  /// Condition number, 1-norm, of the block of K + flexibility over the samples that press; 1 without any.
+  /// Condition number, 1-norm, of the block of K + flexibility over the samples in contact; 1 without any.
   double condition();
-  int pivots() const { return pivots_; }  ///< of all segments
-  bool may_go_on() const { return operations_ > 0.0; }
+  int pivots() const { return pivots_; }  ///< pivots of all segments so far
+  bool has_operations_left() const { return operations_ > 0.0; }
 
  private:
   double entry(int row, int column) const;
@@ -87,9 +88,8 @@ class ComplementarityPath {
   CondensedProblem& problem_;
   State state_;
   Eigen::VectorXd covering_vector_;
-  ActiveInverse inverse_;  // of K + flexibility over the samples that press
-  Eigen::VectorXd
-      slope_;  // how force falls with z: the inverse times the covering_vector there, elsewhere zero
+  ActiveInverse inverse_;  // inverse of K + flexibility over the samples in contact
+  Eigen::VectorXd slope_;  // -d force / dz: the inverse times covering_vector in contact, zero elsewhere
   Eigen::VectorXd distance_, force_rate_, distance_rate_, product_;
   double z_ = 0.0, direction_ = -1.0, first_z_ = 1.0;
   int pivots_ = 0, max_segment_ = 0;

@@ -11,9 +11,9 @@
 namespace wavebalance::solvers {
 namespace {
 
-// The displacement at which a law gives `force` > 0; not a number when it does not. By Newton within a
-// bracket, and by bisection where its steps do not fall by half: a steep exponential would take thousands of
-// equal ones.
+// The displacement at which a law has the force `force` > 0; NaN if there is none. Newton's method within a
+// bracket, with bisection when a step is not half of the one before, because Newton alone takes thousands of
+// equal steps on a steep exponential.
 double inverse(const AnyContactLaw& law, double force) {
   constexpr int most = 200;
   double low = law.gap(), width = force / law.tangent(low);
@@ -51,7 +51,7 @@ class LawObstacles {
     return true;
   }
 
-  // The laws' tangents at forces, at no force where they start.
+  // The laws' tangents at given forces; at their gaps where the force is zero.
   Obstacles tangents(const Eigen::VectorXd& force) const {
     Obstacles result{-free_, Eigen::VectorXd::Zero(free_.size())};
     for (int l = 0; l < free_.size(); ++l) {

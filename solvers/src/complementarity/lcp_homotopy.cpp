@@ -40,10 +40,10 @@ LcpHomotopy::LcpHomotopy(CondensedProblem& problem, const ComplementarityOptions
 SolveStatus LcpHomotopy::status() const {
   if (strategy_ != Strategy::none) return SolveStatus::converged;
   if (cancelled_) return SolveStatus::cancelled;
-  return path_.may_go_on() ? SolveStatus::stalled : SolveStatus::effort_limit;
+  return path_.has_operations_left() ? SolveStatus::stalled : SolveStatus::effort_limit;
 }
 
-// In units in which openings are about 1, so that products of the largest and the smallest stay in range.
+// Scales gaps and forces by a length, so that gaps are about 1 and products do not overflow or underflow.
 Obstacles LcpHomotopy::scaled(const Obstacles& goal, double least) const {
   return {goal.gap_without_force / scale_, goal.flexibility.cwiseMax(least)};
 }
@@ -59,7 +59,7 @@ bool LcpHomotopy::lower(const Obstacles& goal, double flexibility, const Eigen::
   return !cancelled_ && path_.lower(scaled(goal, level_), covering_vector) == End::reached;
 }
 
-bool LcpHomotopy::arrived(const Obstacles& goal) const {
+bool LcpHomotopy::is_stiff_enough(const Obstacles& goal) const {
   return level_ <= least_ || level_ <= goal.flexibility.minCoeff();
 }
 
@@ -67,7 +67,7 @@ bool LcpHomotopy::arrived(const Obstacles& goal) const {
 // the factor is square-rooted, down to `smallest`.
 bool LcpHomotopy::stiffen(const Obstacles& goal, double factor, double smallest) {
   const double largest = factor;
-  for (keep(level_); !arrived(goal); keep(level_)) {
+  for (keep(level_); !is_stiff_enough(goal); keep(level_)) {
     const ComplementarityPath::State before = path_.state();
     const double next = std::max(least_, level_ / factor);
     if (path_.follow(scaled(goal, next)) == End::reached) {
@@ -77,17 +77,17 @@ bool LcpHomotopy::stiffen(const Obstacles& goal, double factor, double smallest)
     }
     factor = std::sqrt(factor);
     path_.restore(before);
-    if (cancelled_ || !path_.may_go_on() || factor < smallest) return false;
+    if (cancelled_ || !path_.has_operations_left() || factor < smallest) return false;
   }
   condition_ = path_.condition();
   return true;
 }
 
-// With obstacles of the same height at all samples.
+// Paths with obstacles of the same height at all samples.
 Strategy LcpHomotopy::even_paths(const Obstacles& goal, const Eigen::VectorXd& even) {
   struct Segments {
     Strategy strategy;
-    int length;  // in short segments
+    int length;  // pivots allowed, in short segments
     double smallest_factor;
   };
   const int samples = static_cast<int>(even.size());
@@ -109,8 +109,8 @@ Strategy LcpHomotopy::even_paths(const Obstacles& goal, const Eigen::VectorXd& e
   return lower(goal, 0.0, even) && stiffen(goal, 1.0, 1.0) ? Strategy::stiff_obstacle : Strategy::none;
 }
 
-// With obstacles whose height varies at random from sample to sample, from random flexibilities by random
-// factors.
+// Paths with obstacles whose height varies at random from sample to sample. Initial flexibility and factor
+// are random, too.
 Strategy LcpHomotopy::random_paths(const Obstacles& goal, const Eigen::VectorXd& even) {
   path_.set_max_segment(random_segment(static_cast<int>(even.size())));
   path_.limit_operations(options_.max_random_operations);
@@ -118,7 +118,7 @@ Strategy LcpHomotopy::random_paths(const Obstacles& goal, const Eigen::VectorXd&
   const auto power = [&](double low, double high) {
     return std::pow(10.0, std::uniform_real_distribution<double>(low, high)(generator));
   };
-  for (int i = 0; i < options_.max_random_paths && !cancelled_ && path_.may_go_on(); ++i) {
+  for (int i = 0; i < options_.max_random_paths && !cancelled_ && path_.has_operations_left(); ++i) {
     std::uniform_real_distribution<double> spread(-power(-2.0, -0.3), 0.0);
     const Eigen::VectorXd covering_vector =
         even.unaryExpr([&](double one) { return one + spread(generator); });

@@ -5,36 +5,36 @@
 
 namespace wavebalance::solvers {
 
-/// The flexibility, over the largest compliance, below which an obstacle is not made stiffer: K over more
-/// samples than there are functions is singular, and this much keeps the digits.
+/// The least flexibility of an obstacle, over the largest compliance. K over more samples than there are
+/// functions is singular, and this flexibility makes its systems solvable to working precision.
 constexpr double least_flexibility = 1e-12;
 
-/// Solves the linear complementarity problem of obstacles by paths, one after the other until one arrives
-/// (see ComplementarityPath). A soft obstacle is lowered first, with about one pivot per sample in contact.
-/// Its flexibility is then divided by a factor again and again; each of these segments is again such a path,
-/// and where one does not arrive the factor is reduced. The paths, in their order, are those of Strategy.
+/// Solves the linear complementarity problem of obstacles by paths (see ComplementarityPath), which are tried
+/// one after the other until one reaches its goal. A soft obstacle is lowered first, with about one pivot per
+/// sample in contact. Its flexibility is then divided by a factor repeatedly. Each division is a segment,
+/// which is again such a path; when it fails, the factor is reduced. Strategy lists the paths in their order.
 class LcpHomotopy {
  public:
   LcpHomotopy(CondensedProblem& problem, const ComplementarityOptions& options, Observer observer);
 
-  /// `goal`: with the flexibilities wanted, taken no lower than the least. False when no path arrives: the
-  /// force is then that of the stiffest obstacles solved for, none perhaps, and status() says why.
+  /// Flexibilities of `goal` below least_flexibility are raised to it. False when no path reaches the goal:
+  /// the force is then that of the stiffest obstacles solved for, or empty, and status() gives the reason.
   bool solve(const Obstacles& goal);
-  /// From the solution to other obstacles nearby; false leaves the force as it was.
+  /// Moves from the solution to other obstacles nearby. When it fails, the force is unchanged.
   bool follow(const Obstacles& goal);
 
-  /// Of the last solve(): converged, stalled, effort_limit or cancelled.
+  /// How the last solve() ended: converged, stalled, effort_limit or cancelled.
   SolveStatus status() const;
-  Strategy strategy() const { return strategy_; }          ///< of the last solve() that converged
+  Strategy strategy() const { return strategy_; }          ///< the path that solved last, none if no path did
   const Eigen::VectorXd& force() const { return force_; }  ///< N
-  double flexibility() const { return reached_; }          ///< m/N, down to which obstacles were stiffened
-  double condition() const { return condition_; }          ///< of its last system, see ComplementarityPath
+  double flexibility() const { return reached_; }          ///< m/N, the least flexibility solved for
+  double condition() const { return condition_; }  ///< ComplementarityPath::condition() of the last system
   int pivots() const { return path_.pivots(); }
 
  private:
   Obstacles scaled(const Obstacles& goal, double least) const;
   bool lower(const Obstacles& goal, double flexibility, const Eigen::VectorXd& covering_vector);
-  bool arrived(const Obstacles& goal) const;
+  bool is_stiff_enough(const Obstacles& goal) const;
   bool stiffen(const Obstacles& goal, double factor, double smallest);
   Strategy even_paths(const Obstacles& goal, const Eigen::VectorXd& even);
   Strategy random_paths(const Obstacles& goal, const Eigen::VectorXd& even);

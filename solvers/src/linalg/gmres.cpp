@@ -54,7 +54,7 @@ class HessenbergLeastSquares {
   }
 
   std::vector<Rotation> rotations_;
-  std::vector<Eigen::VectorXd> columns_;  // of the triangular factor
+  std::vector<Eigen::VectorXd> columns_;  // columns of the triangular factor
   std::vector<double> right_;
 };
 

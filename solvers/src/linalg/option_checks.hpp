@@ -23,7 +23,7 @@ inline void require_positive(const char* who, const char* name, double value) {
   if (!(std::isfinite(value) && value > 0.0)) reject(who, name, value, "positive and finite");
 }
 
-/// An empty vector stands for a default; otherwise it holds one finite entry a degree of freedom.
+/// An empty vector means a default; otherwise there must be one finite entry per degree of freedom.
 inline void require_dofs(const char* who, const char* name, const Eigen::VectorXd& values, int dofs) {
   if (values.size() != 0 && values.size() != dofs) {
     std::ostringstream message;

@@ -73,8 +73,8 @@ double NonlinearMode::grazing_energy() const {
   return 0.25 * amplitude * amplitude;
 }
 
-// The contact sample that the growing linear mode reaches first: t = 0, where the shape is largest over the
-// gap.
+// The contact sample that the linear mode reaches first as it grows: at t = 0, the contact with the largest
+// shape over gap.
 std::vector<int> NonlinearMode::grazing_samples() const {
   const Eigen::VectorXd reach = model_.contact_shapes.col(options_.mode - 1).cwiseQuotient(model_.gaps);
   Eigen::Index contact = 0;
@@ -135,7 +135,7 @@ std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions
   options.validate();
   std::vector<ModePoint> points;
   std::vector<int> active;
-  double last_energy = 0.0;  // of the last accepted point
+  double last_energy = 0.0;  // energy ratio of the last accepted point
   const double width = (options.last_ratio - options.first_ratio) / (options.points - 1);
   const auto close = [&](const ModePoint& point) {
     return last_energy == 0.0 || std::abs(std::log(point.energy_ratio / last_energy)) <= options.max_jump;

@@ -127,7 +127,7 @@ class Shooting {
     return std::sqrt((weight * state.head(n).array().square()).sum() + state.tail(n).squaredNorm());
   }
 
-  /// How much a period changes the state; infinity when it cannot be integrated.
+  /// Relative change of the state over a period; infinity when it cannot be integrated.
   double residual(const Eigen::VectorXd& state, Eigen::VectorXd& change, Eigen::MatrixXd* sensitivity) {
     change = state;
     if (sensitivity != nullptr) sensitivity->setIdentity(state.size(), state.size());

@@ -12,11 +12,11 @@ namespace wavebalance::solvers::detail {
 
 /// The period map of the structure in contact. Steps have the lengths T / (base_steps 2^level); a step is
 /// halved while the polynomial of the contact force misses the law at its ends by too much, so that steps
-/// shrink about the instants where contact starts and ends. Tables are made once a level. Not to be shared
+/// shrink about the instants where contact starts and ends. Tables are made once per level. Not to be shared
 /// between threads.
 class ContactPropagator {
  public:
-  /// Called at the start of every step of the coarsest level asked for, with its number and the state there.
+  /// Called at the start of every step of the coarsest level, with its number and the state there.
   using Recorder = std::function<void(int step, const Eigen::VectorXd& state)>;
 
   ContactPropagator(ModalStructure modes, AnyContactLaw law, double load_scale, int base_steps,

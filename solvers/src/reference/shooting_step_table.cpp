@@ -15,7 +15,7 @@ using NodeMatrix = StepTable::NodeMatrix;
 /// Polynomials of degree nodes - 1 on [0, 1] by their values at the Gauss points.
 struct GaussPolynomials {
   GaussPolynomials();
-  NodeVector values_at(double x) const;  // of the Lagrange polynomials
+  NodeVector values_at(double x) const;  // values of the Lagrange polynomials
 
   NodeVector points;
   NodeMatrix differentiation;

@@ -73,7 +73,7 @@ int jacobian_callback(double periods, const double* state, double* by_state, dou
 struct Instant {
   double time = 0.0;      // periods
   Eigen::VectorXd state;  // 2n, m/s
-  Eigen::VectorXd rate;   // 2n, m/s a period
+  Eigen::VectorXd rate;   // 2n, m/s per period
 };
 
 /// GSL's evolution objects, with the two ends of the last step.

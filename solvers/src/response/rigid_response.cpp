@@ -19,15 +19,15 @@ Eigen::VectorXd sample_gaps(const Eigen::VectorXd& gaps, int points) {
   return gaps.transpose().replicate(points, 1).reshaped();
 }
 
-// What `force` leaves of the complementarity with displacements `excess` beyond the gaps, m: penetration, and
-// distance from the gap by the share of the largest force that presses there.
+// Violation of the complementarity, m: the largest penetration `excess`, and the largest |excess| times the
+// force there over the largest force.
 double violation(const Eigen::VectorXd& excess, const Eigen::VectorXd& force) {
   const double largest = force.maxCoeff();
   return std::max(excess.maxCoeff(), (force / largest).cwiseProduct(excess).cwiseAbs().maxCoeff());
 }
 
-// Force with u = gap at the samples where `start` presses, by least squares: K is singular on more samples
-// than there are functions. Nothing when a sign fails.
+// The force for which u = gap at the samples with positive `start`, by least squares, because K is singular
+// on more samples than there are functions. Empty if a sign fails.
 std::optional<Eigen::VectorXd> solve_active(CondensedProblem& problem, const Eigen::VectorXd& gap,
                                             const Eigen::VectorXd& start, double tolerance) {
   std::vector<int> active;
@@ -57,8 +57,8 @@ void require_gaps(const CondensedProblem& problem, const Eigen::VectorXd& gaps) 
   if (!gaps.allFinite()) throw std::invalid_argument("rigid_response: every gap must be finite");
 }
 
-// Lowers obstacles that hardly yield and then solves their active samples; fills all of `result` but what
-// follows from the force.
+// Lowers obstacles with a very small flexibility and then solves their active samples. Fills all of `result`
+// except what follows from the force.
 void solve_contact(CondensedProblem& problem, const Eigen::VectorXd& gap, const RigidResponseOptions& options,
                    RigidResponse& result) {
   PeriodicResponse& response = result.response;

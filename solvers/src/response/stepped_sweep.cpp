@@ -13,7 +13,7 @@ std::vector<double> uniform_frequencies(double from, double to, double max_step,
                                 std::to_string(to) + ", max_step " + std::to_string(max_step) +
                                 ", max_count " + std::to_string(max_count) +
                                 "; the frequencies must be finite and the others positive");
-  constexpr double rounding = 1e-9;  // an interval of n steps has n steps
+  constexpr double rounding = 1e-9;  // so that rounding does not add a step to an interval of n steps
   const double steps = std::max(1.0, std::ceil(std::abs(to - from) / max_step - rounding));
   const int count = static_cast<int>(std::min(steps + 1.0, static_cast<double>(max_count)));
   std::vector<double> frequencies;

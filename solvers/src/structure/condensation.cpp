@@ -41,7 +41,7 @@ bool is_tridiagonal(const LinearStructure& structure) {
          is_tridiagonal(structure.stiffness);
 }
 
-// A dense elimination beats a sparse one until few entries are left to it.
+// A dense elimination is faster than a sparse one unless few entries are nonzero.
 bool is_dense(const LinearStructure& structure) {
   const double entries = double(structure.stiffness.nonZeros() + structure.mass.nonZeros());
   const double size = structure.size();
@@ -50,9 +50,9 @@ bool is_dense(const LinearStructure& structure) {
 
 using MethodPointer = std::unique_ptr<Condensation::Method>;
 
-// `chosen` becomes the method taken.
+// Sets `chosen` to the method taken.
 MethodPointer choose_method(const LinearStructure& structure, CondensationMethod& chosen) {
-  constexpr int modal_limit = 1000;  // where the modes begin to cost more than a sweep by elimination
+  constexpr int modal_limit = 1000;  // beyond it the modes cost more than a sweep by elimination
   if (is_tridiagonal(structure)) {
     chosen = CondensationMethod::tridiagonal;
     return make_tridiagonal_method(structure);
@@ -84,7 +84,7 @@ MethodPointer make_unscaled_method(const LinearStructure& structure, Condensatio
   throw std::invalid_argument("Condensation: unknown method");
 }
 
-// `method` becomes the one taken.
+// Sets `method` to the method taken.
 MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method) {
   structure.validate();
   require_symmetric(structure.mass, "mass");
@@ -131,25 +131,26 @@ int Condensation::size() const { return method_->size(); }
 int Condensation::contacts() const { return method_->contacts(); }
 
 CondensedPoint Condensation::dynamic_compliance(const ImpedanceCoefficients& factors,
-                                                const ImpedanceCoefficients& rates) {
-  return method_->dynamic_compliance(factors, rates);
+                                                const ImpedanceCoefficients& derivatives) {
+  return method_->dynamic_compliance(factors, derivatives);
 }
 
-void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                             CondensedSpectrum& result) {
   const Eigen::Index size = factors[0].size(), count = contacts();
   for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
   for (auto* matrix : {&result.load_response, &result.load_response_slope}) matrix->resize(size, count);
-  method_->forget_condition();
-  method_->condense(factors, rates, result);
+  method_->reset_condition();
+  method_->condense(factors, derivatives, result);
   condition_ = method_->condition();
 }
 
-void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                                     CondensedSpectrum& result) {
   for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
-    const CondensedPoint point = dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
-                                                    {rates[0][k], rates[1][k], rates[2][k]});
+    const CondensedPoint point =
+        dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
+                           {derivatives[0][k], derivatives[1][k], derivatives[2][k]});
     result.compliance.row(k) = point.compliance.reshaped().transpose();
     result.load_response.row(k) = point.load_response.transpose();
     result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();

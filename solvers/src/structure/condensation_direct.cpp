@@ -5,7 +5,7 @@
 namespace wavebalance::solvers {
 
 CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& factors,
-                                                const ImpedanceCoefficients& rates) {
+                                                const ImpedanceCoefficients& derivatives) {
   factorize(factors);
   const int count = contacts();
   Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size(), count + 1);
@@ -13,7 +13,7 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
   right.col(count) = structure_.load;
   const Eigen::MatrixXcd response = solve(right);
   for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), 1.0));
-  const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(rates) * response);
+  const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(derivatives) * response);
   const Eigen::MatrixXcd at_contacts = response(structure_.contact_dofs, Eigen::all);
   return {at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count), slope.col(count)};
 }

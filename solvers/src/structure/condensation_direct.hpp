@@ -15,7 +15,7 @@ class DirectMethod : public Condensation::Method {
   int size() const override { return structure_.size(); }
   int contacts() const override { return structure_.contacts(); }
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
-                                    const ImpedanceCoefficients& rates) override;
+                                    const ImpedanceCoefficients& derivatives) override;
   Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                            const Eigen::VectorXcd& contact_forces) override;
 

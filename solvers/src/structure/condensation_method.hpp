@@ -15,16 +15,16 @@ class Condensation::Method {
   virtual int size() const = 0;
   virtual int contacts() const = 0;
   virtual CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
-                                            const ImpedanceCoefficients& rates) = 0;
-  /// Point by point unless a method knows better; the results have their size.
-  virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+                                            const ImpedanceCoefficients& derivatives) = 0;
+  /// The default condenses point by point. The results have their size already.
+  virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                         CondensedSpectrum& result);
   virtual Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
                                    const Eigen::VectorXcd& contact_forces) = 0;
 
-  /// The largest lower bound of a condition number met since it was forgotten.
+  /// The largest lower bound of a condition number since the last reset.
   double condition() const { return condition_; }
-  void forget_condition() { condition_ = 0.0; }
+  void reset_condition() { condition_ = 0.0; }
 
  protected:
   void record(double condition) { condition_ = std::max(condition_, condition); }
@@ -42,7 +42,7 @@ class StiffnessScale {
   const std::array<double, 3>& largest() const { return largest_; }
   /// |s2| max|M| + |s1| max|C| + |s0| max|K|.
   double size(const ImpedanceCoefficients& factors) const;
-  /// scale ||x|| / ||b|| for Z x = b: what the size of x says of the condition number of Z.
+  /// scale ||x|| / ||b|| for Z x = b, a lower bound of the condition number of Z up to a factor.
   double condition(const ImpedanceCoefficients& factors, double solution_norm, double right_norm) const;
   /// Throws SingularSystem when the solution of Z x = b is as large as only a matrix that is singular to
   /// working precision makes it, or not finite. Returns condition(). O(n).
@@ -55,8 +55,8 @@ class StiffnessScale {
 
 using MethodMaker = std::function<std::unique_ptr<Condensation::Method>(const LinearStructure&)>;
 /// Another method in units in which matrices and dynamic stiffnesses beyond 1e100 or below 1e-100 have
-/// entries near 1, so that no square of a pivot overflows; it sees ordinary ones as they are. `make` is
-/// called once.
+/// entries near 1, so that no square of a pivot overflows. Ordinary ones are not scaled. `make` is called
+/// once.
 std::unique_ptr<Condensation::Method> make_scaled_method(const LinearStructure& structure,
                                                          const MethodMaker& make);
 /// For symmetric tridiagonal M, C, K.

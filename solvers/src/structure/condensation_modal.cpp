@@ -39,8 +39,8 @@ bool solve_modes(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denomi
   return true;
 }
 
-// The ratios M/K rather than K/M where K allows it: the lowest modes are then the accurate ones, and a
-// contact without mass is a mode like any other.
+// If K is positive definite the ratios M/K are computed rather than K/M. The lowest modes are then the
+// accurate ones, and a contact without mass is a mode like any other.
 std::optional<Modes> decouple(const LinearStructure& structure) {
   const Eigen::MatrixXd mass(structure.mass), stiffness(structure.stiffness);
   Modes modes;
@@ -56,7 +56,8 @@ std::optional<Modes> decouple(const LinearStructure& structure) {
   modes.damping = damping.diagonal();
   Eigen::MatrixXd coupling = damping;
   coupling.diagonal().setZero();
-  // A modal damping matrix is made of modes that are known to eps times the spread of their eigenvalues.
+  // A modal damping matrix is computed from modes that are accurate to eps times the spread of their
+  // eigenvalues.
   constexpr double tolerance = 1e-8;
   if (coupling.cwiseAbs().maxCoeff() > tolerance * modes.damping.cwiseAbs().maxCoeff()) return std::nullopt;
   return modes;
@@ -75,11 +76,11 @@ class ModalMethod final : public Condensation::Method {
   int contacts() const override { return static_cast<int>(contacts_.rows()); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
-                                    const ImpedanceCoefficients& rates) override {
+                                    const ImpedanceCoefficients& derivatives) override {
     const Eigen::ArrayXcd compliance = invert(factors);
-    const Eigen::ArrayXcd slope = -compliance.square() * combine(rates);
+    const Eigen::ArrayXcd slope = -compliance.square() * combine(derivatives);
     const Eigen::Index count = contacts_.rows();
-    // Real and imaginary parts of both in one real product.
+    // One real product computes the real and imaginary parts of both.
     Eigen::MatrixXd weighted(4 * count, contacts_.cols());
     weighted << contacts_ * compliance.real().matrix().asDiagonal(),
         contacts_ * compliance.imag().matrix().asDiagonal(), contacts_ * slope.real().matrix().asDiagonal(),

@@ -11,13 +11,13 @@ constexpr double least_ordinary = 1e-100, most_ordinary = 1e100;
 
 bool is_ordinary(double size) { return size >= least_ordinary && size <= most_ordinary; }
 
-// A power of two near `size`, by which a division does not round; 1 where none is needed.
+// A power of two near `size`, so that dividing by it does not round; 1 if no scaling is needed.
 double unit_of(double size) {
   const bool none = is_ordinary(size) || size == 0.0 || !std::isfinite(size);
   return none ? 1.0 : std::ldexp(1.0, std::ilogb(size));
 }
 
-// (M, C, K) / (largest entry of each), where that is out of the ordinary.
+// (M, C, K), each divided by its largest entry if that is out of the ordinary range.
 std::array<double, 3> units_of(const StiffnessScale& scale) {
   return {unit_of(scale.largest()[0]), unit_of(scale.largest()[1]), unit_of(scale.largest()[2])};
 }
@@ -37,9 +37,9 @@ class ScaledMethod final : public Condensation::Method {
   int contacts() const override { return method_->contacts(); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
-                                    const ImpedanceCoefficients& rates) override {
+                                    const ImpedanceCoefficients& derivatives) override {
     const double unit = unit_of(scale_.size(factors));
-    CondensedPoint point = method_->dynamic_compliance(in_units(factors, unit), in_units(rates, unit));
+    CondensedPoint point = method_->dynamic_compliance(in_units(factors, unit), in_units(derivatives, unit));
     take_condition();
     const double per_unit = 1.0 / unit;  // Eigen divides by the square of a complex divisor, which overflows
     point.compliance *= per_unit;
@@ -49,10 +49,10 @@ class ScaledMethod final : public Condensation::Method {
     return point;
   }
 
-  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                 CondensedSpectrum& result) override {
-    if (!is_ordinary_spectrum(factors)) return Method::condense(factors, rates, result);
-    method_->condense(factors, rates, result);
+    if (!is_ordinary_spectrum(factors)) return Method::condense(factors, derivatives, result);
+    method_->condense(factors, derivatives, result);
     take_condition();
   }
 
@@ -77,7 +77,7 @@ class ScaledMethod final : public Condensation::Method {
 
   void take_condition() {
     record(method_->condition());
-    method_->forget_condition();
+    method_->reset_condition();
   }
 
   StiffnessScale scale_;

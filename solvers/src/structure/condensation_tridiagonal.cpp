@@ -10,8 +10,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// std::complex division guards against overflow at a cost that dominates the elimination; pivots are far from
-// it.
+// std::complex division checks for overflow, which would dominate the cost of the elimination. Pivots are
+// scaled, so that it cannot occur.
 Complex reciprocal(Complex z) {
   const double scale = 1.0 / (z.real() * z.real() + z.imag() * z.imag());
   return {z.real() * scale, -z.imag() * scale};
@@ -52,14 +52,14 @@ class TridiagonalMethod final : public Condensation::Method {
   int contacts() const override { return static_cast<int>(contacts_.size()); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
-                                    const ImpedanceCoefficients& rates) override {
+                                    const ImpedanceCoefficients& derivatives) override {
     if (!factorize(factors)) {
-      const CondensedPoint point = pivoting().dynamic_compliance(factors, rates);
+      const CondensedPoint point = pivoting().dynamic_compliance(factors, derivatives);
       record(pivoting().condition());
       return point;
     }
     CondensedPoint point;
-    set_compliance(factors, rates, point);
+    set_compliance(factors, derivatives, point);
     if (load_at_contact_) {
       point.load_response = load_[single_] * point.compliance;
       point.load_response_slope = load_[single_] * point.compliance_slope;
@@ -70,16 +70,16 @@ class TridiagonalMethod final : public Condensation::Method {
     point.load_response = loaded_(contacts_);
     point.load_response_slope.resize(contacts());
     for (std::size_t c = 0; c < contacts_.size(); ++c)
-      point.load_response_slope[Eigen::Index(c)] = -product(units_[c], rates, loaded_);
+      point.load_response_slope[Eigen::Index(c)] = -product(units_[c], derivatives, loaded_);
     return point;
   }
 
-  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates,
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                 CondensedSpectrum& result) override {
-    if (single_ != size() - 1 || !load_at_contact_) return Method::condense(factors, rates, result);
-    PivotRecursion recursion(factors, rates);
+    if (single_ != size() - 1 || !load_at_contact_) return Method::condense(factors, derivatives, result);
+    PivotRecursion recursion(factors, derivatives);
     for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
-    if (recursion.weak()) return Method::condense(factors, rates, result);
+    if (recursion.weak()) return Method::condense(factors, derivatives, result);
     recursion.last(result.compliance.col(0), result.compliance_slope.col(0));
     result.load_response = load_[single_] * result.compliance;
     result.load_response_slope = load_[single_] * result.compliance_slope;
@@ -126,8 +126,8 @@ class TridiagonalMethod final : public Condensation::Method {
     return true;
   }
 
-  // By columns of Z^-1 at the contacts, left in units_.
-  void set_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates,
+  // Computes the columns of Z^-1 at the contacts, in units_.
+  void set_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& derivatives,
                       CondensedPoint& point) {
     point.compliance.resize(contacts(), contacts());
     point.compliance_slope.resize(contacts(), contacts());
@@ -141,12 +141,12 @@ class TridiagonalMethod final : public Condensation::Method {
         const auto row = Eigen::Index(d);
         point.compliance(row, column) = point.compliance(column, row) = units_[c][contacts_[d]];
         point.compliance_slope(row, column) = point.compliance_slope(column, row) =
-            -product(units_[d], rates, units_[c]);
+            -product(units_[d], derivatives, units_[c]);
       }
     }
   }
 
-  // Elimination with row exchanges, made when it is first needed.
+  // Elimination with row exchanges, constructed when it is first needed.
   Condensation::Method& pivoting() {
     if (!pivoting_) pivoting_ = make_sparse_method(structure_);
     return *pivoting_;
@@ -183,7 +183,7 @@ class TridiagonalMethod final : public Condensation::Method {
   int single_;  // the contact when there is one, or else -1
   bool load_at_contact_;
   Eigen::VectorXcd diagonal_, off_, inverse_pivot_;
-  std::vector<Eigen::VectorXcd> units_;  // one a contact
+  std::vector<Eigen::VectorXcd> units_;  // one column per contact
   Eigen::VectorXcd loaded_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace wavebalance::solvers {
 
-PivotRecursion::PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates)
+PivotRecursion::PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives)
     : chunks_(static_cast<std::size_t>((factors[0].size() + block_size - 1) / block_size)) {
   const Eigen::Index last = factors[0].size() - 1;
   for (std::size_t c = 0; c < chunks_.size(); ++c)
@@ -15,8 +15,8 @@ PivotRecursion::PivotRecursion(const StiffnessSpectrum& factors, const Stiffness
         const Eigen::Index k = std::min(static_cast<Eigen::Index>(c) * block_size + i, last);
         chunk.factors[d].re[i] = factors[d][k].real();
         chunk.factors[d].im[i] = factors[d][k].imag();
-        chunk.rates[d].re[i] = rates[d][k].real();
-        chunk.rates[d].im[i] = rates[d][k].imag();
+        chunk.derivatives[d].re[i] = derivatives[d][k].real();
+        chunk.derivatives[d].im[i] = derivatives[d][k].imag();
       }
       chunk.magnitudes[d] = chunk.factors[d].re.abs() + chunk.factors[d].im.abs();
     }
@@ -34,15 +34,15 @@ void PivotRecursion::eliminate(const Row& row) {
 }
 
 void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
-  const auto& [factors, rates, magnitudes, inverse, slope] = chunk;
+  const auto& [factors, derivatives, magnitudes, inverse, slope] = chunk;
   Parts pivot = combine(factors, row.diagonal);
-  Parts rate = combine(rates, row.diagonal);
+  Parts rate = combine(derivatives, row.diagonal);
   // The size of the terms, not of their sum: at a natural frequency of an undamped structure they cancel.
   const Block scale = magnitudes[0] * std::abs(row.diagonal[0]) + magnitudes[1] * std::abs(row.diagonal[1]) +
                       magnitudes[2] * std::abs(row.diagonal[2]);
   if (!first_) {
     const Parts off = combine(factors, row.off);
-    const Parts off_rate = combine(rates, row.off);
+    const Parts off_rate = combine(derivatives, row.off);
     // w = off / d, so that d_i = z_ii - off w and d_i' = z_ii' - 2 off' w - off^2 (1/d)'.
     const Parts w{off.re * inverse.re - off.im * inverse.im, off.re * inverse.im + off.im * inverse.re};
     const Parts square{off.re * off.re - off.im * off.im, 2.0 * off.re * off.im};

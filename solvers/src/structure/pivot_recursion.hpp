@@ -11,12 +11,12 @@ namespace wavebalance::solvers {
 constexpr double weak_pivot = 1e-8;
 
 /// The pivots d_i = z_ii - z_{i,i-1}^2 / d_{i-1} of symmetric tridiagonal dynamic stiffnesses Z(k), k =
-/// 0..K-1, and their derivatives along the rates, row by row for all k at once: 1/d_n is the compliance of
+/// 0..K-1, and their derivatives, row by row for all k at once: 1/d_n is the compliance of
 /// the last degree of freedom, and no back substitution is needed. Real and imaginary parts lie apart, in
-/// blocks of a fixed size, so that the loops vectorise and nothing is allocated on the way.
+/// blocks of a fixed size, so that the loops vectorise and do not allocate.
 class PivotRecursion {
  public:
-  PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates);
+  PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives);
 
   /// Entries of mass, damping and stiffness in one row.
   struct Row {
@@ -25,7 +25,7 @@ class PivotRecursion {
   };
   void eliminate(const Row& row);
 
-  /// Whether a pivot nearly vanished: elimination without row exchanges is then not to be trusted.
+  /// Whether a pivot nearly vanished, so that elimination without row exchanges is inaccurate.
   bool weak() const { return weak_; }
   /// 1/d and its derivative after the last row, K values each.
   void last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope) const;
@@ -36,10 +36,10 @@ class PivotRecursion {
   struct Parts {
     Block re, im;
   };
-  struct Chunk {  // of k; the last one is filled up with its last value
-    std::array<Parts, 3> factors, rates;
-    std::array<Block, 3> magnitudes;  // of the factors
-    Parts inverse, slope;             // of 1/d
+  struct Chunk {  // a block of values of k; the last block is filled up with its last value
+    std::array<Parts, 3> factors, derivatives;
+    std::array<Block, 3> magnitudes;  // absolute values of the factors
+    Parts inverse, slope;             // 1/d and its derivative
   };
   static Parts combine(const std::array<Parts, 3>& spectrum, const std::array<double, 3>& entries);
   void eliminate(const Row& row, Chunk& chunk);

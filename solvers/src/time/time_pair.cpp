@@ -11,8 +11,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// How many of the `derivative` derivatives stand on the trial function; the others, with a sign each, on the
-// weight.
+// The number of the `derivative` derivatives that are taken of the trial function. The others are taken of
+// the weight, each with a change of sign.
 int trial_order(Formulation formulation, int derivative) {
   switch (formulation) {
     case Formulation::strong:

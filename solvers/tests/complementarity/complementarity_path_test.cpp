@@ -101,7 +101,7 @@ TEST(ComplementarityPath, FollowsObstaclesToOtherPlacesAndStiffnesses) {
   }
 }
 
-TEST(ComplementarityPath, EndsWhereItIsToldToAndSaysSo) {
+TEST(ComplementarityPath, EndsAtItsLimitsWithTheirStatus) {
   CondensedProblem problem = small_problem(1, 15, 64);
   const Eigen::VectorXd& free = problem.contact_free_response();
   const Obstacles obstacles{Eigen::VectorXd::Constant(64, 0.2 * free.maxCoeff()) - free,
@@ -121,7 +121,7 @@ TEST(ComplementarityPath, EndsWhereItIsToldToAndSaysSo) {
   path.set_observer({});
   path.limit_operations(1.0);
   EXPECT_EQ(path.lower(obstacles, even), End::effort_limit);
-  EXPECT_FALSE(path.may_go_on());
+  EXPECT_FALSE(path.has_operations_left());
   const Obstacles away{Eigen::VectorXd::Constant(64, 2.0 * free.maxCoeff()) - free, obstacles.flexibility};
   EXPECT_EQ(path.lower(away, even), End::reached);
   EXPECT_TRUE(path.force().isZero(0.0));

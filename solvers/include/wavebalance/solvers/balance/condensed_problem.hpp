@@ -10,7 +10,7 @@
 namespace wavebalance::solvers {
 
 /// The periodic problem of C contact degrees of freedom at one frequency, written for the displacement
-/// samples u (N values a contact at t_l = l/N; contact c has entries [c N, (c + 1) N)):
+/// samples u (N values per contact at t_l = l/N; contact c has entries [c N, (c + 1) N)):
 ///
 ///   u = u0 - K f_c(u),
 ///
@@ -69,7 +69,7 @@ class CondensedProblem {
   Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
 
   /// Spectra over translates of the coefficients of all n degrees of freedom, n x (M/2 + 1), for force
-  /// samples of all contacts (samples()). O(n M), or M/2 + 1 factorisations.
+  /// samples of all contacts (samples()). Throws SingularSystem. O(n M), or M/2 + 1 factorisations.
   Eigen::MatrixXcd full_coefficients(const Eigen::VectorXd& force);
 
  private:
@@ -83,12 +83,12 @@ class CondensedProblem {
   Condensation condensation_;
   Eigen::VectorXcd load_;  // projected load, spectrum over translates
   double frequency_ = 0.0;
-  StiffnessSpectrum factors_, rates_;
+  StiffnessSpectrum factors_, derivatives_;
   CondensedSpectrum condensed_;  // load responses times the projected load
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
   Eigen::MatrixXd columns_;
-  std::vector<bool> columns_are_current_;  // of each contact
+  std::vector<bool> columns_are_current_;  // one entry per contact
   struct Work;
   std::unique_ptr<Work> work_;
 };

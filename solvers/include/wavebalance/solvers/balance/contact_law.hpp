@@ -6,8 +6,8 @@
 
 namespace wavebalance::solvers {
 
-/// What the solvers ask of a contact law: a force that depends on the displacement of one contact degree of
-/// freedom. A law of one's own is a struct with these four const members.
+/// Requirements on a contact law, a force that depends on the displacement of one contact degree of freedom.
+/// A law of one's own is a struct with these four const members.
 template <class Law>
 concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, double displacement) {
   { law.force(displacement) } -> std::convertible_to<double>;      // N, opposes a positive displacement
@@ -16,8 +16,9 @@ concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, do
   { law.gap() } -> std::convertible_to<double>;                    // m, where the force starts
 };
 
-/// A law that also answers force and tangent at once, `evaluate(u)` with members `force` and `tangent`, is
-/// asked that way where both are needed: an exponential law then takes one exponential, not two.
+/// A law that also computes force and tangent together. Its `evaluate(u)` returns members `force` and
+/// `tangent` and is called where both are needed, so that an exponential law evaluates one exponential, not
+/// two.
 template <class Law>
 concept EvaluatesTogether = requires(const Law& law, double displacement) {
   { law.evaluate(displacement).force } -> std::convertible_to<double>;    // N
@@ -31,7 +32,7 @@ class AnyContactLaw {
   /// No contact: force, tangent and potential are zero and the gap is infinite.
   AnyContactLaw();
 
-  template <class Law>  // the type is asked first: ContactLaw asks for copies, and would ask itself again
+  template <class Law>  // same_as comes first: ContactLaw tests copies and would otherwise test itself again
   requires(!std::same_as<Law, AnyContactLaw> && ContactLaw<Law>)
       AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
       : model_(std::make_shared<Model<Law>>(std::move(law))) {}

@@ -22,7 +22,7 @@ class ContactLaws {
   /// One law each. Throws std::invalid_argument when empty.
   ContactLaws(std::vector<AnyContactLaw> laws);  // NOLINT
 
-  /// Of contact c >= 0.
+  /// The law of contact c >= 0.
   const AnyContactLaw& operator[](int contact) const {
     return laws_.size() == 1 ? laws_.front() : laws_[static_cast<std::size_t>(contact)];
   }

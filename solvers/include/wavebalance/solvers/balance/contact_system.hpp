@@ -16,7 +16,7 @@ using ActiveMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 enum class LinearSolver {
   automatic,  ///< LU for few active samples, GMRES for many
   dense,      ///< LU of the active samples, O(active^3)
-  krylov  ///< GMRES with FFT products and J on its low harmonics as preconditioner, O(N log N) an iteration
+  krylov  ///< GMRES with FFT products and J on its low harmonics as preconditioner, O(N log N) per iteration
 };
 
 /// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
@@ -35,15 +35,15 @@ class ContactSystem {
 
   CondensedProblem& problem() { return *problem_; }
   const ContactLaws& laws() const { return laws_; }
-  /// Of the contact that a sample belongs to; its gap in m.
+  /// The law of the contact that a sample belongs to, and its gap in m.
   const AnyContactLaw& law_at(int sample) const { return laws_[sample / problem_->points()]; }
   double gap_at(int sample) const { return gaps_[sample / problem_->points()]; }
 
   /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
   double evaluate(const Eigen::VectorXd& displacement);
-  /// The same with every sample kept on one side of its gap, samples() values: one that presses feels its
-  /// law's tangent also below the gap, a free one no force beyond it. Equal to evaluate() where the sides are
-  /// those of `displacement`, and smooth across the gaps.
+  /// The same with every sample kept on one side of its gap, samples() values. Where `presses` is true the
+  /// law is continued below the gap by its tangent there; elsewhere the force is zero, also beyond the gap.
+  /// Equal to evaluate() where the sides are those of `displacement`, and smooth across the gaps.
   double evaluate(const Eigen::VectorXd& displacement, const ActiveMask& presses);
 
   const Eigen::VectorXd& force() const { return force_; }        ///< f_c(u), N
@@ -55,6 +55,7 @@ class ContactSystem {
   /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
   void set_tangent(int sample, double value) { tangent_[sample] = value; }
 
+  /// Chooses the solver of factorize() and solve() and of their bordered forms; automatic is the default.
   void set_linear_solver(LinearSolver method);
 
   /// Factorizes J restricted to the active samples, or its preconditioner. False when singular to working
@@ -64,16 +65,17 @@ class ContactSystem {
   /// that was not reached: J is singular or nearly so.
   bool solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction = 1e-10);
 
-  /// Factorizes the bordered matrix [J b; c^T d], which stays regular where the curve turns. False when
+  /// Factorizes the bordered matrix [J b; c^T d], which is regular at folds of a curve, too. False when
   /// singular.
   bool factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d);
   /// Solves J x + b y = r, c.x + d y = s.
   bool solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                       double reduction = 1e-10);
-  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when GMRES stood in for its LU.
+  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when GMRES was used in place of
+  /// LU.
   int determinant_sign() const;
 
-  /// Condition of what was factorized last, as NewtonResult says; 0 before any.
+  /// Condition of the matrix last factorized, as in NewtonResult; 0 before any.
   double condition();
 
   /// Floating-point operations that linear systems have taken so far.

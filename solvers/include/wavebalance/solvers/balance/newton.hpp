@@ -14,7 +14,7 @@ enum class SolveStatus {
   iteration_limit,  ///< iterations used up
   effort_limit,     ///< operations used up
   singular,         ///< the Newton matrix is singular, or so nearly that GMRES does not converge
-  cancelled         ///< the observer asked to stop
+  cancelled         ///< the observer returned false
 };
 
 std::string_view to_string(SolveStatus status);
@@ -23,7 +23,7 @@ std::string_view to_string(SolveStatus status);
 struct NewtonOptions {
   double tolerance = 1e-11;      ///< on ||R|| / (||u0|| + ||K f||)
   int max_iterations = 60;       ///< 0 evaluates the start alone
-  double min_step = 1.0 / 4096;  ///< of the line search, relative to the Newton step
+  double min_step = 1.0 / 4096;  ///< least step of the line search, relative to the Newton step
   LinearSolver linear_solver = LinearSolver::automatic;
   Observer observer;  ///< called before each iteration
 
@@ -31,6 +31,7 @@ struct NewtonOptions {
   void validate() const;
 };
 
+/// How a Newton iteration ended.
 struct NewtonResult {
   SolveStatus status = SolveStatus::iteration_limit;
   int iterations = 0;
@@ -43,8 +44,8 @@ struct NewtonResult {
 };
 
 /// Semismooth Newton iteration (L. Qi, J. Sun, Math. Program. 58, 1993, doi:10.1007/BF01581275) with a line
-/// search on ||R||^2 from the displacement samples in `u`, which it improves in place and leaves at the
-/// smallest residual found. O(active^3 + N log N) per iteration, or with GMRES for many active samples O(N
+/// search on ||R||^2 from the displacement samples in `u`. `u` is changed in place and holds the iterate
+/// of the smallest residual. O(active^3 + N log N) per iteration, or with GMRES for many active samples O(N
 /// log N) per product, with a few products per iteration. Throws what NewtonOptions::validate throws.
 NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options);
 

@@ -5,7 +5,7 @@
 
 namespace wavebalance::solvers {
 
-/// How far a long computation has come.
+/// State of a long computation.
 struct Progress {
   std::string_view phase;  ///< what is done: "Newton", "lowering the obstacle", "frequency sweep"
   int step = 0;            ///< steps of this phase so far
@@ -15,11 +15,11 @@ struct Progress {
       std::numeric_limits<double>::quiet_NaN();  ///< share of the whole work, 0..1; NaN when unknown
 };
 
-/// Called now and then during long work; the texts live as long as the call. Returns false to stop the work,
+/// Called repeatedly during long work; the texts live as long as the call. Returns false to stop the work,
 /// whose status is then `cancelled`. An empty observer stops nothing.
 using Observer = std::function<bool(const Progress&)>;
 
-/// False when there is an observer and it asks to stop.
+/// False when there is an observer and it returns false.
 inline bool goes_on(const Observer& observer, const Progress& progress) {
   return !observer || observer(progress);
 }

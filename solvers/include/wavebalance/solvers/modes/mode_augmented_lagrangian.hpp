@@ -10,15 +10,15 @@
 
 namespace wavebalance::solvers {
 
-/// How a point of the augmented Lagrangian was found, or why not.
+/// How a point of the augmented Lagrangian was found, or why none was.
 enum class LagrangianStatus {
-  converged,           ///< critical point, and both of Powell's measures below the strategy's tolerances
-  linear,              ///< the same without a contact force: the linear mode
-  inner_stalled,       ///< Newton could not reduce the gradient
-  inner_limit,         ///< Newton ran out of iterations
-  singular,            ///< the Hessian is singular to working precision, and its least-squares step is not finite
-  outer_stalled,       ///< the multiplier strategy had nothing left to change
-  outer_limit,         ///< multipliers ran out of iterations
+  converged,      ///< critical point, and both of Powell's measures below the strategy's tolerances
+  linear,         ///< the same without a contact force: the linear mode
+  inner_stalled,  ///< Newton could not reduce the gradient
+  inner_limit,    ///< Newton ran out of iterations
+  singular,       ///< the Hessian is singular to working precision, and its least-squares step is not finite
+  outer_stalled,  ///< the multiplier strategy had nothing left to change
+  outer_limit,    ///< multipliers ran out of iterations
   internal_resonance,  ///< "tongue": solved, but on an internal resonance, LagrangianPoint::resonance
   left_mode  ///< solved, but too little of the kinetic energy is in harmonic 1: another critical point
 };
@@ -39,11 +39,11 @@ struct LagrangianModeOptions {
   ModeFormulation formulation = ModeFormulation::consistent;
   EigenvalueUpdate eigenvalue = EigenvalueUpdate::simultaneous;
   double inner_tolerance = 1e-11;  ///< largest entry of the gradient, in units omega_1 = gap = 1
-  int max_inner_iterations = 60;   ///< of Newton, per outer iteration
-  int max_outer_iterations = 60;   ///< of the multipliers, per energy
-  int max_step_halvings = 12;      ///< of an energy step that fails, per energy in branch()
-  double min_fundamental_share =
-      0.5;                          ///< of the kinetic energy in harmonic 1; below it the status is left_mode
+  int max_inner_iterations = 60;   ///< Newton steps per outer iteration
+  int max_outer_iterations = 60;   ///< updates of the multipliers per energy
+  int max_step_halvings = 12;      ///< halvings of failed energy steps, per energy in branch()
+  /// Least share of the kinetic energy in harmonic 1; below it the status is left_mode.
+  double min_fundamental_share = 0.5;
   double resonance_share = 0.15;    ///< as in NonlinearModeOptions
   double resonance_detuning = 0.1;  ///< as in NonlinearModeOptions
 
@@ -70,7 +70,7 @@ struct LagrangianStart {
 struct LagrangianPoint {
   LagrangianStatus status = LagrangianStatus::outer_limit;
   double prescribed_ratio = 0.0;   ///< gamma over its value at linear grazing, as prescribed
-  double energy_ratio = 0.0;       ///< of the motion found: m/2 with n^2, over the same
+  double energy_ratio = 0.0;       ///< m/2 with n^2 of the motion found, over the same
   double omega = 0.0;              ///< rad/s, by the formulation's own formula
   double rayleigh = 0.0;           ///< r, (rad/s)^2 [LL10, eq. (24a)]
   Eigen::MatrixXcd amplitudes;     ///< r x (N+1), m sqrt(kg)
@@ -79,7 +79,7 @@ struct LagrangianPoint {
   double virial_residual = 0.0;    ///< |omega^2 - (r - mu m/2)| / omega^2, mu the multiplier of h
   double max_penetration = 0.0;    ///< over the gap, at the samples
   double min_force = 0.0;          ///< N
-  double fundamental_share = 0.0;  ///< of the kinetic energy in harmonic 1
+  double fundamental_share = 0.0;  ///< share of the kinetic energy in harmonic 1
   InternalResonance resonance;     ///< the strongest internal resonance, whatever its share
   std::vector<OuterIteration> history;
 

@@ -4,7 +4,7 @@
 
 namespace wavebalance::solvers {
 
-/// What the augmented Lagrangian asks of the outer iteration on theta and kappa: the terms
+/// Requirements of the augmented Lagrangian on the outer iteration on theta and kappa: the terms
 ///   1/2 sum kappa (g + theta)_+^2 + 1/2 sum kappa_e (h + theta_e)^2   [LL10, eq. (18)]
 /// of the inequality constraints g <= 0 and equality constraints h = 0, and their update [LL10, Algorithm 3].
 /// contact::MultiplierUpdate is one.
@@ -13,13 +13,13 @@ concept MultiplierStrategy = requires(Strategy& strategy, const Strategy& fixed,
                                       std::span<double> out) {
   { fixed.inequalities() } -> std::convertible_to<int>;
   { fixed.equalities() } -> std::convertible_to<int>;
-  fixed.inequality_force(in, out, out);  // of g: kappa (g + theta)_+, and kappa where g + theta >= 0, else 0
-  fixed.equality_force(in, out);         // of h: kappa_e (h + theta_e)
+  fixed.inequality_force(in, out, out);  // for g: kappa (g + theta)_+, and kappa where g + theta >= 0, else 0
+  fixed.equality_force(in, out);         // for h: kappa_e (h + theta_e)
   { fixed.inequality_term(in) } -> std::convertible_to<double>;
   { fixed.equality_term(in) } -> std::convertible_to<double>;
   { fixed.equality_penalties()[0] } -> std::convertible_to<double>;
   strategy.restart(in, in);  // begin anew from multipliers kappa theta and kappa_e theta_e
-  { strategy.update(in, in).converged() } -> std::convertible_to<bool>;  // of g and h
+  { strategy.update(in, in).converged() } -> std::convertible_to<bool>;  // measures of g and h
   { strategy.update(in, in).stalled() } -> std::convertible_to<bool>;    // the same problem would follow
   { strategy.update(in, in).inequality_measure } -> std::convertible_to<double>;  // Powell's G_i, G_e,
   { strategy.update(in, in).equality_measure } -> std::convertible_to<double>;    // before the update

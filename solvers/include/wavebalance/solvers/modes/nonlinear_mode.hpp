@@ -20,7 +20,7 @@ struct ModalModel {
   void validate() const;
 };
 
-/// How a point of a nonlinear mode was found, or why not.
+/// How a point of a nonlinear mode was found, or why none was.
 enum class ModeStatus {
   converged,          ///< gap >= 0, force >= 0, product 0 at every sample
   linear,             ///< below contact: the linear mode
@@ -47,7 +47,7 @@ struct NonlinearModeOptions {
   int samples = 20;          ///< m >= 2N, uniform times t_k = k T/m at which complementarity holds
   bool cosine_only = false;  ///< seek motions that are even in time: half the unknowns
   double tolerance = 1e-10;  ///< penetration over the gap that counts as contact
-  int max_iterations = 200;  ///< of the active set, per number of harmonics
+  int max_iterations = 200;  ///< exchanges of the active set, per number of harmonics
   /// A point is on an internal resonance if one higher harmonic n of one mode j has this share of the kinetic
   /// energy, and |n omega - omega_j| is below resonance_detuning omega_j.
   double resonance_share = 0.15;
@@ -64,7 +64,7 @@ struct NonlinearModeOptions {
 struct ModePoint {
   ModeStatus status = ModeStatus::no_contact;
   double omega = 0.0;             ///< rad/s
-  int iterations = 0;             ///< of the active set, over all numbers of harmonics
+  int iterations = 0;             ///< exchanges of the active set, over all numbers of harmonics
   std::vector<int> active;        ///< contact * samples + time of the samples in contact
   Eigen::MatrixXd force;          ///< c x m, N, contact force at the samples
   Eigen::MatrixXcd amplitudes;    ///< r x (N+1), m sqrt(kg), q_n for n = 0..N
@@ -73,7 +73,7 @@ struct ModePoint {
   double virial_residual = 0.0;   ///< |omega^2 - r - <force> g0 / m| / omega^2, zero for exact motions
   double max_penetration = 0.0;   ///< over the gap, between the samples too
   double min_force = 0.0;         ///< N, the smallest force at a sample
-  double contact_fraction = 0.0;  ///< of the samples, any contact degree of freedom
+  double contact_fraction = 0.0;  ///< share of the samples with contact of any degree of freedom
   InternalResonance resonance;    ///< the strongest internal resonance, whatever its share
 
   bool accepted() const { return status == ModeStatus::converged || status == ModeStatus::linear; }
@@ -114,11 +114,11 @@ class NonlinearMode {
 /// The frequencies of a backbone.
 struct BackboneOptions {
   double first_ratio = 1.001;  ///< omega / linear omega of the first point
-  double last_ratio = 1.3;     ///< and of the last
+  double last_ratio = 1.3;     ///< omega / linear omega of the last point
   int points = 200;            ///< uniform in omega
   double max_energy = 10.0;    ///< the curve ends once the energy ratio is above
-  /// Of ln(energy ratio) between accepted neighbours; above it a point is solved anew by harmonic
-  /// continuation.
+  /// Largest change of ln(energy ratio) between accepted neighbours. Above it a point is solved anew by
+  /// harmonic continuation.
   double max_jump = 0.25;
   Observer observer = {};  ///< called before each point; the curve ends when it returns false
 

@@ -6,7 +6,8 @@ namespace wavebalance::solvers {
 /// The form x^T A x = sum_b factor_b x_b^T S x_b over the blocks x_b (n entries each) of x, one matrix S.
 class HarmonicForm {
  public:
-  /// matrix: n x n symmetric; factors: one a block. Throws std::invalid_argument if the matrix is not square.
+  /// matrix: n x n symmetric; factors: one per block. Throws std::invalid_argument if the matrix is not
+  /// square.
   HarmonicForm(Eigen::MatrixXd matrix, Eigen::VectorXd factors);
 
   Eigen::Index size() const { return matrix_.rows() * factors_.size(); }

@@ -9,8 +9,8 @@ struct PeriodSamples {
   Eigen::VectorXd displacement;   ///< contacts x points, contact-major, m
   Eigen::VectorXd velocity;       ///< the same, m/s
   Eigen::VectorXd contact_force;  ///< the same, N
-  Eigen::MatrixXd displacements;  ///< n x points, m, or empty when the full history was not asked for
-  Eigen::MatrixXd velocities;     ///< n x points, m/s, or empty when the full history was not asked for
+  Eigen::MatrixXd displacements;  ///< n x points, m, empty without full_history
+  Eigen::MatrixXd velocities;     ///< n x points, m/s, empty without full_history
 
   int contacts = 1;
 

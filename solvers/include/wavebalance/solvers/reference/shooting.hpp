@@ -15,7 +15,7 @@ enum class ShootingStatus {
   stalled,          ///< no step along Newton's direction reduces the residual
   iteration_limit,  ///< iterations used up
   step_failure,     ///< the contact force could not be resolved in time, e.g. a law that jumps
-  cancelled         ///< the observer asked to stop
+  cancelled         ///< the observer returned false
 };
 
 std::string_view to_string(ShootingStatus status);
@@ -24,9 +24,9 @@ std::string_view to_string(ShootingStatus status);
 struct ShootingOptions {
   int output_points = 1024;   ///< uniform samples of the period
   int settling_periods = 10;  ///< periods integrated from the initial state before Newton starts
-  int max_iterations = 30;    ///< of Newton on the period map
+  int max_iterations = 30;    ///< Newton steps on the period map
   double tolerance = 1e-11;   ///< on the relative change of the state over one period, in the energy norm
-  /// Bound of a step's error in the contact impulse, relative to the period times the largest force.
+  /// Bound on a step's error in the contact impulse, relative to the period times the largest force.
   double step_tolerance = 1e-12;
   bool full_history = false;             ///< also keep every degree of freedom
   Eigen::VectorXd initial_displacement;  ///< n, m, at t = 0; empty: that of the response without contact
@@ -59,7 +59,7 @@ struct ShootingResult {
 /// the damping of the mode. Steps are halved about the instants where the law has its kink. Contacts shorter
 /// than about a thousandth of the period that start and end between two points can be missed.
 ///
-/// Cost: O(n^2) a step, O(n^3) an iteration, O(n^2) memory, at least 512 steps a period.
+/// Cost: O(n^2) per step, O(n^3) per iteration, O(n^2) memory, at least 512 steps per period.
 ///
 /// Throws std::invalid_argument when the structure does not fit together, its mass is not positive definite,
 /// its modes do not decouple the damping, an undamped mode is loaded at its own frequency, frequency_hz (Hz)

@@ -14,7 +14,7 @@ enum class TimeSteppingStatus {
   converged,        ///< two successive periods agree
   iteration_limit,  ///< the periods or the steps ran out first
   step_failure,     ///< the integrator found no step that meets its tolerance
-  cancelled         ///< the observer asked to stop
+  cancelled         ///< the observer returned false
 };
 
 std::string_view to_string(TimeSteppingStatus status);

@@ -12,11 +12,11 @@ namespace wavebalance::solvers {
 ///
 /// Velocities are sum_j a_j q_j'(t) / T [JL14, eq. (34)]. Trial functions without a pointwise derivative
 /// (Haar) take the jump between neighbouring cells divided by the cell width, placed at the cell edge and
-/// held for half a cell on either side: what the paper's delta functions amount to. Owns plans: one object a
-/// thread.
+/// held for half a cell on either side, which spreads the paper's delta functions over one cell. Owns plans:
+/// one object per thread.
 class MotionEvaluator {
  public:
-  /// `points` as TrialEvaluator wants them.
+  /// `points` as in the constructor of TrialEvaluator.
   MotionEvaluator(const AnyTimeBasis& trial, int points);
 
   int points() const { return points_; }
@@ -44,12 +44,12 @@ struct PeriodicField {
   Eigen::MatrixXd velocity;
 };
 
-/// The motion that belongs to contact force samples (samples() values, N) of a solved problem. O(n (M +
-/// points log points)).
+/// The motion under contact force samples (samples() values, N) of a solved problem. Throws SingularSystem.
+/// O(n (M + points log points)).
 PeriodicField periodic_field(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points);
 
 /// E = u'^T M u' / 2 + u^T K u / 2 + the potentials of all contacts, J, at each point [JL14, eq. (35)].
-/// Throws std::invalid_argument for laws that are neither one nor one a contact. O(n points).
+/// Throws std::invalid_argument for laws that are neither one nor one per contact. O(n points).
 Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,
                               const PeriodicField& field);
 

@@ -14,13 +14,13 @@ struct PeriodicResponse {
   double residual = 0.0;                 ///< ||R|| / (||u0|| + ||K f||)
   int iterations = 0;                    ///< Newton iterations, and pivots of complementarity paths
   Strategy strategy = Strategy::none;    ///< what found it
-  std::vector<double> residual_history;  ///< of the last Newton run
-  double condition = 0.0;                ///< of its last Newton matrix, see NewtonResult
+  std::vector<double> residual_history;  ///< residuals of the last Newton run
+  double condition = 0.0;                ///< NewtonResult::condition of that run
   Eigen::VectorXd displacement;          ///< m, samples() values, contact-major
   Eigen::VectorXd contact_force;         ///< N, samples() values
-  /// Whether contact_force is what makes the motion and not the law's at it: a law so stiff that
-  /// displacements do not resolve its penetration is met in displacement, to 1e-9 of the motion, which
-  /// `residual` then says.
+  /// Whether contact_force is the force in the balance rather than the law's force at the displacement. This
+  /// is so for a law whose penetration is below rounding of the displacement. The law is then satisfied in
+  /// displacement, to 1e-9 of the motion, and `residual` is that mismatch.
   bool force_by_balance = false;
   Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
 

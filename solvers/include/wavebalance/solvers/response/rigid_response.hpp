@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers {
 
-/// How far samples are from u <= gap, force >= 0 and their product 0, over all contacts.
+/// Violation of u <= gap, force >= 0 and product 0 at the samples, over all contacts.
 struct Complementarity {
   double max_penetration = 0.0;  ///< max(u - gap), m; negative when nothing touches
   double min_force = 0.0;        ///< N
@@ -16,11 +16,11 @@ struct Complementarity {
 
 Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
                                 double gap);
-/// Of contacts with a gap each, samples contact-major.
+/// The same for contacts with one gap each, samples contact-major.
 Complementarity complementarity(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
                                 const Eigen::VectorXd& gaps);
 
-/// What is asked of a response with rigid contact.
+/// When a response counts as one with rigid contact, and limits of its solution.
 struct RigidResponseOptions {
   /// Penetration at the N points that counts as rigid, over the largest of |u0| and u0 - gap.
   double tolerance = 1e-6;
@@ -32,12 +32,12 @@ struct RigidResponseOptions {
 };
 
 /// A response with rigid (Signorini) contact. `response.status` is converged only when complementarity holds
-/// at every sample of every contact to the tolerance; otherwise the stiffest obstacle that was solved for is
-/// what it describes.
+/// at every sample of every contact to the tolerance. Otherwise the response is that of the stiffest obstacle
+/// solved for.
 struct RigidResponse {
   PeriodicResponse response;
   Complementarity complementarity;                       ///< overall
-  std::vector<Complementarity> contact_complementarity;  ///< of each contact
+  std::vector<Complementarity> contact_complementarity;  ///< one entry per contact
   double stiffness = 0.0;  ///< N/m of the last obstacle; infinity when the active set was solved exactly
   int active_samples = 0;
 };
@@ -47,11 +47,11 @@ struct RigidResponse {
 ///
 ///   u = u0 - K force,   gap - u >= 0,   force >= 0,   product 0   at all samples.
 ///
-/// An active set started from the contact-free response cycles in nearly every case. Obstacles that yield a
-/// little are lowered and stiffened along piecewise linear paths instead; their active samples are then
+/// An active set started from the contact-free response cycles in nearly every case. Instead, obstacles with
+/// a small flexibility are lowered and stiffened along piecewise linear paths. Their active samples are then
 /// solved with u = gap, which is accepted when every sign holds. With as many points as functions there may
 /// be no solution, or several. Throws std::invalid_argument for gaps that are not finite or not one per
-/// contact. O(corners (active^2 + C N log N + C^2 M)).
+/// contact. O(pivots (active^2 + C N log N + C^2 M)).
 RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& gaps,
                              const RigidResponseOptions& options);
 /// With one gap for all contacts.

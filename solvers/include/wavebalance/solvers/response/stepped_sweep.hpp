@@ -15,10 +15,11 @@ namespace wavebalance::solvers {
 std::vector<double> uniform_frequencies(double from, double to, double max_step, int max_count);
 
 /// Responses at given frequencies (Hz, > 0), one after the other, on one problem: each frequency condenses
-/// the structure once, and pair and plans are made once. solve(problem) is called with the problem at each
-/// frequency in turn and may start from what it found before. Returns what it returned; nothing where a
-/// system is singular (SingularSystem). The observer is called after each frequency; where it stops the
-/// sweep, fewer responses than frequencies are returned. The cost is that of the condensations and solves.
+/// the structure once, and pair and plans are made once. solve(problem) is called at each frequency in
+/// turn and may start from its previous response. The result has one entry per frequency: what solve
+/// returned, or nothing if a system is singular (SingularSystem). The observer is called after each
+/// frequency; when it returns false, the sweep ends and fewer responses than frequencies are returned. The
+/// cost is that of the condensations and solves.
 template <class Solve>
 auto stepped_sweep(CondensedProblem& problem, std::span<const double> frequencies, Solve solve,
                    const Observer& observer = {}) {

@@ -15,8 +15,8 @@ class SingularSystem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What C contact degrees of freedom see of a structure at one dynamic stiffness Z = s2 M + s1 C + s0 K, with
-/// S their C x n selection.
+/// The reduction of a structure to C contact degrees of freedom at one dynamic stiffness Z = s2 M + s1 C + s0
+/// K; S is their C x n selection.
 struct CondensedPoint {
   Eigen::MatrixXcd compliance;     ///< S Z^-1 S^T, C x C, m/N
   Eigen::VectorXcd load_response;  ///< S Z^-1 load, C, m for a load of unit time function
@@ -35,20 +35,20 @@ using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
 /// in column c + C d, load responses in column c.
 struct CondensedSpectrum {
   Eigen::MatrixXcd compliance, load_response;              ///< K x C^2, m/N; K x C, m
-  Eigen::MatrixXcd compliance_slope, load_response_slope;  ///< along the rates
+  Eigen::MatrixXcd compliance_slope, load_response_slope;  ///< along the derivatives of the factors
 };
 
 /// How dynamic stiffnesses are solved. n degrees of freedom, C contacts.
 enum class CondensationMethod {
   automatic,    ///< tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU
-  tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) a point, O(n) for one contact
-  modal,        ///< modes computed once, O(n^3), then O(n C^2) a point; C diagonal in the undamped modes
-  dense,        ///< one dense LU a point, O(n^3)
-  sparse        ///< one sparse LU a point
+  tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) per point, O(n) for one contact
+  modal,  ///< modes computed once, O(n^3), then O(n C^2) per point; the damping must be diagonal in them
+  dense,  ///< one dense LU per point, O(n^3)
+  sparse  ///< one sparse LU per point
 };
 
-/// Condensation of a structure on its contact degrees of freedom: rule 1 of the solvers, after which no cost
-/// depends on the structure. Immutable after construction except for work space: one object a thread.
+/// Condensation of a structure on its contact degrees of freedom, after which no cost depends on the
+/// structure. Immutable after construction except for work space: one object per thread.
 class Condensation {
  public:
   /// Throws std::invalid_argument as LinearStructure::validate does, for unsymmetric matrices, and for a
@@ -65,17 +65,21 @@ class Condensation {
   /// The method taken, never automatic.
   CondensationMethod method() const { return chosen_; }
 
-  /// Factors {s2, s1, s0} of M, C, K, and their rates {d2, d1, d0}. Throws SingularSystem.
-  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& rates);
+  /// Condenses for the factors {s2, s1, s0} of M, C, K and their derivatives {d2, d1, d0}. Throws
+  /// SingularSystem.
+  CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
+                                    const ImpedanceCoefficients& derivatives);
 
-  /// at() for all k at once, with results resized to fit. A bar that is loaded and touches at its last degree
-  /// of freedom alone takes one forward recursion, vectorised over k. K times the cost of a point.
-  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& rates, CondensedSpectrum& result);
+  /// dynamic_compliance() for all k at once, with results resized to fit. A bar that is loaded and touches at
+  /// its last degree of freedom alone takes one forward recursion, vectorised over k. K times the cost of a
+  /// point.
+  void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
+                CondensedSpectrum& result);
 
   /// Condition of the dynamic stiffnesses of the last condense(): the largest over k of (|s2| max|M| + |s1|
   /// max|C| + |s0| max|K|) ||x|| / ||b|| over the systems Z(k) x = b that were solved, a lower bound up to a
   /// factor of the row length. SingularSystem is thrown from 4.5e14 on; the vectorised recursion of a bar
-  /// sees the contact's entry of x alone.
+  /// computes the contact's entry of x alone.
   double condition() const { return condition_; }
 
   /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b

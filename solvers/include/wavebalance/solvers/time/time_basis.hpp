@@ -7,7 +7,7 @@
 
 namespace wavebalance::solvers {
 
-/// What the solvers ask of a time basis: the M translates g(t - j/M), j = 0..M-1, of one real generator g on
+/// Requirements on a time basis: the M translates g(t - j/M), j = 0..M-1, of one real generator g on
 /// the circle [0, 1). Wavelet scaling functions at level J (M = 2^J) and the Fourier space of any M are of
 /// this kind.
 template <class Basis>
@@ -15,7 +15,7 @@ concept TimeBasis = std::copy_constructible<Basis> &&
     requires(const Basis& basis, int points, int derivative) {
   { basis.functions() } -> std::convertible_to<int>;                                   // M
   { basis.samples(points, derivative) } -> std::convertible_to<Eigen::VectorXd>;       // g^(d)(l / points)
-  { basis.fourier_coefficient(points) } -> std::convertible_to<std::complex<double>>;  // of g, harmonic n
+  { basis.fourier_coefficient(points) } -> std::convertible_to<std::complex<double>>;  // harmonic n of g
   { basis.sobolev_exponent() } -> std::convertible_to<double>;    // infinity when analytic
   { basis.pointwise_derivatives() } -> std::convertible_to<int>;  // the highest order with pointwise values
   { basis.band_limited() } -> std::convertible_to<bool>;          // no harmonics above M/2
@@ -25,7 +25,7 @@ concept TimeBasis = std::copy_constructible<Basis> &&
 /// basis.
 class AnyTimeBasis {
  public:
-  template <class Basis>  // the type is asked first: TimeBasis asks for copies, and would ask itself again
+  template <class Basis>  // same_as comes first: TimeBasis tests copies and would otherwise test itself again
   requires(!std::same_as<Basis, AnyTimeBasis> && TimeBasis<Basis>)
       AnyTimeBasis(Basis basis)  // NOLINT: a basis is meant to convert
       : model_(std::make_shared<Model<Basis>>(std::move(basis))) {}

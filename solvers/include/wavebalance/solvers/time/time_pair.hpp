@@ -24,7 +24,7 @@ class InadmissiblePair : public std::domain_error {
   using std::domain_error::domain_error;
 };
 
-/// The answer of admissibility(): `reason` is empty when the pair is admissible.
+/// The result of admissibility(); `reason` is empty when the pair is admissible.
 struct Admissibility {
   bool admissible = true;
   std::string reason;
@@ -46,10 +46,10 @@ struct TimePairOptions {
 Admissibility admissibility(const AnyTimeBasis& trial, const AnyTimeBasis& weight, Formulation formulation,
                             InnerProducts inner_products);
 
-/// A pair of trial functions q_j(t) = g(t - j/M) and weighting functions p_i(t) = h(t - i/M) seen as its
+/// A pair of trial functions q_j(t) = g(t - j/M) and weighting functions p_i(t) = h(t - i/M) as its
 /// symbol.
 ///
-/// Every A_d is circulant, so that the discrete Fourier transform over the M translates turns the weighted
+/// Every A_d is circulant, so that a discrete Fourier transform over the M translates splits the weighted
 /// residual of M u'' + C u' + K u = f into M independent systems
 ///   (symbol(2)[k] f^2 M + symbol(1)[k] f C + symbol(0)[k] K) a(k) = load(k) - contact(k),  k = 0..M-1,
 /// f the frequency in Hz (time is scaled to the period, JL14 (14)-(16) with M / T^2 and C / T). Real data

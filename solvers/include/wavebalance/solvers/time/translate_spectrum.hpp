@@ -24,16 +24,16 @@ struct AliasMap {
   void fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples, Eigen::VectorXcd& out) const;
 };
 
-/// (2 pi i n)^derivative: what differentiation makes of harmonic n, time scaled to the period.
+/// (2 pi i n)^derivative, the factor of harmonic n under differentiation, with time scaled to the period.
 std::complex<double> derivative_factor(int harmonic, int derivative);
 
-/// DFT of a generator's samples, sum_l g^(d)(l/points) exp(-2 pi i n l / points), n = 0..points/2. Of a
-/// band-limited basis with fewer functions than points its Fourier coefficients say it without a transform:
-/// O(points), otherwise O(points log points).
+/// DFT of a generator's samples, sum_l g^(d)(l/points) exp(-2 pi i n l / points), n = 0..points/2. For
+/// a band-limited basis with fewer functions than points it follows from the Fourier coefficients in
+/// O(points); otherwise O(points log points).
 Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative);
 
-/// Evaluates sum_j a_j g^(d)(t - j/M) at uniform points again and again. Owns an FFT plan and buffers: one
-/// object a thread.
+/// Evaluates sum_j a_j g^(d)(t - j/M) at uniform points, repeatedly. Owns an FFT plan and buffers: one object
+/// per thread.
 class TrialEvaluator {
  public:
   /// `derivative` in time scaled to the period. The points must be a multiple of M or divide M unless the
