@@ -182,7 +182,7 @@ RigidPoint rigid_point(solvers::CondensedProblem& problem, const StructureModel&
   return result;
 }
 
-/// Notes a point in its sweep; `found` is empty where a system was singular.
+/// Adds a point to its sweep; `found` is empty where a system was singular.
 void note(Sweep& sweep, const std::optional<RigidPoint>& found) {
   const double condition = found ? found->condition : std::numeric_limits<double>::infinity();
   sweep.curve.condition = std::max(sweep.curve.condition, condition);

@@ -157,9 +157,9 @@ Record motion_record(const ModeStudy& study) {
   return record;
 }
 
-/// What all points of a branch of the printed equations say together.
+/// Largest residuals and number of iterations over a branch of the printed equations.
 struct BranchMeasures {
-  double gradient = 0.0;  ///< largest that a Newton iteration ended with
+  double gradient = 0.0;  ///< largest gradient at the end of a Newton iteration
   double equation = 0.0;  ///< largest residual of the equation of motion of an accepted point
   int iterations = 0;
 };

@@ -17,7 +17,7 @@ using solvers::ModeStatus;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_penalty = 300.0;  // in units omega_1 = gap = 1
-constexpr int linear_points = 6;         // of the branch below contact, energies 0, 0.2, ..
+constexpr int linear_points = 6;         // points of the branch below contact, energies 0, 0.2, ..
 
 bool is_solution(const ModePoint& point) {
   return point.accepted() || point.status == ModeStatus::internal_resonance;

@@ -3,15 +3,15 @@
 
 namespace wavebalance::app {
 
-/// Displacement, velocity and contact force over one period. An iterate that did not converge says so in its
-/// title and is drawn dashed and grey.
+/// Displacement, velocity and contact force over one period. The title of an iterate that did not converge
+/// has its status, and the curves are dashed and grey.
 Figure response_figure(const Scene& scene, const Response& response);
 
 /// The motion of a nonlinear mode at `frequency`, Hz.
 Figure motion_figure(const Scene& scene, const Response& response, double frequency);
 
-/// Frequency over energy from a backbone_table(): accepted points, what the generalised Rayleigh quotient
-/// would give, and points on internal resonances as marks.
+/// Frequency over energy from a backbone_table(): accepted points, the root of the generalised Rayleigh
+/// quotient, and points on internal resonances as marks.
 Figure backbone_figure(const Scene& scene, const Table& backbone);
 
 /// Largest and rms displacement over the frequency, with its turning points.

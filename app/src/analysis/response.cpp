@@ -32,7 +32,7 @@ ContactMotion sample_motion(const solvers::CondensedProblem& problem,
           {}};
 }
 
-/// Contact forces that are known at the quadrature points only: those of the nearest ones.
+/// Contact forces at `points` times, each from the nearest quadrature point.
 Eigen::MatrixXd nearest_forces(const solvers::PeriodicResponse& response, int contacts, int points) {
   const Eigen::Index samples = response.contact_force.size() / contacts;
   Eigen::MatrixXd forces(contacts, points);
@@ -41,7 +41,8 @@ Eigen::MatrixXd nearest_forces(const solvers::PeriodicResponse& response, int co
   return forces;
 }
 
-/// The contacts' motion, its leading one and what the options ask for of the whole structure.
+/// Sets the contacts' motion, the leading contact, and the motion of the whole structure if the options
+/// require it.
 void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found,
                  const StructureModel& model, ContactMotion contacts, const ResponseOptions& options,
                  Response& result) {

@@ -16,11 +16,11 @@ Summary solution_entries(bool converged, const std::string& status, double resid
 /// Pair of bases, its formulation and its sizes.
 void append_discretisation(Summary& summary, const Time& time);
 
-/// How large the structure is, before and after its reduction.
+/// Sizes of the structure before and after its reduction.
 void append_structure(Summary& summary, const StructureModel& model);
 
-/// condition_estimate (NaN: none) and `warnings`, in the summary and in the record. Past 1e12 there is one:
-/// of the sixteen digits of a double fewer than four are left.
+/// Adds condition_estimate (NaN: none) to the summary, and `warnings` to summary and record. Above 1e12 there
+/// is a warning, because fewer than four of the sixteen digits of a double are accurate.
 void append_condition(Record& record, double condition);
 
 /// The table of all contacts, and which of them the record shows, where there are several.

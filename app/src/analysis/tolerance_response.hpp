@@ -3,7 +3,7 @@
 
 namespace wavebalance::app {
 
-/// Solves a scene with time.tolerance and notes in `result` all but motions and wall_seconds. Throws
+/// Solves a scene with time.tolerance. Sets all of `result` except motions and wall_seconds. Throws
 /// solvers::SingularSystem.
 solvers::RefinementResult solve_to_tolerance(const Scene& scene, const StructureModel& model,
                                              const solvers::ContactLaws& laws, const ResponseOptions& options,

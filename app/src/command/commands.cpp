@@ -18,7 +18,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// A missing gnuplot must not cost the numbers: the picture is left out, and that is said.
+/// Without gnuplot the numbers are still written. The picture is left out, with a message on standard error.
 std::string picture(const Figure& figure) {
   try {
     return render(figure, PictureFormat::svg);
@@ -64,7 +64,7 @@ std::vector<ResultFile> result_files(const Scene& scene, const Record& record) {
   return files;
 }
 
-/// The record's summary with where it comes from and which files belong to it.
+/// The record's summary, with its scene and the list of its files.
 Summary whole_summary(const RunArguments& arguments, const Record& record,
                       const std::vector<ResultFile>& files) {
   Summary summary = record.summary;
@@ -119,7 +119,7 @@ void report(const RunArguments& arguments, const Record& record, const std::vect
     std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", record.status.c_str());
 }
 
-/// Refuses a scene that is expected to take more memory than there is, before any of it is taken.
+/// Throws if a scene is expected to take more memory than the machine has, before any is allocated.
 void check_memory(const Scene& scene, double max_gigabytes) {
   const double needed = estimate_cost(scene).bytes;
   const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
@@ -139,8 +139,8 @@ Record solve(const Scene& scene, const InterruptGuard& guard, bool quiet) {
   });
 }
 
-/// All files at once, in place of those of an earlier record. The summary goes last: it says that the others
-/// are there.
+/// Writes all files at once, in place of those of an earlier record. The summary is last, so that it exists
+/// only if the others do.
 void write(OutputFiles& files, const std::vector<ResultFile>& results, const std::string& summary) {
   files.replace(files_of_record(files.directory() / "summary.json"));
   for (const ResultFile& file : results) files.add(file.name, file.contents);

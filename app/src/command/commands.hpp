@@ -23,7 +23,7 @@ struct RunArguments {
 /// sweep that a signal ended, whose points are written. Throws SceneError, IoError and std::invalid_argument.
 int run_scene(const RunArguments& arguments);
 
-/// Validates a scene and says what would be solved. Throws SceneError.
+/// Validates a scene and prints what would be solved. Throws SceneError.
 int check_scene(const RunArguments& arguments);
 
 /// Writes `text` to the standard output. Throws IoError.

@@ -5,7 +5,7 @@
 
 namespace wavebalance::app {
 
-/// Shows progress on standard error: one line that rewrites itself on a terminal, a plain line now and then
+/// Shows progress on standard error: one line that is overwritten on a terminal, a line at intervals
 /// elsewhere. Work that is done within half a second shows nothing.
 class ProgressBar {
  public:

@@ -48,7 +48,7 @@ StructureModel bar_model(const Scene& scene) {
   return model;
 }
 
-/// The structure with every unknown, and the reduced one where kept_modes says so.
+/// Sets the structure's matrices and load; an absent damping matrix becomes zero.
 void set_structure(StructureModel& model, fem::Matrices matrices, const Eigen::VectorXd& load) {
   const Eigen::Index size = load.size();
   if (matrices.damping.size() == 0) matrices.damping = Sparse(size, size);

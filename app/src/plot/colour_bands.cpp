@@ -69,7 +69,7 @@ int band_colour(const ColourBands& colours, int band) {
 int grey(double brightness) { return packed({brightness, brightness, brightness}); }
 
 std::string colour_bar_text(const ColourBands& colours) {
-  constexpr double bottom = 0.06, height = 0.88;  // of the panel
+  constexpr double bottom = 0.06, height = 0.88;  // shares of the panel's height
   const auto place = [&](int band) { return bottom + height * band / colours.bands; };
   std::string text = "set rmargin 11\n";
   for (int band = 0; band < colours.bands; ++band)

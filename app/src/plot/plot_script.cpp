@@ -104,7 +104,7 @@ std::string map_text(const HeatMap& map) {
          end + ":" + end + "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics scale 0.4\n";
 }
 
-/// `empty` says that no point fixes the range, which gnuplot then refuses to choose.
+/// `empty` is true if no point fixes the range. gnuplot then cannot choose one.
 std::string axis_text(const std::string& name, const Axis& axis, bool empty) {
   const auto limit = [&](const std::optional<double>& value, const char* otherwise) {
     return value ? number_text(*value) : std::string(empty ? otherwise : "*");
@@ -213,7 +213,7 @@ std::string plot_command(const Panel& panel, std::size_t panel_index, const Surf
         (text.empty() ? command : ", ") + map_name(panel_index) + " using 1:2:3 with image pixels notitle";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
-    // A curve with nothing to show keeps its place in the legend.
+    // A curve without points is kept in the legend.
     const std::string data = has_points(series, panel)
                                  ? block_name(panel_index, i) + (panel.z ? " using 1:2:3" : " using 1:2")
                                  : "NaN";

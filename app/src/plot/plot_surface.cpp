@@ -31,10 +31,10 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-/// A face turned towards the viewer.
+/// A face whose outer side is visible.
 struct Facet {
   Polygon ring;
-  double depth = 0.0;  // of its centre, larger is nearer
+  double depth = 0.0;  // depth of the centre, larger is nearer
   double light = 1.0;  // cosine to the light
   bool valued = false;
   int layer = 0;
@@ -121,12 +121,12 @@ Extent extent_of(const SurfaceView& view) {
 }
 
 std::vector<Facet> facets_of(const SurfaceView& view, double tolerance) {
-  const Eigen::Matrix3d turn = directions(view);
+  const Eigen::Matrix3d rotation = directions(view);
   const Eigen::Vector3d light = Eigen::Vector3d(-0.4, 0.5, 1.0).normalized();
   std::vector<Facet> facets;
   for (const Surface& surface : view.surfaces) {
     if (surface.outline) continue;
-    const Eigen::Matrix3Xd seen = turn * surface.vertices;
+    const Eigen::Matrix3Xd seen = rotation * surface.vertices;
     for (const auto& face : surface.faces) {
       const Eigen::Vector3d area = area_of(seen, face);
       if (!(area.z() > 0.0)) continue;
@@ -217,7 +217,7 @@ std::string block(const std::string& name, const std::string& rows) {
 }
 
 /// Edges where the normal changes by more than 40 degrees.
-std::string sharp_edges(const Surface& surface, const Eigen::Matrix3d& turn) {
+std::string sharp_edges(const Surface& surface, const Eigen::Matrix3d& rotation) {
   std::map<std::pair<int, int>, Eigen::Vector3d> normals;
   std::string text;
   for (const auto& face : surface.faces) {
@@ -229,7 +229,7 @@ std::string sharp_edges(const Surface& surface, const Eigen::Matrix3d& turn) {
         normals[{a, b}] = normal;
       } else if (opposite->second.dot(normal) < std::cos(40.0 * std::numbers::pi / 180.0)) {
         for (const int vertex : {a, b}) {
-          const Eigen::Vector3d at = turn * surface.vertices.col(vertex);
+          const Eigen::Vector3d at = rotation * surface.vertices.col(vertex);
           text += coordinate(at.x()) + " " + coordinate(at.y()) + "\n";
         }
         text += "\n";
@@ -239,14 +239,14 @@ std::string sharp_edges(const Surface& surface, const Eigen::Matrix3d& turn) {
   return text;
 }
 
-/// The marked vertices that lie on a face turned towards the viewer.
-std::string marked(const Surface& surface, const SurfaceMarks& marks, const Eigen::Matrix3d& turn) {
+/// The marked vertices that lie on a visible face.
+std::string marked(const Surface& surface, const SurfaceMarks& marks, const Eigen::Matrix3d& rotation) {
   std::set<int> seen;
   for (const auto& face : surface.faces)
-    if ((turn * area_of(surface.vertices, face)).z() > 0.0) seen.insert(face.begin(), face.end());
+    if ((rotation * area_of(surface.vertices, face)).z() > 0.0) seen.insert(face.begin(), face.end());
   std::string text;
   for (const int vertex : marks.vertices) {
-    const Eigen::Vector3d at = turn * surface.vertices.col(vertex);
+    const Eigen::Vector3d at = rotation * surface.vertices.col(vertex);
     if (seen.count(vertex) > 0) text += coordinate(at.x()) + " " + coordinate(at.y()) + "\n";
   }
   return text;
@@ -332,18 +332,18 @@ void check(const SurfaceView& view) {
 SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis& y, const std::string& name) {
   SurfaceScript script;
   const Extent extent = extent_of(view);
-  const Eigen::Matrix3d turn = directions(view);
+  const Eigen::Matrix3d rotation = directions(view);
   const double margin = 0.06 * extent.size();
   for (std::size_t i = 0; i < view.surfaces.size(); ++i)
     if (view.surfaces[i].outline)
-      add(script, name + "_outline" + std::to_string(i), sharp_edges(view.surfaces[i], turn),
+      add(script, name + "_outline" + std::to_string(i), sharp_edges(view.surfaces[i], rotation),
           "using 1:2 with lines lc rgb '#777777' lw 0.9 dt (4,3) notitle");
   add_facets(script, view, name, extent.size());
   for (std::size_t i = 0; i < view.surfaces.size(); ++i)
     for (std::size_t j = 0; j < view.surfaces[i].marks.size(); ++j) {
       const SurfaceMarks& marks = view.surfaces[i].marks[j];
       add(script, name + "_marks" + std::to_string(i) + "_" + std::to_string(j),
-          marked(view.surfaces[i], marks, turn),
+          marked(view.surfaces[i], marks, rotation),
           "using 1:2 with points lc rgb '" + colour_code(marks.colour) + "'" +
               symbol_text(static_cast<std::size_t>(std::max(marks.marker, 1) - 1)) + " title " +
               quoted(marks.label));

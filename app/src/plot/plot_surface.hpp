@@ -8,7 +8,7 @@ namespace wavebalance::app {
 
 /// A surface's part of a script: its data, the commands before the plot, and the items of the plot command.
 /// Faces are projected, ordered and cut into bands here, because gnuplot 5.4 gives a polygon one colour,
-/// draws the faces that are turned away as well, and writes several times as much SVG.
+/// draws back faces as well, and writes several times as much SVG.
 struct SurfaceScript {
   std::string data;
   std::string setup;

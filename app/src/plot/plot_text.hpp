@@ -5,8 +5,9 @@
 
 namespace wavebalance::app {
 
-/// A gnuplot string. In single quotes gnuplot runs no commands and knows no escapes but the doubled quote,
-/// which it misreads at the start: an apostrophe takes its typographic form instead.
+/// A gnuplot string in single quotes, in which gnuplot runs no commands. The only escape there is the doubled
+/// quote, which gnuplot 5.4 misreads at the start of a string, so that an apostrophe is written in its
+/// typographic form.
 std::string quoted(const std::string& text);
 
 /// "#E69F00"

@@ -22,7 +22,7 @@ std::string shortened(std::string text) {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-/// Integers as such if there is nothing else; monostate unless all are numbers.
+/// A list of integers if all entries are, else a list of numbers; monostate unless all entries are numbers.
 DocumentValue list_of(const toml::array& array) {
   std::vector<std::int64_t> integers;
   std::vector<double> numbers;

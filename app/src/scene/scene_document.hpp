@@ -10,8 +10,8 @@
 
 namespace wavebalance::app {
 
-/// A TOML value as far as scenes know it, lists of integers or of numbers among them; monostate is anything
-/// else (another array, table, date).
+/// A TOML value of a type that scenes use, lists of integers or of numbers included; monostate is any other
+/// value (another array, table, date).
 using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
                                    std::vector<std::int64_t>, std::vector<double>>;
 

@@ -13,7 +13,7 @@ namespace {
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
-/// `"a", "b" or "c"`; the twenty Daubechies names are said in one.
+/// `"a", "b" or "c"`; the twenty Daubechies names are written as one.
 std::string alternatives(const std::vector<std::string_view>& values) {
   std::vector<std::string> names;
   bool daubechies = false;

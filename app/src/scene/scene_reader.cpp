@@ -35,7 +35,7 @@ bool is_section(const std::string& name) {
   return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.section == name; });
 }
 
-/// What to say of an unknown name among known ones; `shown` writes the suggestion out.
+/// The error text for an unknown name, with the nearest known name as a suggestion, written by `shown`.
 std::string unknown_text(const std::string& name, const std::vector<std::string>& known,
                          const std::function<std::string(const std::string&)>& shown) {
   const std::string close = closest(name, known);
@@ -147,7 +147,7 @@ SceneValue checked(const Document& document, const DocumentEntry& entry, const S
   return checked_number(document, entry, key);
 }
 
-/// Whether other keys belong or are needed depends on this one, which must therefore be read before them.
+/// Whether other keys are allowed or required depends on this one, so that it must be read before them.
 bool governs(const SceneKey& key) {
   const auto keys = scene_keys();
   const std::string name = key.full_name();

@@ -9,7 +9,7 @@ namespace wavebalance::app {
 /// Throws SceneError at the place of `entry`.
 [[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed);
 
-/// The scene that `document` describes: each key is known, in range and belongs to the scene; defaults are
+/// The scene that `document` describes: each key is known, in range and allowed in the scene; defaults are
 /// filled in. The rules between keys are not checked here. Throws SceneError.
 Scene read_scene(const Document& document);
 

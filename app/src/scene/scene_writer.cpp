@@ -9,8 +9,8 @@ bool is_empty(const SceneValue& value) {
   return value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
 }
 
-/// A key that was never given and has no default, or one with nothing to derive from, stays out: time
-/// stepping needs no bases.
+/// Whether a key was not given and has no default, or a default that cannot be derived. It is not written:
+/// time stepping needs no bases, for example.
 bool is_unset(const SceneKey& key, const Scene& scene) {
   const SceneValue value = key.get(scene);
   if (key.required_in(scene) || value != key.get(Scene{})) return false;

@@ -220,7 +220,7 @@ TEST(Contacts, TwoOfAChainMoveAsTimeSteppingSays) {
   for (int contact = 0; contact < 2; ++contact) {
     const auto a = found.contacts.samples(contact), b = reference.contacts.samples(contact);
     // A kink of the force leaves Fourier coefficients of the displacement of order k^-4: together 63^-3.5
-    // of the motion, below what stepping to 1e-7 a period leaves.
+    // of the motion, below the error of stepping to 1e-7 per period.
     EXPECT_LT(relative_rms_error(a.displacement, b.displacement), 5e-6) << contact;
     EXPECT_GT(b.contact_force.maxCoeff(), 0.0) << contact;
   }

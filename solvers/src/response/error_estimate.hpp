@@ -7,8 +7,8 @@ namespace wavebalance::solvers {
 
 /// Distance of two responses of one motion, in relative rms of the contact displacement.
 struct LevelDifference {
-  double resolved_part = 0.0;   ///< of the harmonics that both have
-  double truncated_part = 0.0;  ///< of the harmonics that only the finer one has
+  double resolved_part = 0.0;   ///< difference of the harmonics that both have
+  double truncated_part = 0.0;  ///< harmonics that only the finer one has
 
   double whole() const { return std::hypot(resolved_part, truncated_part); }
 };

@@ -207,7 +207,7 @@ class Refinement {
         level.truncation = std::hypot(
             distance.truncated_part * remainder_over_distance(functions, observed_order(level, response)),
             distance.resolved_part * remainder_over_distance(functions, point_order));
-      constexpr double least_decay = 2.0 / 3.0;  // of the previous error with order 2
+      constexpr double least_decay = 2.0 / 3.0;  // factor on the decay with order 2 of the previous error
       if (points > 1.0)
         quadrature_error_ =
             std::max(points_part(distance.resolved_part * remainder_over_distance(points, point_order),

@@ -175,7 +175,7 @@ TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndOnThePaths) {
   }
 }
 
-// The paths have a solution by then, which the observer does not want any more.
+// The paths have a solution by then, but the observer cancels the solve.
 TEST(ForcedResponse, IsCancelledByItsObserverInTheNewtonIterationAfterThePaths) {
   CondensedProblem problem = stiff_haar_problem();
   bool on_paths = false;

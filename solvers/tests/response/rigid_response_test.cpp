@@ -101,8 +101,8 @@ TEST(RigidResponse, WithoutLoadItRestsWhereTheObstacleAllows) {
   }
 }
 
-// Four points a function leave more samples on the obstacle than there are functions to tell them apart, one
-// point a function may leave no path evenly lowered obstacles: every one of these stalled once.
+// With four points per function there are more samples in contact than functions. With one point per function
+// the path of an evenly lowered obstacle may not end. Each of these cases stalled once.
 TEST(RigidResponse, HoldsComplementarityWithOneToFourPointsAFunction) {
   struct Size {
     int functions, points;

@@ -119,7 +119,7 @@ TEST(Condensation, StiffnessesBeyondTheRangeOfSquaresAreOnlyAnotherUnit) {
   }
 }
 
-// Of one to three contacts: the chain, whose damping its modes decouple, by every method.
+// The chain with one to three contacts by every method; its modes decouple the damping.
 TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
   std::mt19937 generator(1);
   const ImpedanceCoefficients factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};

@@ -9,7 +9,7 @@
 
 namespace wavebalance::solvers::testing {
 
-/// Two bases of a user's own: what the concept TimeBasis asks for, and nothing of the wavelets module.
+/// Two bases of a user: they meet the concept TimeBasis and use nothing of the wavelets module.
 
 /// \int_0^1 of a B-spline of `order` pieces of width 1/M times exp(-2 pi i n t).
 inline std::complex<double> spline_coefficient(int functions, int order, int harmonic) {

@@ -22,18 +22,17 @@ struct Sweep {
   bool converged() const { return curve.status == solvers::SweepStatus::reached_end && unsolved == 0; }
   /// The observer stopped it; the curve holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
-  /// "reached_end" or why not, "interrupted" among others.
+  /// "reached_end", or the reason why not, such as "interrupted".
   std::string status() const;
 };
 
-/// The scene's frequency response by arc length. Steps: a change of frequency by 1/20 of the interval and a
-/// change of displacement by the gap count alike; analysis.first_step and analysis.largest_step are in Hz of
-/// the former.
+/// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
+/// length as a change of displacement by the gap. analysis.first_step and analysis.largest_step are in Hz.
 ///
-/// With rigid contact each sample that opens or closes gives a kink of the curve, and arc length with a
-/// spring stiff enough to stand for the obstacle loses its way among them. The response is solved anew
-/// instead at uniform frequencies, analysis.largest_step apart at most: all points meet complementarity, but
-/// where several responses exist which one is found may change from one frequency to the next.
+/// With rigid contact each sample that opens or closes gives a kink of the curve, too many for arc length.
+/// The response is then solved at uniform frequencies, at most analysis.largest_step apart. All points
+/// satisfy complementarity. Where several responses exist, another one may be found from one frequency to the
+/// next.
 Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// The same for the scene's structure composed before.
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
@@ -44,12 +43,12 @@ struct RecordFile {
   std::string contents;
 };
 
-/// What an analysis leaves behind: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
+/// The results of an analysis: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
 struct Record {
   bool converged = false;
   bool interrupted = false;  ///< a sweep that its observer stopped
   std::string status;
-  /// What makes the result less accurate than it looks, a sentence each; the summary holds them too.
+  /// Reasons why the result may be inaccurate, one sentence each; also in the summary.
   std::vector<std::string> warnings;
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
@@ -62,7 +61,7 @@ struct Record {
 };
 
 /// Solves `scene`. A failure to converge is reported in the record. Throws std::invalid_argument or
-/// solvers::InadmissiblePair for scenes that load_scene() would not have let pass.
+/// solvers::InadmissiblePair for scenes that load_scene() would have rejected.
 Record analyse(const Scene& scene, const Observer& observer = {});
 
 /// The tables of a record.

@@ -7,7 +7,7 @@
 
 namespace wavebalance::app {
 
-/// sqrt(mean of squares); NaN of nothing.
+/// sqrt(mean of squares); NaN without values.
 double rms(const Eigen::VectorXd& values);
 
 /// rms(values - reference) / rms(reference): the relative error of JL14, Figs. 6, 7 and 11. Throws

@@ -37,7 +37,7 @@ struct Backbone {
 /// A scene's nonlinear mode and its linear modes, which are computed once. Immutable.
 class ModeStudy {
  public:
-  /// O(n^3). Throws std::invalid_argument for scenes that load_scene() would not have let pass, and
+  /// O(n^3). Throws std::invalid_argument for scenes that load_scene() would have rejected, and
   /// std::runtime_error if the linear modes are not found.
   explicit ModeStudy(const Scene& scene);
   /// The same for the scene's structure composed before.
@@ -61,8 +61,8 @@ class ModeStudy {
   /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
   /// solution. O(c N points).
   ContactMotion contact_motion(const solvers::ModePoint& point, int points) const;
-  /// The motion of the leading contact; with full_history also that of the structure as the solvers see it,
-  /// which model().recover() takes to the whole. O(n N points).
+  /// The motion of the leading contact; with full_history also that of the reduced structure, which
+  /// model().recover() takes to the whole. O(n N points).
   solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
 
   /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy

@@ -19,23 +19,23 @@ namespace wavebalance::app {
 using solvers::Observer;
 using solvers::Progress;
 
-/// What rigid contact leaves besides the motion.
+/// Checks of a response with rigid contact.
 struct RigidContact {
   double max_penetration = 0.0;  ///< m, at the quadrature points, where contact is enforced; negative: none
   double min_force = 0.0;        ///< N, at the quadrature points
   double product = 0.0;  ///< largest force times distance, over the largest of each, at the quadrature points
-  double stiffness = 0.0;  ///< N/m, of the spring that stands for the obstacle; infinity: none was needed
+  double stiffness = 0.0;  ///< N/m, of the spring in place of the obstacle; infinity: exactly rigid
 };
 
 /// How a scene with time.tolerance was resolved.
 struct Refinement {
-  std::string trial, weight;     ///< the pair, of all levels
-  double estimated_error = 0.0;  ///< relative rms of the last level, see solvers::response_to_tolerance
-  double seconds = 0.0;          ///< wall time of all levels
+  std::string trial, weight;                     ///< the pair, of all levels
+  double estimated_error = 0.0;                  ///< solvers::RefinementResult::estimated_error
+  double seconds = 0.0;                          ///< wall time of all levels
   std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
-/// A periodic response of a scene's contacts, or an honest failure to find one.
+/// A periodic response of a scene's contacts, or the status and the last iterate if none was found.
 struct Response {
   bool converged = false;
   std::string status;  ///< "converged" or why not
@@ -43,14 +43,14 @@ struct Response {
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
-  std::string strategy;  ///< what found it, solvers::Strategy; empty of references
+  std::string strategy;  ///< solvers::Strategy that found it; empty for time stepping and shooting
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
-  ContactMotion contacts;                ///< analysis.output_points samples; empty if there is nothing at all
+  ContactMotion contacts;                ///< analysis.output_points samples; empty if there is no iterate
   int contact = 0;                       ///< the leading one, see ContactMotion::leading()
   solvers::PeriodSamples
       samples;             ///< motion of that contact; the full history is that of the reduced structure
@@ -59,7 +59,7 @@ struct Response {
 
 struct ResponseOptions {
   bool full_history = false;  ///< also displacement and velocity of every degree of freedom
-  int motion_points = 0;      ///< uniform instants of Response::motion; not of time stepping
+  int motion_points = 0;      ///< uniform instants of Response::motion; not used by time stepping
   Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response.
                               ///< Not used with time.tolerance
   Observer observer;
@@ -67,7 +67,7 @@ struct ResponseOptions {
 
 /// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
 /// singular system is reported by `converged` and `status`; then `samples` hold the last iterate. Throws
-/// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would not have let pass.
+/// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would have rejected.
 ///
 /// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature
 /// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is

@@ -12,27 +12,26 @@ namespace wavebalance::app {
 /// make_model(scene).structure: a bar is loaded and touches at its tip.
 solvers::LinearStructure make_structure(const Scene& scene);
 
-/// The law of one contact, which has its own gap. Throws std::invalid_argument for rigid contact, which is no
-/// law but a complementarity.
+/// The law of one contact, which has its own gap. Throws std::invalid_argument for rigid contact, which is a
+/// complementarity and has no law.
 solvers::AnyContactLaw make_law(const Contact& contact, int index = 0);
-/// One law a contact of the scene's structure.
+/// One law per contact of the scene's structure.
 solvers::ContactLaws make_laws(const Scene& scene);
 
 /// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a
 /// wavelet basis whose number of functions is not a power of two.
 solvers::AnyTimeBasis make_basis(const std::string& name, int functions);
 
-/// How the inner products of trial and weight are computed: as the scene says, except that Daubechies
-/// Galerkin pairs take connection coefficients, which are exact, also where the scene asks for quadrature
-/// [JL14, section 4.1].
+/// How the inner products of trial and weight are computed: by the scene's key, except that Daubechies
+/// Galerkin pairs always take connection coefficients, which are exact [JL14, section 4.1].
 InnerProducts effective_inner_products(const Time& time);
 
-/// Whether the scene's bases can be paired, and if not, why.
+/// Whether the scene's bases can be paired, and if not, the reason.
 solvers::Admissibility pair_admissibility(const Time& time);
 
 /// Throws solvers::InadmissiblePair. With exact inner products against Haar functions, an even number of
-/// Fourier functions ends with sin(M pi t) in place of cos(M pi t), which Haar functions and their even
-/// derivatives do not see.
+/// Fourier functions ends with sin(M pi t) in place of cos(M pi t), whose inner product with Haar
+/// functions is zero.
 solvers::TimePair make_pair(const Time& time);
 
 /// The structure without damping in its own linear modes, all of them.
@@ -49,14 +48,14 @@ solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::Mo
 
 /// A scene made ready for the solvers, once.
 struct ComposedProblem {
-  solvers::CondensedProblem problem;  ///< see make_problem()
+  solvers::CondensedProblem problem;  ///< as make_problem() returns it
   solvers::ContactLaws laws;          ///< no contact where the obstacles are rigid
 };
 
 /// The scene's pair and contact laws with its structure composed before.
 ComposedProblem compose_problem(const Scene& scene, const StructureModel& model);
 
-/// Structure, law's place and pair condensed on the contacts; at forcing.frequency if that is set.
+/// The scene's pair and structure, condensed on the contacts; at forcing.frequency if that is set.
 solvers::CondensedProblem make_problem(const Scene& scene);
 /// The same for the scene's structure composed before.
 solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model);

@@ -11,18 +11,18 @@
 
 namespace wavebalance::app {
 
-/// A scene's structure, composed once: what the solvers see of it, and the way back to the whole structure.
-/// Immutable once made.
+/// A scene's structure, composed once: the structure that is solved, and the way back to the whole structure.
+/// Immutable.
 struct StructureModel {
-  /// Reduced if the scene asks for it; its displacements in contact count towards their obstacles. Its load
-  /// is the force's amplitude.
+  /// Reduced if the scene has kept_modes. Displacements of contacts are positive towards their obstacles. The
+  /// load is the force's amplitude.
   solvers::LinearStructure structure;
   std::vector<int> contact_dofs;      ///< rows of the reduced structure
   Eigen::VectorXd gaps;               ///< m, one per contact
-  std::vector<std::string> warnings;  ///< what is wrong with the structure itself, a sentence each
+  std::vector<std::string> warnings;  ///< doubtful properties of the structure, one sentence each
   int unknowns = 0;                   ///< degrees of freedom before the reduction
   double reduction_seconds = 0.0;     ///< assembly, rotation and reduction; 0 for a bar
-  /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are the same but
+  /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are equal except
   /// for signs.
   Eigen::MatrixXd recovery;
   Eigen::VectorXd signs;  ///< unknowns, 1 or -1 where the obstacle is on the negative side; empty: all 1
@@ -36,17 +36,17 @@ struct StructureModel {
   Eigen::MatrixXd recover(const Eigen::MatrixXd& coordinates) const;
 };
 
-/// The scene's bar, blade or matrices with their damping, reduced if the scene asks for it. A blade turns
-/// about its axis, which stiffens it. Throws std::invalid_argument for scenes that load_scene() would not
-/// have let pass (blades: also elements turned inside out), std::domain_error if the structure can move
+/// The scene's bar, blade or matrices with their damping, reduced if it has kept_modes. A blade rotates
+/// about its axis, which stiffens it. Throws std::invalid_argument for scenes that load_scene() would have
+/// rejected (blades: also inverted elements), std::domain_error if the structure can move
 /// freely, std::runtime_error if the kept modes are not found.
 StructureModel make_model(const Scene& scene);
 
-/// How many degrees of freedom are in contact in a scene. O(1).
+/// The number of contacts of a scene's structure. O(1).
 int contact_count(const Structure& structure);
 
-/// Degrees of freedom of the scene's structure, and of the reduced one that the solvers see. Files of
-/// matrices that load_scene() has not read are read.
+/// Degrees of freedom of the scene's structure, and of the reduced one that is solved. Files of matrices are
+/// read unless load_scene() has read them.
 std::int64_t structure_dofs(const Scene& scene);
 int reduced_size(const Scene& scene);
 

@@ -156,7 +156,7 @@ std::string render(const Figure& figure, PictureFormat format);
 /// "results/fig06" gives results/fig06.svg and results/fig06.png. Throws PlotError and IoError.
 void write_pictures(const std::filesystem::path& stem, const Figure& figure);
 
-/// The gnuplot commands of `figure` without terminal or output, data included: to see what is drawn.
+/// The gnuplot commands of `figure` with its data, without terminal and output, for inspection.
 std::string gnuplot_script(const Figure& figure);
 
 /// Text for labels that shows `text` as it is. Labels otherwise read `_` and `^` as sub- and superscript,

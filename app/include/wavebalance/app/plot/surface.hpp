@@ -8,7 +8,7 @@ namespace wavebalance::app {
 /// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` takes the next one of the panel.
 enum class Colour { automatic, black, orange, sky_blue, green, blue, vermillion, purple, grey };
 
-/// Vertices of a surface that are picked out by a symbol, those on faces turned away left out.
+/// Vertices of a surface that are marked by a symbol; those on hidden faces are left out.
 struct SurfaceMarks {
   std::string label;  ///< in the legend
   std::vector<int> vertices;
@@ -35,18 +35,18 @@ struct ColourBands {
   double lower = 0.0;
   double upper = 1.0;  ///< > lower; values beyond take the last colour
   int bands = 12;      ///< >= 2
-  std::string label;   ///< of the colour bar
+  std::string label;   ///< label of the colour bar
   bool bar = true;     ///< draw the colour bar
 };
 
-/// Surfaces in parallel projection with equal scales. Faces turned away are left out and the others painted
-/// from the back, so that nearer ones hide what is behind them; outlines lie behind all faces.
+/// Surfaces in parallel projection with equal scales. Back faces are left out and the others painted from the
+/// back, so that nearer ones hide what is behind them; outlines lie behind all faces.
 struct SurfaceView {
   std::vector<Surface> surfaces;
-  double azimuth = -60.0;   ///< of the viewer, degrees from x to y
-  double elevation = 25.0;  ///< of the viewer, degrees above the x-y plane, -90..90
+  double azimuth = -60.0;   ///< the viewer's angle in degrees, from x to y
+  double elevation = 25.0;  ///< the viewer's angle in degrees above the x-y plane, -90..90
   ColourBands colours;
-  double shading = 0.3;  ///< 0..1, how dark faces turned from the light become; values are never shaded
+  double shading = 0.3;  ///< 0..1, darkening at an angle to the light of faces without values
   double axes = 0.0;     ///< length of the three arrows that show the axes, in units of the vertices; 0: none
 };
 

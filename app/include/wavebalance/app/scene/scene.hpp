@@ -25,7 +25,7 @@ enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonli
 struct StructureFiles;
 
 /// What load_scene() has read and checked of the files that a scene names, so that nothing is read twice.
-/// Their paths are what identifies a scene: scenes are equal whatever has been read.
+/// It does not count when scenes are compared, because the paths of the files identify them.
 struct ReadFiles {
   std::shared_ptr<const StructureFiles> contents = {};
 

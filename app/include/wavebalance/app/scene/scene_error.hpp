@@ -8,13 +8,13 @@ namespace wavebalance::app {
 class SceneError : public std::runtime_error {
  public:
   struct Details {
-    std::string file;      ///< as given to the loader
-    int line = 0;          ///< 1 is the first; 0 when no line is to blame
-    std::string override;  ///< "--set contact.gap=big" when an override is to blame, which then stands for
-                           ///< file and line
-    std::string key;       ///< "contact.gap"; empty when no key is to blame
-    std::string found;     ///< the value as written; empty when none was found
-    std::string allowed;   ///< what would have been right
+    std::string file;  ///< as given to the loader
+    int line = 0;      ///< 1 is the first; 0 when no line is at fault
+    /// "--set contact.gap=big" when an override is at fault; it is then shown in place of file and line.
+    std::string override;
+    std::string key;      ///< "contact.gap"; empty when no key is at fault
+    std::string found;    ///< the value as written; empty when none was found
+    std::string allowed;  ///< what is allowed
   };
 
   explicit SceneError(Details details);

@@ -27,8 +27,8 @@ struct Bounds {
   std::string text() const;
 };
 
-/// Scenes in which each of several keys has one of its values, every scene when there is no such clause; but
-/// none in which the key of unless() is given.
+/// A condition on a scene: the conjunction of clauses "key has one of these values", true if there is no
+/// clause. It is false if the scene holds the key of unless().
 class Condition {
  public:
   Condition() = default;
@@ -41,7 +41,7 @@ class Condition {
 
   bool empty() const { return clauses_.empty(); }
   bool holds(const Scene& scene) const;
-  /// Whether it depends on the key of this name.
+  /// Whether the condition depends on the key of this name.
   bool concerns(std::string_view key) const;
   /// `contact.law = "exponential" or "linear"`; empty for every scene.
   std::string text() const;
@@ -60,12 +60,12 @@ class Condition {
   std::string_view unless_;
 };
 
-/// One key of a scene file: all that the loader, the writer and the help know about it.
+/// One key of a scene file; the loader, the writer and the help all use this description.
 struct SceneKey {
   enum class Type { integer, number, text, boolean, path };
   enum class Form { single, list, single_or_list };  ///< lists are of integers or numbers
-  /// Where the key is missing: an error, the value that its member is initialised with, or one derived from
-  /// other keys. A derived default does not excuse from `needed`, when that is not empty.
+  /// What a missing key means: an error, the value that its member is initialised with, or one derived from
+  /// other keys. Where `needed` holds, the key is required even if it has a derived default.
   enum class Default { required, value, derived };
 
   std::string_view section;
@@ -76,8 +76,8 @@ struct SceneKey {
   std::string_view unit;                  ///< empty for text and for pure numbers
   Bounds bounds;                          ///< what an integer, a number or each entry of a list may be
   std::vector<std::string_view> choices;  ///< the texts that are allowed
-  Condition belongs;                      ///< elsewhere the key is an error
-  Condition needed;                       ///< where the key is required if it has no default
+  Condition belongs;                      ///< scenes that may hold the key; in others it is an error
+  Condition needed;                       ///< scenes in which the key is required if it has no default
   Default fallback = Default::required;
   std::string_view derived_text;                    ///< the derived default in words
   std::function<SceneValue(const Scene&)> derived;  ///< computes it from the other keys
@@ -86,7 +86,7 @@ struct SceneKey {
   std::function<void(Scene&, const SceneValue&)> set;  ///< the value must have been checked
 
   std::string full_name() const;
-  /// "a number in m, > 0"; what an error message says was expected.
+  /// "a number in m, > 0", the expected value in error messages.
   std::string expected() const;
   /// "1024", "4 x functions", "required"; for the help.
   std::string default_text() const;
@@ -94,8 +94,8 @@ struct SceneKey {
   bool required_in(const Scene& scene) const;
 };
 
-/// Every key, in the order in which a scene is written. Keys that decide whether others belong are those with
-/// choices.
+/// Every key, in the order in which a scene is written. Only keys with choices decide whether others are
+/// allowed.
 std::span<const SceneKey> scene_keys();
 
 /// The key called "section.name", or nullptr.

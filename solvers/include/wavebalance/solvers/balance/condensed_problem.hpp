@@ -19,7 +19,7 @@ namespace wavebalance::solvers {
 /// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
 /// columns onto each other.
 ///
-/// Owns plans and buffers: one object a thread.
+/// Owns plans and buffers: one object per thread.
 class CondensedProblem {
  public:
   /// `load_harmonics[n]`: complex amplitude h_n of the load's time function Re sum h_n exp(2 pi i n t), which

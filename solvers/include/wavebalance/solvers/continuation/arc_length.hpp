@@ -65,8 +65,8 @@ struct CurvePoint {
   double parameter_tangent = 0.0;
   double residual = 0.0;
   int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
-  bool grazing =
-      false;  ///< a grazing event: the law's slope jumps, and the tangent is that of the next piece
+  /// A grazing event: the law's slope jumps here, and the tangent is that of the next piece.
+  bool grazing = false;
 };
 
 /// Pseudo-arc-length continuation [H. B. Keller, in: Applications of Bifurcation Theory, 1977; R. Seydel,
@@ -147,8 +147,8 @@ class ArcLength {
   double reversal_step_ = 0.0;         // length of the last long step that contained a turning point
   double operation_limit_ = 0.0;       // value of the operation counter at which the curve must stop
   double piecewise_arc_length_ = 0.0;  // arc length that is to be followed piece by piece
-  bool orientation_unknown_ =
-      false;  // curves have crossed, so that the orientation does not check long steps
+  // Curves have crossed, so that the orientation is no check of long steps.
+  bool orientation_unknown_ = false;
   Eigen::VectorXd slope_, change_;
 };
 

@@ -11,8 +11,8 @@ struct Progress {
   int step = 0;            ///< steps of this phase so far
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when the phase has none
   std::string_view measure = {};  ///< what `value` is: "relative residual", "Hz"; empty when there is none
-  double done =
-      std::numeric_limits<double>::quiet_NaN();  ///< share of the whole work, 0..1; NaN when unknown
+  /// Share of the whole work, 0..1; NaN when unknown.
+  double done = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Called repeatedly during long work; the texts live as long as the call. Returns false to stop the work,

@@ -27,13 +27,12 @@ struct RefinementLevel {
   int points = 0;                ///< N
   double estimated_error = 0.0;  ///< NaN on the first level, and where no response was found
   double truncation = 0.0;       ///< the part that M functions cannot represent
-  double quadrature =
-      0.0;                ///< the part from N quadrature points: aliasing, contact that starts between points
-  double change = 0.0;    ///< distance to the previous level's response
-  double residual = 0.0;  ///< relative residual of the response
-  int iterations = 0;     ///< Newton iterations
-  bool restarted = false;  ///< solved from the contact-free response, not from the previous level
-  double seconds = 0.0;    ///< wall time
+  double quadrature = 0.0;       ///< the part from N points: aliasing, contact that starts between points
+  double change = 0.0;           ///< distance to the previous level's response
+  double residual = 0.0;         ///< relative residual of the response
+  int iterations = 0;            ///< Newton iterations
+  bool restarted = false;        ///< solved from the contact-free response, not from the previous level
+  double seconds = 0.0;          ///< wall time
 };
 
 /// When a refinement ends, and where it starts.
@@ -61,8 +60,8 @@ struct RefinementResult {
   RefinementStatus status = RefinementStatus::not_converged;
   double estimated_error = 0.0;             ///< relative rms, of the last level
   std::vector<RefinementLevel> levels;      ///< in the order solved
-  PeriodicResponse response;                ///< of the last level that has one
-  std::optional<CondensedProblem> problem;  ///< of that level
+  PeriodicResponse response;                ///< the last response found
+  std::optional<CondensedProblem> problem;  ///< its problem
   double seconds = 0.0;                     ///< wall time of all levels
 
   bool converged() const { return status == RefinementStatus::converged; }
