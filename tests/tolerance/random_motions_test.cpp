@@ -14,12 +14,13 @@ void expect_met(std::uint64_t seed, double tolerance) {
                                  << tolerance;
   const auto exact = shooting_nearby(motion, found, output_points);
   ASSERT_TRUE(exact.has_value()) << "no periodic motion near that of seed " << seed;
-  EXPECT_LE(true_error(found, *exact), 3.0 * tolerance)
+  EXPECT_LE(true_error(found, *exact), tolerance)
       << "estimated " << found.estimated_error << ", seed " << seed << ", tolerance " << tolerance;
 }
 
-// `make bench` takes 200 of them, and 1e-6.
-TEST(RandomTolerance, IsMetWithinThreefoldByTwentyMotions) {
+// `make bench` takes 200 of them, and 1e-6; there the largest true error is 1.8 times the tolerance, because
+// the estimate is no bound.
+TEST(RandomTolerance, IsMetByTwentyMotions) {
   for (std::uint64_t seed = 20140817; seed < 20140837; ++seed)
     for (const double tolerance : {1e-2, 1e-4}) expect_met(seed, tolerance);
 }

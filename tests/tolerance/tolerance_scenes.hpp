@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct Motion {
   const char* name;
   const char* file;
   std::vector<std::string> changes;
+
+  friend void PrintTo(const Motion& motion, std::ostream* out) { *out << motion.name; }
 };
 
 inline const std::vector<Motion>& motions() {

@@ -6,10 +6,13 @@
 namespace wavebalance::tolerance {
 namespace {
 
+// README.md claims a true error of at most 0.34 times the tolerance for these motions.
+constexpr double largest_share = 0.4;
+
 class Tolerance : public testing::TestWithParam<Motion> {};
 
 // The finer tolerances are for `make bench`, where the cost is measured too.
-TEST_P(Tolerance, IsMetWithinThreefoldByTheTrueError) {
+TEST_P(Tolerance, IsMetByTheTrueErrorWhichTheEstimateExceeds) {
   const Motion& motion = GetParam();
   const Eigen::VectorXd exact = reference(scene(motion, WAVEBALANCE_SCENES, 1.0, 2048), 511);
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
@@ -19,9 +22,9 @@ TEST_P(Tolerance, IsMetWithinThreefoldByTheTrueError) {
     ASSERT_TRUE(response.converged) << response.status << " at " << tolerance;
     EXPECT_LE(response.refinement->estimated_error, tolerance);
     const double error = app::relative_rms_error(response.samples.displacement, exact);
-    EXPECT_LE(error, 3.0 * tolerance) << "estimated " << response.refinement->estimated_error;
+    EXPECT_LE(error, largest_share * tolerance) << "estimated " << response.refinement->estimated_error;
     // The reference of the motion without shooting is good to 4e-6.
-    EXPECT_LE(error, 3.0 * response.refinement->estimated_error + 5e-6) << "at tolerance " << tolerance;
+    EXPECT_LE(error, response.refinement->estimated_error + 5e-6) << "at tolerance " << tolerance;
   }
 }
 
@@ -40,7 +43,7 @@ TEST(Tolerance, IsMetWhereOneOrTwoPointsOfTheFirstProblemsTouch) {
     const app::Response response =
         app::weighted_residual_response(scene(grazing, WAVEBALANCE_SCENES, tolerance, 2048));
     ASSERT_TRUE(response.converged) << response.status;
-    EXPECT_LE(app::relative_rms_error(response.samples.displacement, exact), 3.0 * tolerance);
+    EXPECT_LE(app::relative_rms_error(response.samples.displacement, exact), tolerance);
   }
 }
 
@@ -56,7 +59,7 @@ TEST(Tolerance, IsMetWithPairsOfTheUsersOwn) {
     ASSERT_TRUE(response.converged) << trial << ":" << weight << " " << response.status;
     EXPECT_EQ(response.refinement->trial, trial);
     const double error = app::relative_rms_error(response.samples.displacement, exact);
-    EXPECT_LE(error, 3.0 * tolerance) << trial << ":" << weight;
+    EXPECT_LE(error, tolerance) << trial << ":" << weight;
   }
 }
 

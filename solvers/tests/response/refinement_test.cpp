@@ -62,7 +62,7 @@ void expect_within(const ProblemFactory& make, RefinementOptions options, const 
   const RefinementResult found = response_to_tolerance(make, law_1, options);
   ASSERT_TRUE(found.converged()) << to_string(found.status) << " at tolerance " << options.tolerance;
   EXPECT_LE(found.estimated_error, options.tolerance);
-  EXPECT_LE(distance(motion(found.problem->pair().trial(), found.response), reference), 3 * options.tolerance)
+  EXPECT_LE(distance(motion(found.problem->pair().trial(), found.response), reference), options.tolerance)
       << "tolerance " << options.tolerance;
 }
 
@@ -124,7 +124,7 @@ TEST(Refinement, EstimateIsNearTheTrueErrorOnEveryLevel) {
     CondensedProblem problem = bar(level.functions, level.points);
     const PeriodicResponse response = forced_response(problem, law_1, {});
     const double true_error = distance(motion(problem.pair().trial(), response), reference);
-    EXPECT_GT(level.estimated_error, true_error / 3.0) << level.functions << " functions";
+    EXPECT_GT(level.estimated_error, true_error) << level.functions << " functions";
     EXPECT_LT(level.estimated_error, true_error * 20.0) << level.functions << " functions";
     EXPECT_NEAR(std::hypot(level.truncation, level.quadrature), level.estimated_error, 10 * eps);
   }
@@ -173,7 +173,7 @@ TEST(Refinement, EstimateIncludesAContactBetweenThePoints) {
     ++compared;
     EXPECT_LE(
         distance(motion(found.problem->pair().trial(), found.response), motion(fine.pair().trial(), exact)),
-        3 * options.tolerance)
+        options.tolerance)
         << one.frequency << " Hz";
   }
   EXPECT_GE(compared, 5);
@@ -192,7 +192,8 @@ void expect_estimate_not_exceeded(double frequency, double below) {
     CondensedProblem problem = make(level.functions, level.points);
     const PeriodicResponse response = forced_response(problem, stop, {});
     const double error = distance(motion(problem.pair().trial(), response), exact.displacement);
-    EXPECT_LE(error, 3.0 * level.estimated_error + 2e-6)  // the reference's own error
+    // The estimate is no bound; README.md states a factor of 1.8. The reference has an error of 2e-6 itself.
+    EXPECT_LE(error, 2.0 * level.estimated_error + 2e-6)
         << frequency << " Hz, " << below << " of the amplitude, " << level.functions << " functions, "
         << level.points << " points";
   }
