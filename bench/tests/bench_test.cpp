@@ -14,7 +14,7 @@ Point point(double seconds, double error, bool converged = true) {
   return one;
 }
 
-TEST(ParetoFront, holds_the_points_that_no_other_beats_in_both_and_never_one_that_has_not_converged) {
+TEST(ParetoFront, HoldsThePointsThatNoOtherBeatsInBothAndNeverOneThatHasNotConverged) {
   std::vector<Point> points{point(1.0, 1e-1), point(2.0, 1e-2),        point(3.0, 2e-2),
                             point(4.0, 1e-3), point(0.5, 1e-9, false), point(4.0, 2e-3)};
   mark_front(points);
@@ -23,13 +23,13 @@ TEST(ParetoFront, holds_the_points_that_no_other_beats_in_both_and_never_one_tha
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, true, false, false}));
 }
 
-TEST(ParetoFront, keeps_equal_points_both) {
+TEST(ParetoFront, KeepsEqualPointsBoth) {
   std::vector<Point> points{point(1.0, 1e-3), point(1.0, 1e-3)};
   mark_front(points);
   EXPECT_TRUE(points[0].on_front && points[1].on_front);
 }
 
-TEST(ParetoFront, is_an_envelope_by_rising_time_with_falling_error) {
+TEST(ParetoFront, IsAnEnvelopeByRisingTimeWithFallingError) {
   const auto front = envelope({point(4.0, 1e-3), point(1.0, 1e-1), point(3.0, 2e-2), point(2.0, 1e-2)});
   ASSERT_EQ(front.size(), 3u);
   for (std::size_t i = 1; i < front.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(ParetoFront, is_an_envelope_by_rising_time_with_falling_error) {
   }
 }
 
-TEST(TimeLimit, allows_the_next_size_while_it_is_expected_within_the_limit) {
+TEST(TimeLimit, AllowsTheNextSizeWhileItIsExpectedWithinTheLimit) {
   TimeLimit limit(1.0);
   EXPECT_TRUE(limit.allows());
   limit.took(0.01);
@@ -49,7 +49,7 @@ TEST(TimeLimit, allows_the_next_size_while_it_is_expected_within_the_limit) {
   EXPECT_FALSE(limit.allows());
 }
 
-TEST(TimeLimit, expects_proportional_growth_at_least_and_cubic_growth_at_most) {
+TEST(TimeLimit, ExpectsProportionalGrowthAtLeastAndCubicGrowthAtMost) {
   TimeLimit shrinking(1.0), jumping(1.0);
   shrinking.took(5.0);
   shrinking.took(0.6);
@@ -59,7 +59,7 @@ TEST(TimeLimit, expects_proportional_growth_at_least_and_cubic_growth_at_most) {
   EXPECT_TRUE(jumping.allows());
 }
 
-TEST(LeastSeconds, calls_as_often_as_asked_unless_the_first_call_takes_too_long) {
+TEST(LeastSeconds, CallsAsOftenAsAskedUnlessTheFirstCallTakesTooLong) {
   int calls = 0;
   EXPECT_GE(least_seconds([&] { ++calls; }, {.budget = 0.0, .least = 3, .max_seconds = 1.0}), 0.0);
   EXPECT_EQ(calls, 3);

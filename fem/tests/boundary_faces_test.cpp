@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "print.hpp"
 #include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {

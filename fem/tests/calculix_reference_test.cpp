@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "../src/hexahedron.hpp"
+#include "hexahedron.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "beam.hpp"
+#include "print.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "beam.hpp"
+#include "print.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"

@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "print.hpp"
 #include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "print.hpp"
+
 namespace wavebalance::fem {
 namespace {
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
@@ -42,6 +43,10 @@ struct ErrorCase {
   int harmonics;
   int points;
   double error;  // relative rms of the tip displacement
+
+  friend void PrintTo(const ErrorCase& one, std::ostream* out) {
+    *out << one.harmonics << " harmonics, " << one.points << " points";
+  }
 };
 
 class HarmonicBalanceError : public ::testing::TestWithParam<ErrorCase> {};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 
 #include "support/ll10_rod.hpp"
 
@@ -47,6 +48,10 @@ TEST(NonlinearMode, LinearFrequencyAndGrazingEnergyAreThoseOfTheUnitRod) {
 struct Listed {
   int harmonics;
   double frequency_ratio, energy_ratio;
+
+  friend void PrintTo(const Listed& point, std::ostream* out) {
+    *out << "N = " << point.harmonics << ", frequency ratio " << point.frequency_ratio;
+  }
 };
 
 class ListedBackbone : public ::testing::TestWithParam<Listed> {};

@@ -1,10 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "support/jl14_bar.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
 
 namespace wavebalance::solvers {
+namespace testing {
+
+void PrintTo(const Jl14Case& scene, std::ostream* out) { *out << scene.frequency_hz << " Hz"; }
+
+}  // namespace testing
+
 namespace {
 
 using testing::Jl14Case;

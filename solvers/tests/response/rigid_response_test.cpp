@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "support/jl14_bar.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
@@ -24,6 +25,10 @@ struct RigidCase {
   double frequency, beta, gap;
   int functions, points;
   double mean_force, tolerance;  // over the load amplitude, independent figures
+
+  friend void PrintTo(const RigidCase& scene, std::ostream* out) {
+    *out << scene.frequency << " Hz, " << scene.functions << " functions, " << scene.points << " points";
+  }
 };
 
 class RigidJl14 : public ::testing::TestWithParam<RigidCase> {};
