@@ -38,11 +38,12 @@ struct CellResponse {
 /// structure.
 ///
 /// The active set of `start` (N force samples) is tried first; where it cycles or start is empty, a spring is
-/// stiffened until its active set is that of the obstacle. O(cells N log N + active^3 an iteration). Throws
+/// stiffened until its active set is that of the obstacle. O(cells N log N + active^3 per iteration). Throws
 /// std::invalid_argument for a gap that is not finite and for cells that do not ascend from 0.
 CellResponse cell_response(CondensedProblem& problem, double gap, const ForceCells& cells,
                            const NewtonOptions& options = {}, const Eigen::VectorXd& start = {});
 
+/// When the refinement of force cells starts, refines and ends.
 struct AdaptiveRigidOptions {
   int first_cells = 16;     ///< equal ones of the first round; divides N
   double tolerance = 1e-4;  ///< on the relative rms change of the displacement from one round to the next
@@ -52,6 +53,7 @@ struct AdaptiveRigidOptions {
   NewtonOptions newton;
 };
 
+/// One round of the refinement of force cells.
 struct AdaptiveCellRound {
   CellResponse response;
   double estimate = 1.0;  ///< relative rms change against the round before

@@ -40,7 +40,8 @@ Eigen::VectorXd residual_indicator(CondensedProblem& problem, const MultiscaleBa
   return missing.cwiseAbs2();
 }
 
-// The square of every selected detail, handed to what is not selected around it.
+// The indicator of a function that is not selected: the sum of the squares of the selected details next to
+// it.
 Eigen::VectorXd detail_indicator(const MultiscaleBasis& basis, const SelectedResponse& response) {
   Eigen::VectorXd indicator = Eigen::VectorXd::Zero(basis.functions());
   const std::set<int> selected(response.selection.begin(), response.selection.end());

@@ -62,6 +62,7 @@ enum class Marking {
   details    ///< around the largest selected details: their neighbours, and those of the next block there
 };
 
+/// Which functions a refinement starts from, how many a round adds, and when it ends.
 struct AdaptiveOptions {
   Marking marking = Marking::residual;
   int complete_blocks = 2;  ///< blocks that are selected whole from the start
@@ -73,6 +74,7 @@ struct AdaptiveOptions {
   NewtonOptions newton;
 };
 
+/// One round of the refinement.
 struct AdaptiveRound {
   SelectedResponse response;
   double estimate = 1.0;  ///< relative rms change against the round before

@@ -77,9 +77,9 @@ class MultiscaleBasis {
 
  private:
   struct Block {
-    Eigen::VectorXcd spectrum;  // over translates, of function 0
-    Eigen::VectorXd samples;    // N, of function 0
-    double centre = 0.0;        // of function 0
+    Eigen::VectorXcd spectrum;  // spectrum over translates of function 0
+    Eigen::VectorXd samples;    // N values of function 0
+    double centre = 0.0;        // centre of function 0
   };
 
   int functions_;

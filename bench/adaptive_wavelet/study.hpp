@@ -10,6 +10,7 @@
 
 namespace wavebalance::bench {
 
+/// Sizes of the studies.
 struct Sizes {
   int points = 4096;             ///< samples of the contact force, and of every error
   int finest = 512;              ///< functions of the finest level of the wavelet studies

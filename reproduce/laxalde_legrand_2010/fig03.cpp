@@ -193,7 +193,7 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
   artefact.note(
       "Half consistent, half lumped mass instead of eq. (28): the consistent one puts omega_2/omega_1 at "
       "3.0062, and an internal resonance 3:1 just above omega_1 ends the branch near grazing. The mixture "
-      "has 3.0000, so that this resonance falls onto grazing itself.");
+      "has 3.0000 exactly, so that this resonance coincides with grazing.");
 }
 
 }  // namespace

@@ -69,6 +69,8 @@ TEST(PaperPairs, ErrorsAreThoseOfAnIndependentComputation) {
   }
 }
 
+// The best approximation of one harmonic by 64 Haar functions has an error of 2 pi / (64 sqrt(12)) = 2.8e-2.
+// The other pairs have at most the 1.69e-3 of tip_errors.
 TEST(PaperPairs, AllTwelveCombinationsWith64FunctionsConverge) {
   for (const Pair& pair : table_2)
     for (const Case& scene : cases) {

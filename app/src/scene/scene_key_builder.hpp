@@ -118,7 +118,7 @@ inline Property single_or_list(SceneValue (*get)(const Scene&), void (*set)(Scen
 /// The default is the value that the member is initialised with.
 inline void optional(SceneKey& key) { key.fallback = SceneKey::Default::value; }
 
-/// The default follows from other keys by `rule`; `text` says so in words.
+/// The default follows from other keys by `rule`, which `text` describes.
 inline Property derived(std::string_view text, std::function<SceneValue(const Scene&)> rule) {
   return [=](SceneKey& key) {
     key.fallback = SceneKey::Default::derived;

@@ -72,8 +72,8 @@ void note_all_turning_points(report::Artefact& artefact) {
     text += (text.empty() ? "" : ", ") + all_turning_points_text(artefact, "case2_sweep.toml", pair);
   artefact.note(fmt::format(
       "Turning points leave out returns of the frequency below a thousandth of the interval. Each of the 256 "
-      "points that begins or ends to touch makes a corner, and near the fold the balance itself turns to and "
-      "fro at such corners. With every corner solved for, the turning points are: {}.",
+      "points that begins or ends to touch gives a kink of the curve, and near the fold the discrete curve "
+      "reverses at several of them. With every grazing point solved for, the turning points are: {}.",
       text));
 }
 

@@ -68,8 +68,8 @@ bool KrylovBlock::factorize(const ComplianceOperator& compliance, const Eigen::V
   return prepare(compliance, tangent) && factorize_coarse();
 }
 
-// On the active samples x = r - K D z - b y, the last row is -(D K^T c).z + (d - c.b) y = s - c.r, and
-// with the preconditioner's z = v - W B g - b y it is an equation for g = W^T D z and y.
+// On the active samples x = r - K D z - b y. The last row is then -(D K^T c).z + (d - c.b) y = s - c.r. With
+// the preconditioner's z = v - W B g - b y it becomes an equation for y and g = W^T D z.
 bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent,
                                      const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   bordered_ = true;

@@ -93,7 +93,7 @@ class ComplementarityPath {
   Eigen::VectorXd distance_, force_rate_, distance_rate_, product_;
   double z_ = 0.0, direction_ = -1.0, first_z_ = 1.0;
   int pivots_ = 0, max_segment_ = 0;
-  double operations_ = std::numeric_limits<double>::infinity();  // left
+  double operations_ = std::numeric_limits<double>::infinity();  // operations left
   Observer observer_;
 };
 

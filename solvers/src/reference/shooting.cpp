@@ -14,7 +14,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-constexpr int fewest_steps = 512;  // a period
+constexpr int fewest_steps = 512;  // per period
 
 /// Steps of the period such that every output time is the end of one: base 2^level = points repeat.
 struct OutputGrid {
@@ -28,7 +28,7 @@ struct OutputGrid {
   }
   int base;        // steps of the coarsest level in the Newton iteration
   int level = 0;   // coarsest level when samples are taken
-  int repeat = 1;  // steps of that level an output point
+  int repeat = 1;  // steps of that level per output point
 };
 
 class Shooting {

@@ -23,8 +23,8 @@ class ContactPropagator {
                     double tolerance);
 
   /// Takes state (2n) over one period from a time at which the load is at its maximum; multiplies sensitivity
-  /// (2n x columns), unless null, by the derivative of the period map. False when no step of the finest level
-  /// does.
+  /// (2n x columns), unless null, by the derivative of the period map. False when a step of the finest level
+  /// is not accurate enough.
   bool propagate_period(Eigen::VectorXd& state, Eigen::MatrixXd* sensitivity, int coarsest_level = 0,
                         const Recorder& recorder = {});
 

@@ -77,7 +77,7 @@ TEST_F(BarCurve, EndsWhereItsOperationsAreUsedUp) {
   int points = 0;
   while (curve.advance() == ArcLength::Status::advanced) ++points;
   EXPECT_GT(points, 0);
-  EXPECT_LT(points, 30);  // of some hundred
+  EXPECT_LT(points, 30);  // the whole curve has some hundred
   EXPECT_GT(system_->operations(), 1e5);
   EXPECT_LT(system_->operations(), 2e5);
 }

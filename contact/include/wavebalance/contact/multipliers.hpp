@@ -11,6 +11,7 @@ double powell_measure(std::span<const double> g, std::span<const double> theta);
 /// The same of the equality constraints h = 0 [LL10, eq. (25b)]: max |h|. O(n).
 double powell_measure(std::span<const double> h);
 
+/// When multipliers and penalties change, and when the outer iteration has converged.
 struct MultiplierOptions {
   /// alpha > 1: an outer iteration must reduce Powell's measure by this factor, or penalties grow [LL10,
   /// eq. (26)].
@@ -37,6 +38,7 @@ enum class MultiplierAction {
   stalled                             ///< did not improve, and the penalties in question are at their largest
 };
 
+/// What one outer iteration changed, and the measures that decided it.
 struct MultiplierStep {
   MultiplierAction inequality = MultiplierAction::satisfied;
   MultiplierAction equality = MultiplierAction::satisfied;

@@ -8,6 +8,7 @@
 
 namespace wavebalance::fem {
 
+/// The matrix at fault in a StructureFault.
 enum class StructureMatrix { mass, damping, stiffness };
 
 /// "mass", "damping" or "stiffness".
@@ -28,6 +29,7 @@ class StructureFault : public std::invalid_argument {
   std::string reason_;
 };
 
+/// What check_structure() accepts.
 struct StructureChecks {
   bool allow_free = false;            ///< accept a singular stiffness: a structure that can move freely
   double symmetry_tolerance = 1e-10;  ///< of the largest entry, >= 0

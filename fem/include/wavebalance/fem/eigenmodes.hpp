@@ -12,6 +12,7 @@ struct EigenmodesOptions {
   double shift = 0.0;        ///< (rad/s)^2, <= 0; below zero where the stiffness is singular (free bodies)
 };
 
+/// How an eigenmode computation ended.
 enum class EigenmodesStatus {
   converged,
   /// The sparse iteration ended early, or the count of the modes below the highest one shows that some are

@@ -34,6 +34,7 @@ Eigen::SparseMatrix<double> read_matrix_market(std::istream& input, const std::s
 Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file);
 Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string& name);
 
+/// Which entries of a matrix are written.
 enum class MatrixMarketSymmetry {
   general,   ///< every stored entry
   symmetric  ///< the lower triangle; the matrix must be symmetric to the last bit

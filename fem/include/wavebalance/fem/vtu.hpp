@@ -17,6 +17,7 @@ struct PointField {
   Eigen::MatrixXd values;
 };
 
+/// How numbers are written.
 enum class VtuFormat {
   ascii,           ///< 9 significant digits for the fields, 17 for the points
   appended_base64  ///< doubles, after the XML tree; half the size and exact

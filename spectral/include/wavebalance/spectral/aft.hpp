@@ -10,6 +10,7 @@ namespace wavebalance::spectral {
 /// A pointwise law of the displacement: fills `result` with the values at each `displacement`; equal lengths.
 using PointwiseLaw = std::function<void(std::span<const double> displacement, std::span<double> result)>;
 
+/// A force in time and as its Fourier coefficients.
 struct AftForce {
   Eigen::VectorXd samples;       ///< N force values at t = l/N
   Eigen::VectorXd coefficients;  ///< 2H+1 Fourier coefficients {mean, cos 1, sin 1, ...}

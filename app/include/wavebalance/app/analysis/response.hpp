@@ -57,6 +57,7 @@ struct Response {
   Eigen::MatrixXd motion;  ///< that structure's displacements, size x ResponseOptions::motion_points
 };
 
+/// What a response holds besides the motion of its contacts, and where its solution starts.
 struct ResponseOptions {
   bool full_history = false;  ///< also displacement and velocity of every degree of freedom
   int motion_points = 0;      ///< uniform instants of Response::motion; not used by time stepping

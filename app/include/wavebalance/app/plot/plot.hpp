@@ -26,6 +26,7 @@ enum class SeriesStyle {
   impulses,  ///< vertical lines from zero
 };
 
+/// Pattern of a line.
 enum class Dash { solid, dashed, dotted, dash_dotted };
 
 /// One curve. NaN is a missing value: a line is interrupted there, never bridged.
@@ -96,18 +97,21 @@ struct Segment {
   std::string label = {};  ///< at the right edge of the panel, outside of it; needs y2
 };
 
+/// A filled rectangle in the coordinates of the axes.
 struct Rectangle {
   double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
   Colour fill = Colour::grey;
   double opacity = 0.3;  ///< 0..1
 };
 
+/// A text at a point, in the coordinates of the axes.
 struct TextMark {
   double x = 0, y = 0;
   std::string text;
   enum class Align { left, centre, right } align = Align::centre;
 };
 
+/// One diagram of a figure: axes, curves and marks.
 struct Panel {
   std::string title;
   Axis x;
@@ -145,6 +149,7 @@ struct Figure {
   Panel& add_panel(std::string panel_title = "");
 };
 
+/// File format of a picture.
 enum class PictureFormat { svg, png };
 
 /// The picture as the bytes of a file. One figure gives the same bytes every time. Throws PlotError, and

@@ -15,10 +15,15 @@ using solvers::Formulation;
 using solvers::InnerProducts;
 using solvers::ModeFormulation;
 
+/// Kinds of structure, structure.type.
 enum class StructureType { bar, blade, matrices };
+/// Global direction of a blade's load.
 enum class Direction { x, y, z };
+/// Place of the load on a blade's tip.
 enum class TipPlace { leading_edge, mid_chord, trailing_edge };
+/// Contact laws, contact.law.
 enum class ContactLawType { none, exponential, linear, rigid };
+/// Analyses, analysis.type.
 enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
 
 /// Contents of the files that a scene names; see structure_files.hpp.

@@ -8,11 +8,12 @@
 
 namespace wavebalance::solvers {
 
+/// How a solve ended.
 enum class SolveStatus {
   converged,        ///< the residual meets the tolerance
   stalled,          ///< no descent along the Newton direction, and no complementarity path led to a solution
-  iteration_limit,  ///< iterations used up
-  effort_limit,     ///< operations used up
+  iteration_limit,  ///< max_iterations was reached
+  effort_limit,     ///< the limit of operations was reached
   singular,         ///< the Newton matrix is singular, or so nearly that GMRES does not converge
   cancelled         ///< the observer returned false
 };

@@ -83,7 +83,8 @@ struct CurvePoint {
 /// change sides, and from there on the curve is followed piece by piece.
 class ArcLength {
  public:
-  enum class Status { advanced, no_point };  // no_point: none was found, or the operations are used up
+  /// no_point: no further point was found, or the operations are used up.
+  enum class Status { advanced, no_point };
 
   ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options);
 

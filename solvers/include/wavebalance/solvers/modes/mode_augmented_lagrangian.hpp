@@ -15,16 +15,17 @@ enum class LagrangianStatus {
   converged,      ///< critical point, and both of Powell's measures below the strategy's tolerances
   linear,         ///< the same without a contact force: the linear mode
   inner_stalled,  ///< Newton could not reduce the gradient
-  inner_limit,    ///< Newton ran out of iterations
+  inner_limit,    ///< Newton reached max_inner_iterations
   singular,       ///< the Hessian is singular to working precision, and its least-squares step is not finite
-  outer_stalled,  ///< the multiplier strategy had nothing left to change
-  outer_limit,    ///< multipliers ran out of iterations
+  outer_stalled,  ///< the strategy could change neither multipliers nor penalties
+  outer_limit,    ///< the multipliers reached max_outer_iterations
   internal_resonance,  ///< "tongue": solved, but on an internal resonance, LagrangianPoint::resonance
   left_mode  ///< solved, but too little of the kinetic energy is in harmonic 1: another critical point
 };
 
 std::string_view to_string(LagrangianStatus status);
 
+/// How the eigenvalue r follows the motion.
 enum class EigenvalueUpdate {
   simultaneous,  ///< r depends on x [LL10, Algorithm 1]
   sequential     ///< r frozen at its prediction, then updated [LL10, Algorithm 2]
@@ -92,7 +93,7 @@ struct LagrangianPoint {
 /// Nonlinear modes with rigid contact by the augmented Lagrangian of [LL10, sections 3.3 and 4]: critical
 /// points of ModeLagrangian by Newton, inside an outer iteration on the multipliers. Newton's steps are
 /// halved until the gradient's norm decreases; L itself is not minimised, since modes are saddle points. All
-/// r (2N + 1) unknowns in one dense matrix, as the paper describes it; NonlinearMode is the fast way.
+/// r (2N + 1) unknowns in one dense matrix, as the paper describes it; NonlinearMode is much faster.
 ///
 ///     contact::MultiplierUpdate outer(std::vector<double>(mode.constraints(), 300.0), {300.0});
 ///     const LagrangianPoint point = mode.solve(1.5, outer, mode.linear_start(1.5));

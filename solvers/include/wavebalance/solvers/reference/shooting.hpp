@@ -10,10 +10,11 @@
 
 namespace wavebalance::solvers {
 
+/// How shooting ended.
 enum class ShootingStatus {
   converged,        ///< the state returns to itself after one period
   stalled,          ///< no step along Newton's direction reduces the residual
-  iteration_limit,  ///< iterations used up
+  iteration_limit,  ///< max_iterations was reached
   step_failure,     ///< the contact force could not be resolved in time, e.g. a law that jumps
   cancelled         ///< the observer returned false
 };

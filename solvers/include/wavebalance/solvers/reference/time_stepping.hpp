@@ -10,9 +10,10 @@
 
 namespace wavebalance::solvers {
 
+/// How time stepping ended.
 enum class TimeSteppingStatus {
   converged,        ///< two successive periods agree
-  iteration_limit,  ///< the periods or the steps ran out first
+  iteration_limit,  ///< max_periods or max_steps_per_period was reached
   step_failure,     ///< the integrator found no step that meets its tolerance
   cancelled         ///< the observer returned false
 };
@@ -52,17 +53,17 @@ struct TimeSteppingResult {
 /// Integrates M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c) [JL14, eq. (7)] until two
 /// successive periods of the contact displacements differ by less than period_tolerance in relative rms. The
 /// integrator is the variable-step, variable-order (1..5) backward differentiation of GSL (msbdf) with the
-/// analytic Jacobian; [JL14, section 4] used the closely related NDF. It never steps to an output time:
+/// analytic Jacobian; [JL14, section 4] used the closely related NDF. Steps do not end at output times:
 /// samples come from the quintic that matches displacement, velocity and acceleration at both ends of a step.
 ///
 /// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
-/// Floquet multiplier; the distance left to the periodic motion is about multiplier / (1 - multiplier) times
-/// the last difference, more where complex multipliers let that dip. Two periods never agree better than the
-/// steps do: keep period_tolerance above 100 step_tolerance, or the periods run out. Cost: O(n^2) a step and
-/// O(n^3) every twenty steps or so, O(n^2) memory: for structures of up to a few hundred degrees of freedom.
+/// Floquet multiplier; the distance to the periodic motion is then about multiplier / (1 - multiplier)
+/// times the last difference, or more with complex multipliers. Two periods cannot agree better than the
+/// steps are accurate: period_tolerance should exceed 100 step_tolerance. Cost: O(n^2) per step and O(n^3)
+/// about every twenty steps, O(n^2) memory: for structures of up to a few hundred degrees of freedom.
 ///
-/// GSL's error handler (which would end the program) is switched off for the duration of the call and
-/// restored; that handler belongs to the process.
+/// GSL's error handler, which would end the program and is one per process, is switched off during the call
+/// and then restored.
 ///
 /// Throws std::invalid_argument when the structure or the laws do not fit together, its mass is not positive
 /// definite, frequency_hz (Hz) is not positive and finite, or an option is out of range.

@@ -7,6 +7,7 @@
 
 namespace wavebalance::solvers {
 
+/// How a response curve ended.
 enum class SweepStatus {
   reached_end,  ///< the curve left the frequency interval at its far end
   returned,     ///< the curve left the interval at the end where it started
@@ -14,7 +15,7 @@ enum class SweepStatus {
   lost,         ///< no further point was found, neither along the tangent nor at a grazing event
   unbounded,    ///< the response grew past all bounds, as it does at a resonance without damping: that of the
                 ///< Nyquist function which an even number of functions keeps
-  point_limit,  ///< max_points used up
+  point_limit,  ///< max_points was reached
   cancelled     ///< the observer returned false
 };
 

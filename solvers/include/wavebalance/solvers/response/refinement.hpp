@@ -9,6 +9,7 @@
 
 namespace wavebalance::solvers {
 
+/// How a refinement ended.
 enum class RefinementStatus {
   converged,      ///< the estimated error meets the tolerance
   size_limit,     ///< the next level would have more functions or points than allowed

@@ -30,6 +30,7 @@ struct Admissibility {
   std::string reason;
 };
 
+/// How the inner products of a pair are formed.
 struct TimePairOptions {
   Formulation formulation = Formulation::distributional;
   InnerProducts inner_products = InnerProducts::quadrature;
