@@ -15,8 +15,7 @@ namespace {
 
 constexpr int published_harmonics = 2;
 
-/// A column of one formulation as a curve, from its `first` row on; a step above `gap` in energy interrupts
-/// it.
+/// A column of one formulation as a curve, from its `first` row on.
 app::Series curve(const std::string& label, const Table& table, const std::string& formulation,
                   const std::string& column, Colour colour, Dash dash, std::size_t first) {
   const auto rows = table.where("formulation", formulation);

@@ -11,7 +11,7 @@ double safe_norm(const Eigen::MatrixBase<Derived>& values) {
   return norm > 1e-140 && std::isfinite(norm) ? norm : values.stableNorm();
 }
 
-/// value / scale for what is not negative; of scale 0, 1 unless the value is 0 as well.
+/// value / scale for numbers that are not negative; for a scale of 0 it is 1, or 0 if the value is 0 as well.
 inline double relative_to(double scale, double value) {
   return scale > 0.0 ? value / scale : value > 0.0 ? 1.0 : value;
 }

@@ -1,9 +1,9 @@
 #include "response/error_estimate.hpp"
 
+#include "linalg/safe_norm.hpp"
+
 namespace wavebalance::solvers {
 namespace {
-
-double relative(double value, double scale) { return value == 0.0 ? 0.0 : value / scale; }
 
 /// A harmonic below M/2 has its coefficient divided by M as amplitude, because the coefficients of the
 /// cardinal functions are samples.
@@ -19,7 +19,8 @@ LevelDifference harmonic_distance(const Eigen::MatrixXcd& coarse, int coarse_fun
     else
       truncated += weight * value.squaredNorm();
   }
-  return {relative(std::sqrt(resolved), std::sqrt(scale)), relative(std::sqrt(truncated), std::sqrt(scale))};
+  return {relative_to(std::sqrt(scale), std::sqrt(resolved)),
+          relative_to(std::sqrt(scale), std::sqrt(truncated))};
 }
 
 }  // namespace
@@ -34,7 +35,7 @@ LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicR
   // Samples are contact-major and N divides N', so every (N'/N)-th sample of the finer response is taken.
   const Eigen::VectorXd at_points =
       fine_response.displacement(Eigen::seqN(0, coarse.samples(), fine.points() / coarse.points()));
-  return {0.0, relative((at_points - coarse_response.displacement).norm(), at_points.norm())};
+  return {0.0, relative_to(at_points.norm(), (at_points - coarse_response.displacement).norm())};
 }
 
 double halved_quadrature(CondensedProblem& problem, const PeriodicResponse& response) {
@@ -43,7 +44,7 @@ double halved_quadrature(CondensedProblem& problem, const PeriodicResponse& resp
   for (Eigen::Index l = 0; l < alternating.size(); ++l)
     if (l % points % 2 == 1) alternating[l] = -alternating[l];
   problem.apply(alternating, motion);
-  return relative(motion.norm(), response.displacement.norm());
+  return relative_to(response.displacement.norm(), motion.norm());
 }
 
 bool has_brief_contact(const PeriodicResponse& response, int points) {
@@ -111,7 +112,7 @@ double missed_contacts(CondensedProblem& problem, const PeriodicResponse& respon
   }
   if (pulses.isZero(0.0)) return 0.0;
   problem.apply(pulses, motion);
-  return relative(motion.norm(), response.displacement.norm());
+  return relative_to(response.displacement.norm(), motion.norm());
 }
 
 double decay_order(const PeriodicResponse& response, int functions) {
