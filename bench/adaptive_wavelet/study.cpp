@@ -181,7 +181,7 @@ Study make_study(const std::string& name, const Sizes& sizes) {
   const auto shot = solvers::shoot(structure, app::make_law(scene.contact), frequency, options);
   if (shot.status != solvers::ShootingStatus::converged)
     throw std::runtime_error(name + ": shooting did not converge");
-  study.reference = shot.samples.displacement;
+  study.reference = shot.contacts.displacement.row(0);
   study.instants = solvers::contact_instants(study.reference, gap);
   return study;
 }

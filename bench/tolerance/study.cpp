@@ -9,6 +9,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::bench {
 namespace {
@@ -34,7 +35,7 @@ ToleranceStudy::ToleranceStudy(const tolerance::Motion& motion, const std::strin
 
 double ToleranceStudy::error_of(const solvers::CondensedProblem& problem,
                                 const solvers::PeriodicResponse& response) const {
-  const auto motion = app::sample_response(problem, response, law_, output_points);
+  const auto motion = solvers::contact_motion(problem, response, law_, output_points);
   return app::relative_rms_error(motion.displacement.row(0), exact_);
 }
 

@@ -69,7 +69,7 @@ std::vector<Point> reference_points(const std::string& method, const Study& stud
     point.seconds = least_seconds([&] { result = solve(tolerance); }, {.max_seconds = 0.2});
     point.status = to_string(result.status);
     point.converged = point.status == "converged";
-    point.error = error_of(study, result.samples.displacement);
+    point.error = error_of(study, result.contacts.displacement.row(0));
     points.push_back(std::move(point));
   }
   return points;

@@ -6,8 +6,8 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 namespace wavebalance::bench {
 namespace {
@@ -73,7 +73,7 @@ Point measure(const Study& study, const Pair& pair, const app::Scene& scene, dou
   point.converged = response.converged();
   point.status = to_string(response.status);
   solvers::MotionEvaluator motion(problem.pair().trial(), static_cast<int>(study.reference.size()));
-  point.error = app::relative_rms_error(motion.displacement(response.coefficients), study.reference);
+  point.error = app::relative_rms_error(motion.displacement(response.coefficients.col(0)), study.reference);
   return point;
 }
 

@@ -27,7 +27,7 @@ app::Response require_converged(app::Response response, const std::string& what)
 
 Study penalty_study(const std::string& name, const std::string& title, const std::string& file) {
   Study study{name, title, scene(file), {}, 1e-11, "shooting"};
-  study.reference = require_converged(app::shooting_response(study.scene), name).samples.displacement;
+  study.reference = require_converged(app::shooting_response(study.scene), name).displacement();
   return study;
 }
 

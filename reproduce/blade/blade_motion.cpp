@@ -18,7 +18,7 @@ double apart(double a, double b) {
 
 std::vector<Eigen::Matrix3Xd> motion(const app::ModeStudy& study, const solvers::ModePoint& point,
                                      int times) {
-  const Eigen::MatrixXd whole = study.model().recover(study.samples(point, times, true).displacements);
+  const Eigen::MatrixXd whole = study.model().recover(study.structure_motion(point, times).displacement);
   std::vector<Eigen::Matrix3Xd> frames;
   for (Eigen::Index frame = 0; frame < whole.cols(); ++frame)
     frames.push_back(study.model().blade->model.displacements(whole.col(frame)));

@@ -10,19 +10,9 @@
 
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/stepped_sweep.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::blade {
-namespace {
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Contact-major samples as one row per contact.
-Eigen::MatrixXd rows(const Eigen::VectorXd& samples, int contacts) {
-  return Eigen::Map<const RowMajor>(samples.data(), contacts, samples.size() / contacts);
-}
-
-}  // namespace
-
 std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model) {
   const auto& analysis = scene.analysis;
   const auto frequencies = solvers::uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
@@ -36,8 +26,8 @@ std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::Str
     auto found = solvers::forced_response(at, composed.laws, nearby, guess);
     if (!found.converged()) found = solvers::forced_response(at, composed.laws, {});  // the branch ends here
     guess = found.converged() ? found.displacement : Eigen::VectorXd();
-    return {at.frequency(), found.converged(), rows(found.displacement, model.contacts()),
-            rows(found.contact_force, model.contacts())};
+    return {at.frequency(), found.converged(), solvers::by_contact(found.displacement, model.contacts()),
+            solvers::by_contact(found.contact_force, model.contacts())};
   };
   std::vector<BladeResponse> responses;
   for (auto& found : solvers::stepped_sweep(composed.problem, frequencies, solve))

@@ -13,14 +13,14 @@ namespace wavebalance::jl14 {
 
 std::vector<int> sizes() { return {8, 16, 32, 64, 128}; }
 
-Convergence::Convergence(report::Artefact& artefact, std::string column, bool full_history,
+Convergence::Convergence(report::Artefact& artefact, std::string column, bool whole_structure,
                          const Measure& measure)
     : column_(std::move(column)), table_({"case", "trial", "weight", "functions", column_, "converged"}) {
   for (const int number : {1, 2}) {
     Case study(artefact, number);
     for (const Pair& pair : pairs())
       for (const int functions : sizes()) {
-        const auto response = study.solve(pair, functions, full_history);
+        const auto response = study.solve(pair, functions, whole_structure);
         const double value =
             response.converged ? measure(study, response) : std::numeric_limits<double>::quiet_NaN();
         table_.append_row({std::int64_t{number}, pair.trial, pair.weight, std::int64_t{functions}, value,

@@ -16,7 +16,7 @@ class Convergence {
   using Measure = std::function<double(Case&, const app::Response&)>;
 
   /// Solves all 60 combinations; a response that has not converged is missing and noted in the artefact.
-  Convergence(report::Artefact& artefact, std::string column, bool full_history, const Measure& measure);
+  Convergence(report::Artefact& artefact, std::string column, bool whole_structure, const Measure& measure);
 
   /// Columns case, trial, weight, functions, `column`, converged.
   const Table& table() const { return table_; }

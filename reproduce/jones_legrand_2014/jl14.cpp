@@ -53,9 +53,9 @@ Case::Case(report::Artefact& artefact, int number)
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
   time_ = column("time_fraction");
-  reference_.displacement = column("displacement_m");
-  reference_.velocity = column("velocity_m_per_s");
-  reference_.contact_force = column("contact_force_N");
+  reference_.converged = true;
+  reference_.contacts = {column("displacement_m").transpose(), column("velocity_m_per_s").transpose(),
+                         column("contact_force_N").transpose()};
   reference_energy_ = column("system_energy_J");
 }
 
@@ -68,10 +68,11 @@ app::Scene Case::scene_for(const Pair& pair, int functions, const std::string& i
        "time.functions=" + std::to_string(functions), "time.inner_products=" + inner_products});
 }
 
-app::Response Case::solve(const Pair& pair, int functions, bool full_history) {
+app::Response Case::solve(const Pair& pair, int functions, bool whole_structure) {
   app::ResponseOptions options;
-  options.full_history = full_history;
-  auto response = app::weighted_residual_response(scene_for(pair, functions), options);
+  const app::Scene scene = scene_for(pair, functions);
+  if (whole_structure) options.structure_points = scene.analysis.output_points;
+  auto response = app::weighted_residual_response(scene, options);
   if (!response.converged)
     artefact_.note(fmt::format(
         "{} with {} functions at {} did not converge ({}, residual {}) and is not drawn.", pair.label,
@@ -89,10 +90,10 @@ std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen) {
   return responses;
 }
 
-Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd solvers::PeriodSamples::*quantity) {
+Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd (app::Response::*history)() const) {
   Values values;
   for (const auto& response : responses) {
-    values.push_back(response.samples.*quantity);
+    values.push_back((response.*history)());
     if (!response.converged) values.back().setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   return values;

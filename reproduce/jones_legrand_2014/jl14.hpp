@@ -47,11 +47,11 @@ class Case {
   /// "150 Hz"
   std::string frequency_text() const;
   const Eigen::VectorXd& time() const { return time_; }  ///< fraction of the period
-  const solvers::PeriodSamples& reference() const { return reference_; }
+  const app::Response& reference() const { return reference_; }
   const Eigen::VectorXd& reference_energy() const { return reference_energy_; }  ///< J
 
   /// The scene with this pair, solved. A response that has not converged is noted in the artefact.
-  app::Response solve(const Pair& pair, int functions, bool full_history = false);
+  app::Response solve(const Pair& pair, int functions, bool whole_structure = false);
   /// The same with exact inner products in place of sums over 256 points.
   app::Response solve_exactly(const Pair& pair, int functions);
   /// All of `chosen` with the scene's number of functions.
@@ -64,13 +64,14 @@ class Case {
   int number_;
   app::Scene scene_;
   Eigen::VectorXd time_;
-  solvers::PeriodSamples reference_;
+  app::Response reference_;
   Eigen::VectorXd reference_energy_;
 };
 
-/// The tip's samples of one kind of every response; missing values where it has not converged.
+/// One time history of the tip, such as &app::Response::velocity, of every response; missing values where it
+/// has not converged.
 using Values = std::vector<Eigen::VectorXd>;
-Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd solvers::PeriodSamples::*quantity);
+Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd (app::Response::*history)() const);
 /// In the order of `to`, what is in the order of `from`.
 Values reordered(const Values& values, const std::vector<Pair>& from, const std::vector<Pair>& to);
 /// A measure of each of `values` against the reference.

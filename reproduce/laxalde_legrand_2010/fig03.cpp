@@ -120,10 +120,9 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, con
 }
 
 void claim_work(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& backbone) {
-  const auto motion = study.samples(study.at_energy(backbone, 10.0), study.scene().analysis.samples, false);
-  const auto mean = [&](const Eigen::VectorXd& values) {
-    return motion.contact_force.cwiseProduct(values).mean() /
-           (motion.contact_force.mean() * values.cwiseAbs().maxCoeff());
+  const auto motion = study.contact_motion(study.at_energy(backbone, 10.0), study.scene().analysis.samples);
+  const auto mean = [&](const Eigen::MatrixXd& values) {
+    return motion.force.cwiseProduct(values).mean() / (motion.force.mean() * values.cwiseAbs().maxCoeff());
   };
   artefact.claim(
       {"section 3.2",

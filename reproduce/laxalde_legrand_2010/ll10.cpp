@@ -63,10 +63,10 @@ Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int tim
   if (!point.accepted())
     throw report::NotConverged(
         fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
-  const auto samples = study.samples(point, times, true);
+  const auto motion = study.structure_motion(point, times);
   const double gap = scene.contact.gap;
-  return {node_positions(scene.structure.elements), times_of(times), centred(samples.displacements) / gap,
-          centred(samples.velocities) / (gap * linear_omega(scene))};
+  return {node_positions(scene.structure.elements), times_of(times), centred(motion.displacement) / gap,
+          centred(motion.velocity) / (gap * linear_omega(scene))};
 }
 
 Motion exact_motion(const app::Scene& scene, double energy_ratio, int times) {

@@ -72,10 +72,10 @@ Eigen::MatrixXcd projected(const solvers::TimePair& pair, const Eigen::MatrixXd&
 }
 
 void measure_motion(const Scene& scene, const app::Response& response, Residuals& result) {
-  const solvers::PeriodSamples& samples = response.samples;
+  const Eigen::MatrixXd& u = response.structure.displacement;
   const solvers::LinearStructure structure = app::make_model(scene).structure;
   const solvers::TimePair pair = app::make_pair(scene.time);
-  const Eigen::MatrixXcd a = coefficients(pair, samples.displacements);
+  const Eigen::MatrixXcd a = coefficients(pair, u);
   const Eigen::MatrixXcd contact = projected(pair, response.contacts.force);
   Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(2);
   harmonics[1] = 1.0;
@@ -84,8 +84,8 @@ void measure_motion(const Scene& scene, const app::Response& response, Residuals
   const double mass = largest(structure.mass), damping = largest(structure.damping),
                stiffness = largest(structure.stiffness);
   constexpr double deviations = 4.0;  // hardly a coefficient in ten thousand has a larger error
-  const Eigen::VectorXd noise = deviations * std::numeric_limits<double>::epsilon() *
-                                samples.displacements.cwiseAbs().maxCoeff() * projected_noise(pair);
+  const Eigen::VectorXd noise =
+      deviations * std::numeric_limits<double>::epsilon() * u.cwiseAbs().maxCoeff() * projected_noise(pair);
   double worst = 0.0, scale = 0.0, rounding = 0.0;
   for (Eigen::Index k = 0; k < a.cols(); ++k) {
     const std::array<Eigen::VectorXcd, 3> terms{structure.mass * (pair.symbol(2)[k] * f * f * a.col(k)),
@@ -109,12 +109,12 @@ void measure_motion(const Scene& scene, const app::Response& response, Residuals
 
 /// How far forces are outside of what their laws give within a billionth of the motion about its
 /// displacements, over the largest force. Displacements do not resolve a very stiff law any better.
-double law_violation(const Scene& scene, const app::ContactMotion& contacts) {
+double law_violation(const Scene& scene, const solvers::Motion& contacts) {
   const solvers::ContactLaws laws = app::make_laws(scene);
   const double largest = contacts.force.cwiseAbs().maxCoeff();
   const double near = 1e-9 * contacts.displacement.cwiseAbs().maxCoeff();
   double worst = 0.0;
-  for (int contact = 0; contact < contacts.contacts(); ++contact)
+  for (int contact = 0; contact < contacts.rows(); ++contact)
     for (Eigen::Index l = 0; l < contacts.points(); ++l) {
       const double u = contacts.displacement(contact, l), force = contacts.force(contact, l);
       worst = std::max({worst, force - laws[contact].force(u + near), laws[contact].force(u - near) - force});
@@ -122,11 +122,11 @@ double law_violation(const Scene& scene, const app::ContactMotion& contacts) {
   return largest > 0.0 ? worst / largest : worst;
 }
 
-double complementarity(const Scene& scene, const app::ContactMotion& contacts) {
+double complementarity(const Scene& scene, const solvers::Motion& contacts) {
   if (scene.contact.law != ContactLawType::rigid) return law_violation(scene, contacts);
   const Eigen::ArrayXXd force = contacts.force.array();
   Eigen::ArrayXXd opening = -contacts.displacement.array();
-  for (int contact = 0; contact < contacts.contacts(); ++contact)
+  for (int contact = 0; contact < contacts.rows(); ++contact)
     opening.row(contact) += scene.contact.gap_of(contact);
   const double largest = force.abs().maxCoeff();
   double span = contacts.displacement.cwiseAbs().maxCoeff();
@@ -156,20 +156,20 @@ bool is_stiff(const Scene& scene, double displacement) {
   return !(app::make_law(scene.contact).tangent(std::max(displacement, scene.contact.gap)) <= 1e4 * element);
 }
 
-bool can_be_stepped(const Scene& scene, const solvers::PeriodSamples& samples, int stepped_elements) {
+bool can_be_stepped(const Scene& scene, const app::Response& response, int stepped_elements) {
   return scene.structure.type == app::StructureType::bar && !is_slow(scene) &&
-         scene.contact.law != ContactLawType::rigid && !is_stiff(scene, samples.displacement.maxCoeff()) &&
+         scene.contact.law != ContactLawType::rigid && !is_stiff(scene, response.displacement().maxCoeff()) &&
          !scene.structure.massless_tip && scene.structure.elements <= stepped_elements &&
          scene.time.trial != "haar" && scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
 }
 
-double periodicity(const Scene& scene, const solvers::PeriodSamples& samples) {
+double periodicity(const Scene& scene, const solvers::Motion& structure) {
   solvers::ShootingOptions options;
   options.output_points = 2;
   options.settling_periods = 0;
   options.max_iterations = 1;
-  options.initial_displacement = samples.displacements.col(0);
-  options.initial_velocity = samples.velocities.col(0);
+  options.initial_displacement = structure.displacement.col(0);
+  options.initial_velocity = structure.velocity.col(0);
   try {
     const auto result = solvers::shoot(app::make_model(scene).structure, app::make_law(scene.contact),
                                        scene.forcing.frequency, options);
@@ -179,15 +179,14 @@ double periodicity(const Scene& scene, const solvers::PeriodSamples& samples) {
   }
 }
 
-bool all_finite(const solvers::PeriodSamples& samples) {
-  return samples.displacement.allFinite() && samples.velocity.allFinite() &&
-         samples.contact_force.allFinite() && samples.displacements.allFinite() &&
-         samples.velocities.allFinite();
+bool all_finite(const solvers::Motion& motion) {
+  return motion.displacement.allFinite() && motion.velocity.allFinite() && motion.force.allFinite();
 }
 
 /// The first condition that a response reported as converged violates; empty if it violates none.
 std::string violated_condition(const app::Response& response, const Residuals& found) {
-  if (!all_finite(response.samples)) return "converged with samples that are not finite";
+  if (!all_finite(response.leading()) || !all_finite(response.structure))
+    return "converged with samples that are not finite";
   if (!(response.residual >= 0.0)) return "converged with a residual that is no number";
   if (!(found.motion <= largest_motion_residual + found.motion_rounding))
     return "converged, the equation of motion does not hold";
@@ -203,7 +202,7 @@ CheckResult solved_or_not(const Scene& scene, int stepped_elements = 30) {
     result.text = response.status;
     return result;
   }
-  if (response.samples.displacements.size() == 0) {
+  if (response.structure.empty()) {
     result.text = "converged without a motion";
     return result;
   }
@@ -262,7 +261,7 @@ std::string to_string(Outcome outcome) {
 app::Response solve(Scene scene) {
   scene.analysis.output_points = scene.time.quadrature_points;
   app::ResponseOptions options;
-  options.full_history = true;
+  options.structure_points = scene.analysis.output_points;
   return app::weighted_residual_response(scene, options);
 }
 
@@ -270,8 +269,8 @@ Residuals residuals(const Scene& scene, const app::Response& response, int stepp
   Residuals result;
   measure_motion(scene, response, result);
   result.complementarity = complementarity(scene, response.contacts);
-  if (can_be_stepped(scene, response.samples, stepped_elements))
-    result.periodicity = periodicity(scene, response.samples);
+  if (can_be_stepped(scene, response, stepped_elements))
+    result.periodicity = periodicity(scene, response.structure);
   return result;
 }
 

@@ -156,7 +156,7 @@ void Family::amplitudes() {
 void Family::contacts() {
   app::Scene free = scene({});
   free.contact = {};
-  const double highest = solve(free).samples.displacement.maxCoeff();
+  const double highest = solve(free).displacement().maxCoeff();
   for (const double side : {-1e-12, 0.0, 1e-12}) {
     const double gap = highest * (1.0 + side);
     solves("grazing", bar, {set("contact.gap", gap)});
@@ -261,7 +261,7 @@ double difference_between_units(const std::filesystem::path& scenes) {
     const app::Response response = solve(app::load_scene(scenes / units.scene));
     if (!response.converged)
       throw std::runtime_error(units.scene + ": not converged (" + response.status + ")");
-    motions.push_back(units.metres * response.samples.displacement);
+    motions.push_back(units.metres * response.displacement());
   }
   double worst = 0.0;
   for (const auto& motion : motions)

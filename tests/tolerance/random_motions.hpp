@@ -11,8 +11,9 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 namespace wavebalance::tolerance {
 
@@ -81,7 +82,7 @@ struct RandomMotion {
 inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion,
                                                       solvers::RefinementResult& found, int points) {
   const auto field =
-      solvers::periodic_field(*found.problem, found.response.contact_force, 4 * found.problem->points());
+      solvers::structure_motion(*found.problem, found.response.contact_force, 4 * found.problem->points());
   solvers::ShootingOptions options;
   options.output_points = points;
   options.settling_periods = 0;
@@ -90,13 +91,13 @@ inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion
   const auto shot =
       solvers::shoot(motion.model.structure, motion.law, motion.scene.forcing.frequency, options);
   if (shot.status != solvers::ShootingStatus::converged) return std::nullopt;
-  return shot.samples.displacement.col(0);
+  return Eigen::VectorXd(shot.contacts.displacement.row(0));
 }
 
 /// The relative rms distance of the refinement's motion from `exact`.
 inline double true_error(solvers::RefinementResult& found, const Eigen::VectorXd& exact) {
   solvers::MotionEvaluator motion(found.problem->pair().trial(), static_cast<int>(exact.size()));
-  const Eigen::VectorXd u = motion.displacement(Eigen::VectorXcd(found.response.coefficients.col(0)));
+  const Eigen::VectorXd u = motion.displacement(found.response.coefficients.col(0));
   return (u - exact).norm() / exact.norm();
 }
 

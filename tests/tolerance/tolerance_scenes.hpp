@@ -89,7 +89,7 @@ inline Eigen::VectorXd reference(app::Scene scene, int functions) {
     response = app::shooting_response(scene);
   }
   if (!response.converged) throw std::runtime_error("the reference has not converged: " + response.status);
-  return response.samples.displacement;
+  return response.displacement();
 }
 
 }  // namespace wavebalance::tolerance

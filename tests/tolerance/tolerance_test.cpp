@@ -21,7 +21,7 @@ TEST_P(Tolerance, IsMetByTheTrueErrorWhichTheEstimateExceeds) {
     ASSERT_TRUE(response.refinement.has_value());
     ASSERT_TRUE(response.converged) << response.status << " at " << tolerance;
     EXPECT_LE(response.refinement->estimated_error, tolerance);
-    const double error = app::relative_rms_error(response.samples.displacement, exact);
+    const double error = app::relative_rms_error(response.displacement(), exact);
     EXPECT_LE(error, largest_share * tolerance) << "estimated " << response.refinement->estimated_error;
     // The reference of the motion without shooting is good to 4e-6.
     EXPECT_LE(error, response.refinement->estimated_error + 5e-6) << "at tolerance " << tolerance;
@@ -43,7 +43,7 @@ TEST(Tolerance, IsMetWhereOneOrTwoPointsOfTheFirstProblemsTouch) {
     const app::Response response =
         app::weighted_residual_response(scene(grazing, WAVEBALANCE_SCENES, tolerance, 2048));
     ASSERT_TRUE(response.converged) << response.status;
-    EXPECT_LE(app::relative_rms_error(response.samples.displacement, exact), tolerance);
+    EXPECT_LE(app::relative_rms_error(response.displacement(), exact), tolerance);
   }
 }
 
@@ -58,7 +58,7 @@ TEST(Tolerance, IsMetWithPairsOfTheUsersOwn) {
         app::weighted_residual_response(scene(motion, WAVEBALANCE_SCENES, tolerance, 2048));
     ASSERT_TRUE(response.converged) << trial << ":" << weight << " " << response.status;
     EXPECT_EQ(response.refinement->trial, trial);
-    const double error = app::relative_rms_error(response.samples.displacement, exact);
+    const double error = app::relative_rms_error(response.displacement(), exact);
     EXPECT_LE(error, tolerance) << trial << ":" << weight;
   }
 }

@@ -11,8 +11,10 @@
 #include "analysis/record_figure.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/summary_parts.hpp"
+#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"
 #include "wavebalance/solvers/response/stepped_sweep.hpp"
 
@@ -61,7 +63,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.status = response.status;
   record.summary = solution_entries(response.converged, response.status, response.residual,
                                     response.iterations, response.unknowns, response.wall_seconds);
-  append_motion(record.summary, response.samples);
+  append_motion(record.summary, response.leading());
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
@@ -77,11 +79,11 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (scene.analysis.type == AnalysisType::forced_response)
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
-  if (response.contacts.points() == 0) return record;
-  record.response = response_table(response.samples);
+  if (response.contacts.empty()) return record;
+  record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);
   add_contacts(record, response.contacts, response.contact);
-  record.files = motion_files(model, response.motion);
+  record.files = motion_files(model, response.structure.displacement);
   return record;
 }
 
@@ -167,7 +169,7 @@ struct RigidPoint {
 RigidPoint rigid_point(solvers::CondensedProblem& problem, const StructureModel& model, int output_points,
                        const solvers::RigidResponseOptions& options) {
   const auto found = solvers::rigid_response(problem, model.gaps, options);
-  const ContactMotion motion = motion_with_nearest_forces(problem, found.response, output_points);
+  const solvers::Motion motion = solvers::contact_motion(problem, found.response, {}, output_points);
   const Eigen::MatrixXd& u = motion.displacement;
   RigidPoint result;
   result.converged = found.response.converged();
@@ -243,7 +245,6 @@ Record analyse(const Scene& scene, const Observer& observer) {
   const StructureModel model = make_model(scene);
   ResponseOptions options;
   options.observer = observer;
-  options.motion_points = std::max(0, scene.analysis.motion_points);
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
       return sweep_record(scene, model, frequency_sweep(scene, model, observer));
@@ -254,16 +255,8 @@ Record analyse(const Scene& scene, const Observer& observer) {
     case AnalysisType::forced_response:
       break;
   }
+  options.structure_points = std::max(0, scene.analysis.motion_points);
   return response_record(scene, model, weighted_residual_response(scene, model, options));
-}
-
-Table response_table(const solvers::PeriodSamples& samples) {
-  Table table;
-  table.add_column("time_fraction", time_fractions(samples.points()))
-      .add_column("displacement_m", samples.displacement)
-      .add_column("velocity_m_per_s", samples.velocity)
-      .add_column("contact_force_N", samples.contact_force);
-  return table;
 }
 
 Table sweep_table(const solvers::FrequencySweep& curve) {

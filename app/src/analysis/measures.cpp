@@ -7,7 +7,7 @@
 #include <string>
 
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
 
@@ -23,25 +23,24 @@ double relative_rms_error(const Eigen::VectorXd& values, const Eigen::VectorXd& 
   return rms(values - reference) / rms(reference);
 }
 
-Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& samples) {
+Eigen::VectorXd system_energy(const Scene& scene, const solvers::Motion& motion) {
   const solvers::LinearStructure structure = make_structure(scene);
-  const auto& u = samples.displacements;
-  const auto& v = samples.velocities;
-  if (u.rows() != structure.size() || v.rows() != structure.size() || u.cols() != v.cols())
+  if (motion.rows() != structure.size() || motion.velocity.rows() != structure.size() ||
+      motion.velocity.cols() != motion.points())
     throw std::invalid_argument(
-        fmt::format("system_energy: the samples hold {} degrees of freedom; they must hold all {}", u.rows(),
-                    structure.size()));
+        fmt::format("system_energy: the motion holds {} degrees of freedom; it must hold all {}",
+                    motion.rows(), structure.size()));
   // A rigid obstacle stores no energy.
   const bool rigid = scene.contact.law == ContactLawType::rigid;
-  return solvers::system_energy(structure, rigid ? solvers::ContactLaws() : make_laws(scene), {u, v});
+  return solvers::system_energy(structure, rigid ? solvers::ContactLaws() : make_laws(scene), motion);
 }
 
-double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples) {
-  return rms(system_energy(scene, samples));
+double energy_norm(const Scene& scene, const solvers::Motion& motion) {
+  return rms(system_energy(scene, motion));
 }
 
-double contact_fraction(const solvers::PeriodSamples& samples) {
-  return (samples.contact_force.array() > 0.0).cast<double>().mean();
+double contact_fraction(const solvers::Motion& motion) {
+  return (motion.force.array() > 0.0).cast<double>().mean();
 }
 
 double observed_order(std::span<const double> sizes, std::span<const double> errors) {

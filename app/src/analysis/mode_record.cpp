@@ -8,6 +8,7 @@
 #include "analysis/motion_files.hpp"
 #include "analysis/record_figure.hpp"
 #include "analysis/summary_parts.hpp"
+#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 
 namespace wavebalance::app {
@@ -124,11 +125,10 @@ Record motion_record(const ModeStudy& study) {
   const auto start = std::chrono::steady_clock::now();
   const ModePoint point = study.at_energy(scene.analysis.energy_ratio);
   Response response;
-  const ContactMotion contacts = study.contact_motion(point, scene.analysis.output_points);
-  response.contact = contacts.leading(study.model().gaps);
-  response.samples = contacts.samples(response.contact);
+  response.contacts = study.contact_motion(point, scene.analysis.output_points);
+  response.contact = leading_contact(response.contacts, study.model().gaps);
   response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const bool moves = response.samples.points() > 0;
+  const bool moves = !response.contacts.empty();
   Record record;
   record.converged = response.converged = point.accepted();
   record.status = to_string(point.status);
@@ -136,7 +136,7 @@ Record motion_record(const ModeStudy& study) {
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
                                     point.iterations, study.model().contacts() * scene.analysis.samples,
                                     response.wall_seconds);
-  append_motion(record.summary, response.samples);
+  append_motion(record.summary, response.leading());
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
   record.summary.emplace_back("frequency_Hz", moves ? ratio * study.linear_frequency() : missing);
@@ -147,11 +147,11 @@ Record motion_record(const ModeStudy& study) {
   append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
                  moves ? point.virial_residual : missing);
   if (!moves) return record;
-  record.response = response_table(response.samples);
-  add_contacts(record, contacts, response.contact);
+  record.response = response_table(response.leading());
+  add_contacts(record, response.contacts, response.contact);
   if (scene.analysis.motion_points > 0)
     record.files =
-        motion_files(study.model(), study.samples(point, scene.analysis.motion_points, true).displacements);
+        motion_files(study.model(), study.structure_motion(point, scene.analysis.motion_points).displacement);
   record.figure =
       motion_figure(scene, response, std::round(100.0 * ratio * study.linear_frequency()) / 100.0);
   return record;
@@ -203,7 +203,8 @@ Record published_record(const ModeStudy& study) {
   Response response;
   response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const solvers::LagrangianPoint& last = branch.back();
-  response.samples = study.samples(last, scene.analysis.output_points, false);
+  response.contacts = study.contact_motion(last, scene.analysis.output_points);
+  response.contact = leading_contact(response.contacts, study.model().gaps);
   const BranchMeasures measures = measured(branch);
   Record record;
   record.converged = response.converged = last.accepted();
@@ -213,12 +214,12 @@ Record published_record(const ModeStudy& study) {
   const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
   record.summary = solution_entries(record.converged, record.status, measures.gradient, measures.iterations,
                                     unknowns, response.wall_seconds);
-  append_motion(record.summary, response.samples);
+  append_motion(record.summary, response.leading());
   append_published(record.summary, study, branch, measures.equation);
   if (energy == 0.0) {
     draw_branch(record, study, branch);
   } else if (last.accepted()) {
-    record.response = response_table(response.samples);
+    record.response = response_table(response.leading());
     record.figure =
         motion_figure(scene, response, std::round(last.omega / (0.02 * std::numbers::pi)) / 100.0);
   }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/resampling.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
 namespace wavebalance::app {
@@ -22,6 +21,8 @@ constexpr int linear_points = 6;         // points of the branch below contact, 
 bool is_solution(const ModePoint& point) {
   return point.accepted() || point.status == ModeStatus::internal_resonance;
 }
+
+bool has_motion(const ModePoint& point) { return is_solution(point) && point.amplitudes.size() > 0; }
 
 solvers::BackboneOptions curve_options(const Analysis& analysis) {
   solvers::BackboneOptions options;
@@ -82,6 +83,19 @@ Eigen::MatrixXd synthesis(const Eigen::MatrixXcd& columns, int points) {
   return (columns * waves).real();
 }
 
+/// The motion of these amplitudes, without forces.
+solvers::Motion synthesised_motion(const Eigen::MatrixXcd& amplitudes, double omega, int points) {
+  return {synthesis(amplitudes, points), synthesis(rate(amplitudes, omega), points), {}};
+}
+
+/// That of the contacts in a ModePoint or a LagrangianPoint.
+template <class Point>
+solvers::Motion motion_of_contacts(const solvers::ModalModel& model, const Point& point, int points) {
+  solvers::Motion motion = synthesised_motion(model.contact_shapes * point.amplitudes, point.omega, points);
+  motion.force = solvers::nearest_samples(point.force, points);
+  return motion;
+}
+
 }  // namespace
 
 int Backbone::count(ModeStatus status) const {
@@ -132,43 +146,19 @@ ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const
   return solvers::at_energy(mode_, curve.points, energy_ratio);
 }
 
-ContactMotion ModeStudy::contact_motion(const ModePoint& point, int points) const {
-  if (!is_solution(point) || point.amplitudes.size() == 0) return {};
-  return touching(point.amplitudes, point.force, point.omega, points);
+solvers::Motion ModeStudy::contact_motion(const ModePoint& point, int points) const {
+  if (!has_motion(point)) return {};
+  return motion_of_contacts(mode_.model(), point, points);
 }
 
-ContactMotion ModeStudy::contact_motion(const solvers::LagrangianPoint& point, int points) const {
+solvers::Motion ModeStudy::contact_motion(const solvers::LagrangianPoint& point, int points) const {
   if (!point.accepted()) return {};
-  return touching(point.amplitudes, point.force, point.omega, points);
+  return motion_of_contacts(mode_.model(), point, points);
 }
 
-solvers::PeriodSamples ModeStudy::samples(const ModePoint& point, int points, bool full_history) const {
-  return sampled(contact_motion(point, points), point.amplitudes, point.omega, full_history);
-}
-
-solvers::PeriodSamples ModeStudy::samples(const solvers::LagrangianPoint& point, int points,
-                                          bool full_history) const {
-  return sampled(contact_motion(point, points), point.amplitudes, point.omega, full_history);
-}
-
-ContactMotion ModeStudy::touching(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force,
-                                  double omega, int points) const {
-  const Eigen::MatrixXcd u = mode_.model().contact_shapes * amplitudes;
-  ContactMotion motion{synthesis(u, points), synthesis(rate(u, omega), points), {}};
-  motion.force.resize(motion.contacts(), points);
-  for (Eigen::Index contact = 0; contact < motion.force.rows(); ++contact)
-    motion.force.row(contact) = nearest_samples(force.row(contact), points);
-  return motion;
-}
-
-solvers::PeriodSamples ModeStudy::sampled(const ContactMotion& motion, const Eigen::MatrixXcd& amplitudes,
-                                          double omega, bool full_history) const {
-  solvers::PeriodSamples samples = motion.samples(motion.leading(model_.gaps));
-  if (!full_history || motion.points() == 0) return samples;
-  const Eigen::MatrixXcd u = modes_.shapes * amplitudes;
-  samples.displacements = synthesis(u, motion.points());
-  samples.velocities = synthesis(rate(u, omega), motion.points());
-  return samples;
+solvers::Motion ModeStudy::structure_motion(const ModePoint& point, int points) const {
+  if (!has_motion(point)) return {};
+  return synthesised_motion(physical(modes_, point), point.omega, points);
 }
 
 std::vector<solvers::LagrangianPoint> ModeStudy::published_branch(double largest) const {

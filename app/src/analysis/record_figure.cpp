@@ -126,11 +126,11 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   if (!response.converged) figure.title += " (NOT CONVERGED: last iterate)";
   figure.panel_height = 240;
   figure.panel_width = 600;
-  add_motion(figure, "Displacement", "m", response.samples.displacement, response.converged);
-  add_motion(figure, "Velocity", "m/s", response.samples.velocity, response.converged);
-  add_motion(figure, "Contact force", "N", response.samples.contact_force, response.converged);
+  add_motion(figure, "Displacement", "m", response.displacement(), response.converged);
+  add_motion(figure, "Velocity", "m/s", response.velocity(), response.converged);
+  add_motion(figure, "Contact force", "N", response.force(), response.converged);
   if (scene.contact.law != ContactLawType::none) {
-    const double factor = scale_of(response.samples.displacement.cwiseAbs().maxCoeff()).factor;
+    const double factor = scale_of(response.displacement().cwiseAbs().maxCoeff()).factor;
     figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact), "gap");
   }
   return figure;

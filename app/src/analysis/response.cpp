@@ -1,17 +1,20 @@
 #include "wavebalance/app/analysis/response.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <stdexcept>
+#include <string>
 
-#include "analysis/resampling.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/tolerance_response.hpp"
+#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"
 
 namespace wavebalance::app {
@@ -23,39 +26,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Displacements and velocities of all contacts.
-ContactMotion sample_motion(const solvers::CondensedProblem& problem,
-                            const solvers::PeriodicResponse& response, int points) {
-  solvers::MotionEvaluator motion(problem.pair().trial(), points);
-  return {motion.displacement(response.coefficients).transpose(),
-          motion.velocity(response.coefficients, response.frequency).transpose(),
-          {}};
-}
-
-/// Contact forces at `points` times, each from the nearest quadrature point.
-Eigen::MatrixXd nearest_forces(const solvers::PeriodicResponse& response, int contacts, int points) {
-  const Eigen::Index samples = response.contact_force.size() / contacts;
-  Eigen::MatrixXd forces(contacts, points);
-  for (Eigen::Index contact = 0; contact < contacts; ++contact)
-    forces.row(contact) = nearest_samples(response.contact_force.segment(contact * samples, samples), points);
-  return forces;
-}
-
 /// Sets the contacts' motion, the leading contact, and the motion of the whole structure if the options
 /// require it.
 void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found,
-                 const StructureModel& model, ContactMotion contacts, const ResponseOptions& options,
-                 Response& result) {
-  result.contact = contacts.leading(model.gaps);
-  result.samples = contacts.samples(result.contact);
-  if (options.full_history) {
-    auto field = solvers::periodic_field(problem, found.contact_force, contacts.points());
-    result.samples.displacements = std::move(field.displacement);
-    result.samples.velocities = std::move(field.velocity);
-  }
-  if (options.motion_points > 0)
-    result.motion = solvers::periodic_field(problem, found.contact_force, options.motion_points).displacement;
-  result.contacts = std::move(contacts);
+                 const solvers::ContactLaws& laws, const Scene& scene, const StructureModel& model,
+                 const ResponseOptions& options, Response& result) {
+  result.contacts = solvers::contact_motion(problem, found, laws, scene.analysis.output_points);
+  result.contact = leading_contact(result.contacts, model.gaps);
+  if (options.structure_points > 0)
+    result.structure = solvers::structure_motion(problem, found.contact_force, options.structure_points);
 }
 
 void note_solution(Response& result, const solvers::CondensedProblem& problem,
@@ -75,17 +54,14 @@ void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem&
   auto& [problem, laws] = composed;
   const auto found = solvers::forced_response(problem, laws, solver, options.guess);
   note_solution(result, problem, found);
-  note_motion(problem, found, model, sample_response(problem, found, laws, scene.analysis.output_points),
-              options, result);
+  note_motion(problem, found, laws, scene, model, options, result);
 }
 
 void solve_refined(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
   const solvers::ContactLaws laws = make_laws(scene);
   auto found = solve_to_tolerance(scene, model, laws, options, result);
-  note_motion(*found.problem, found.response, model,
-              sample_response(*found.problem, found.response, laws, scene.analysis.output_points), options,
-              result);
+  note_motion(*found.problem, found.response, laws, scene, model, options, result);
 }
 
 void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
@@ -98,19 +74,21 @@ void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProble
   const auto& contact = found.complementarity;
   result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
   result.residual = std::max(found.response.residual, contact.product);
-  note_motion(problem, found.response, model,
-              motion_with_nearest_forces(problem, found.response, scene.analysis.output_points), options,
-              result);
+  note_motion(problem, found.response, composed.laws, scene, model, options, result);
+}
+
+/// Whether a reference keeps every degree of freedom.
+bool wants_structure(const Scene& scene, const ResponseOptions& options) {
+  const int points = options.structure_points;
+  if (points != 0 && points != scene.analysis.output_points)
+    throw std::invalid_argument(
+        fmt::format("ResponseOptions: structure_points is {}; of time stepping and shooting it must be 0 or "
+                    "analysis.output_points, {}",
+                    points, scene.analysis.output_points));
+  return points > 0;
 }
 
 }  // namespace
-
-ContactMotion motion_with_nearest_forces(const solvers::CondensedProblem& problem,
-                                         const solvers::PeriodicResponse& response, int points) {
-  ContactMotion motion = sample_motion(problem, response, points);
-  motion.force = nearest_forces(response, problem.contacts(), points);
-  return motion;
-}
 
 Time solved_time(Time time, const Response& response) {
   if (!response.refinement) return time;
@@ -120,18 +98,6 @@ Time solved_time(Time time, const Response& response) {
   time.functions = last.functions;
   time.quadrature_points = last.points;
   return time;
-}
-
-ContactMotion sample_response(const solvers::CondensedProblem& problem,
-                              const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
-                              int points) {
-  if (response.force_by_balance) return motion_with_nearest_forces(problem, response, points);
-  ContactMotion motion = sample_motion(problem, response, points);
-  motion.force =
-      Eigen::MatrixXd::NullaryExpr(motion.contacts(), points, [&](Eigen::Index contact, Eigen::Index l) {
-        return laws[static_cast<int>(contact)].force(motion.displacement(contact, l));
-      });
-  return motion;
 }
 
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options) {
@@ -172,7 +138,7 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   stepping.output_points = scene.analysis.output_points;
   stepping.period_tolerance = scene.analysis.tolerance;
   stepping.max_periods = scene.analysis.max_periods;
-  stepping.full_history = options.full_history;
+  stepping.full_history = wants_structure(scene, options);
   stepping.observer = options.observer;
   auto found =
       solvers::integrate_to_periodic(model.structure, make_laws(scene), scene.forcing.frequency, stepping);
@@ -184,11 +150,9 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
       found.period_error.empty() ? std::numeric_limits<double>::quiet_NaN() : found.period_error.back();
   result.iterations = found.periods;
   result.unknowns = 2 * model.size();
-  result.contacts = ContactMotion::of(found.samples);
-  result.contact = result.contacts.leading(model.gaps);
-  result.samples = result.contacts.samples(result.contact);
-  result.samples.displacements = std::move(found.samples.displacements);
-  result.samples.velocities = std::move(found.samples.velocities);
+  result.contacts = std::move(found.contacts);
+  result.contact = leading_contact(result.contacts, model.gaps);
+  result.structure = std::move(found.structure);
   return result;
 }
 
@@ -196,7 +160,7 @@ Response shooting_response(const Scene& scene, const ResponseOptions& options) {
   const auto start = Clock::now();
   solvers::ShootingOptions shooting;
   shooting.output_points = scene.analysis.output_points;
-  shooting.full_history = options.full_history;
+  shooting.full_history = wants_structure(scene, options);
   shooting.observer = options.observer;
   const StructureModel model = make_model(scene);
   auto found = solvers::shoot(model.structure, make_law(scene.contact), scene.forcing.frequency, shooting);
@@ -207,7 +171,8 @@ Response shooting_response(const Scene& scene, const ResponseOptions& options) {
   result.residual = found.residual;
   result.iterations = found.iterations;
   result.unknowns = 2 * model.size();
-  result.samples = std::move(found.samples);
+  result.contacts = std::move(found.contacts);
+  result.structure = std::move(found.structure);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
@@ -48,20 +49,20 @@ void append_condition(Record& record, double condition) {
   record.summary.emplace_back("warnings", record.warnings);
 }
 
-void add_contacts(Record& record, const ContactMotion& contacts, int leading) {
-  if (contacts.contacts() < 2) return;
+void add_contacts(Record& record, const solvers::Motion& contacts, int leading) {
+  if (contacts.rows() < 2) return;
   record.summary.emplace_back("leading_contact", std::int64_t{leading + 1});
   record.contacts = contacts_table(contacts);
 }
 
-void append_motion(Summary& summary, const solvers::PeriodSamples& samples) {
-  const bool empty = samples.points() == 0;
-  const auto& u = samples.displacement;
+void append_motion(Summary& summary, const solvers::Motion& leading) {
+  const bool empty = leading.empty();
+  const Eigen::MatrixXd& u = leading.displacement;
   summary.emplace_back("max_displacement_m", empty ? missing : u.maxCoeff());
   summary.emplace_back("min_displacement_m", empty ? missing : u.minCoeff());
-  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u));
-  summary.emplace_back("max_contact_force_N", empty ? missing : samples.contact_force.maxCoeff());
-  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(samples));
+  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u.reshaped()));
+  summary.emplace_back("max_contact_force_N", empty ? missing : leading.force.maxCoeff());
+  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(leading));
 }
 
 }  // namespace wavebalance::app

@@ -24,9 +24,9 @@ void append_structure(Summary& summary, const StructureModel& model);
 void append_condition(Record& record, double condition);
 
 /// The table of all contacts, and which of them the record shows, where there are several.
-void add_contacts(Record& record, const ContactMotion& contacts, int leading);
+void add_contacts(Record& record, const solvers::Motion& contacts, int leading);
 
-/// The fields of one motion of the leading contact; missing values when `samples` are empty.
-void append_motion(Summary& summary, const solvers::PeriodSamples& samples);
+/// The fields of the motion of the leading contact; missing values of an empty one.
+void append_motion(Summary& summary, const solvers::Motion& leading);
 
 }  // namespace wavebalance::app

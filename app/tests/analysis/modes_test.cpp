@@ -54,15 +54,15 @@ TEST(ModeStudy, EquationOfMotionHoldsAtEveryAcceptedPoint) {
 TEST(ModeStudy, SamplesAreTheMotion) {
   const ModeStudy study(rod());
   const auto point = study.at_energy(1.8);
-  const auto tip = study.samples(point, 1024, false), all = study.samples(point, 1024, true);
-  EXPECT_EQ(all.displacements.rows(), 20);
+  const auto tip = study.contact_motion(point, 1024), all = study.structure_motion(point, 1024);
+  EXPECT_EQ(all.rows(), 20);
   const double scale = tip.displacement.cwiseAbs().maxCoeff();
-  EXPECT_LT((all.displacements.row(19).transpose() - tip.displacement).cwiseAbs().maxCoeff(), 1e-12 * scale);
+  EXPECT_LT((all.displacement.row(19) - tip.displacement).cwiseAbs().maxCoeff(), 1e-12 * scale);
   EXPECT_NEAR(tip.displacement.maxCoeff(), 1e-3 * (1.0 + point.max_penetration), 1e-6);
   // A central difference of a motion with 10 harmonics: its error is (2 pi 10/1024)^2/6 of the tenth at most.
   const double rate = 1024.0 * point.omega / (2.0 * std::numbers::pi) / 2.0;
   for (int l = 1; l + 1 < 1024; ++l)
-    EXPECT_NEAR(tip.velocity[l], rate * (tip.displacement[l + 1] - tip.displacement[l - 1]),
+    EXPECT_NEAR(tip.velocity(0, l), rate * (tip.displacement(0, l + 1) - tip.displacement(0, l - 1)),
                 1e-3 * tip.velocity.cwiseAbs().maxCoeff());
 }
 
@@ -189,7 +189,7 @@ TEST(Analyse, RigidContactIsTheLimitOfAStiffSpring) {
   spring.contact.stiffness = 1e13;
   const Response stiff = weighted_residual_response(spring), rigid = weighted_residual_response(rigid_bar());
   ASSERT_TRUE(stiff.converged && rigid.converged);
-  EXPECT_LT((stiff.samples.displacement - rigid.samples.displacement).cwiseAbs().maxCoeff(), 1e-3 * 1e-3);
+  EXPECT_LT((stiff.displacement() - rigid.displacement()).cwiseAbs().maxCoeff(), 1e-3 * 1e-3);
 }
 
 TEST(FrequencySweep, RigidContactIsSolvedAtEachFrequency) {
@@ -204,7 +204,7 @@ TEST(FrequencySweep, RigidContactIsSolvedAtEachFrequency) {
   ASSERT_EQ(sweep.curve.points.size(), 5u);
   EXPECT_DOUBLE_EQ(sweep.curve.points[2].frequency, 150.0);
   const Response alone = weighted_residual_response(rigid_bar());
-  EXPECT_DOUBLE_EQ(sweep.curve.points[2].max_displacement, alone.samples.displacement.maxCoeff());
+  EXPECT_DOUBLE_EQ(sweep.curve.points[2].max_displacement, alone.displacement().maxCoeff());
   EXPECT_LE(sweep.max_penetration, 1.5e-9);
 }
 

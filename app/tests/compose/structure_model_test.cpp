@@ -59,8 +59,8 @@ TEST(MatricesModel, BarGivenAsMatricesRespondsAlike) {
   const Response expected = weighted_residual_response(bar);
   const Response found = weighted_residual_response(as_matrices(folder, bar, "damping = \"c.mtx\""));
   ASSERT_TRUE(found.converged);
-  EXPECT_LT(distance(found.samples.displacement, expected.samples.displacement), 1e-10);
-  EXPECT_LT(distance(found.samples.contact_force, expected.samples.contact_force), 1e-10);
+  EXPECT_LT(distance(found.displacement(), expected.displacement()), 1e-10);
+  EXPECT_LT(distance(found.force(), expected.force()), 1e-10);
 }
 
 TEST(MatricesModel, BarGivenAsMatricesHasTheSameSweep) {
@@ -86,8 +86,8 @@ TEST(MatricesModel, AllModesKeptChangeNothing) {
   EXPECT_TRUE(reduced.model().reduced());
   const auto a = reduced.at_energy(3.0), b = whole.at_energy(3.0);
   EXPECT_NEAR(a.omega, b.omega, 1e-8 * b.omega);
-  const auto u = reduced.model().recover(reduced.samples(a, 64, true).displacements);
-  const auto v = whole.samples(b, 64, true).displacements;
+  const auto u = reduced.model().recover(reduced.structure_motion(a, 64).displacement);
+  const auto v = whole.structure_motion(b, 64).displacement;
   EXPECT_LT((u - v).cwiseAbs().maxCoeff(), 1e-6 * v.cwiseAbs().maxCoeff());
 }
 
@@ -216,15 +216,15 @@ TEST(Contacts, TwoOfAChainMoveAsTimeSteppingSays) {
   stepping.insert(stepping.end(), {"analysis.type=time_stepping", "analysis.tolerance=1e-7"});
   const Response reference = time_stepping_response(chain(folder, stepping));
   ASSERT_TRUE(found.converged && reference.converged);
-  ASSERT_EQ(found.contacts.contacts(), 2);
+  ASSERT_EQ(found.contacts.rows(), 2);
   for (int contact = 0; contact < 2; ++contact) {
-    const auto a = found.contacts.samples(contact), b = reference.contacts.samples(contact);
+    const auto a = found.contacts.contact(contact), b = reference.contacts.contact(contact);
     // A kink of the force leaves Fourier coefficients of the displacement of order k^-4: together 63^-3.5
     // of the motion, below the error of stepping to 1e-7 per period.
-    EXPECT_LT(relative_rms_error(a.displacement, b.displacement), 5e-6) << contact;
-    EXPECT_GT(b.contact_force.maxCoeff(), 0.0) << contact;
+    EXPECT_LT(relative_rms_error(a.displacement.row(0), b.displacement.row(0)), 5e-6) << contact;
+    EXPECT_GT(b.force.maxCoeff(), 0.0) << contact;
   }
-  EXPECT_EQ(found.samples.displacement, found.contacts.samples(found.contact).displacement);
+  EXPECT_EQ(found.displacement().transpose(), found.contacts.displacement.row(found.contact));
 }
 
 TEST(Contacts, RigidOnesHoldAtEveryPoint) {
@@ -282,9 +282,9 @@ TEST(Contacts, MotionOfTheWholeFollowsTheContacts) {
   const Scene scene = chain(folder, damped({"structure.contact_dofs=[-2,3]"}));
   const StructureModel model = make_model(scene);
   ResponseOptions options;
-  options.motion_points = 64;
+  options.structure_points = 64;
   const Response response = weighted_residual_response(scene, model, options);
-  const Eigen::MatrixXd whole = model.recover(response.motion);
+  const Eigen::MatrixXd whole = model.recover(response.structure.displacement);
   for (int l = 0; l < 64; ++l) {
     EXPECT_NEAR(whole(1, l), -response.contacts.displacement(0, 16 * l), 1e-12 * whole.norm());
     EXPECT_NEAR(whole(2, l), response.contacts.displacement(1, 16 * l), 1e-12 * whole.norm());

@@ -48,7 +48,7 @@ app::Figure functions_figure(const Table& table) {
 double formulation_spread(report::Artefact& artefact) {
   const auto response = [&](const std::string& formulation) {
     const auto scene = artefact.scene("case1.toml", {"time.formulation=" + formulation});
-    return app::weighted_residual_response(scene).samples.displacement;
+    return app::weighted_residual_response(scene).displacement();
   };
   const Eigen::VectorXd distributional = response("distributional");
   return std::max(app::relative_rms_error(response("strong"), distributional),

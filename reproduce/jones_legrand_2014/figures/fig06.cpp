@@ -11,16 +11,16 @@ namespace {
 constexpr double millimetres = 1e3;
 
 Eigen::VectorXd on_plateau(const Case& study, const Eigen::VectorXd& values, bool inside = true) {
-  const Eigen::VectorXd force = shifted_by_half_a_period(study.reference().contact_force);
+  const Eigen::VectorXd force = shifted_by_half_a_period(study.reference().force());
   return select(shifted_by_half_a_period(values), (force.array() > 0.0) == inside);
 }
 
-void claim_hbm(report::Artefact& artefact, const Case& study, const solvers::PeriodSamples& hbm) {
+void claim_hbm(report::Artefact& artefact, const Case& study, const app::Response& hbm) {
   const auto& reference = study.reference();
-  const Eigen::VectorXd difference = on_plateau(study, hbm.displacement - reference.displacement);
+  const Eigen::VectorXd difference = on_plateau(study, hbm.displacement() - reference.displacement());
   const int changes = sign_changes(difference);
   const double swing =
-      (difference.maxCoeff() - difference.minCoeff()) / (reference.displacement.maxCoeff() - study.gap());
+      (difference.maxCoeff() - difference.minCoeff()) / (reference.displacement().maxCoeff() - study.gap());
   artefact.claim({"section 5.1",
                   "close examination of the contact plateau for the 150 Hz case shows oscillations due to "
                   "Gibbs phenomenon",
@@ -28,8 +28,8 @@ void claim_hbm(report::Artefact& artefact, const Case& study, const solvers::Per
                   fmt::format("{} changes of sign, swing {} of the largest penetration", changes,
                               report::percent(swing)),
                   changes >= 4});
-  const int steps = reference.points() / 128;
-  const double kink = largest_change(hbm.velocity, steps) / largest_change(reference.velocity, steps);
+  const int steps = reference.contacts.points() / 128;
+  const double kink = largest_change(hbm.velocity(), steps) / largest_change(reference.velocity(), steps);
   artefact.claim(
       {"section 5.1", "and rounding off of the sharp gradient changes",
        "the largest change of velocity within 1/128 of the period is smaller than in time stepping",
@@ -38,14 +38,15 @@ void claim_hbm(report::Artefact& artefact, const Case& study, const solvers::Per
 
 /// Share of the plateau on which a response is within 2 % of the gap of time stepping.
 double share_on_plateau(const Case& study, const Eigen::VectorXd& displacement) {
-  const Eigen::ArrayXd distance = on_plateau(study, displacement - study.reference().displacement).cwiseAbs();
+  const Eigen::ArrayXd distance =
+      on_plateau(study, displacement - study.reference().displacement()).cwiseAbs();
   return (distance < 0.02 * study.gap()).cast<double>().mean();
 }
 
 void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& haar,
                 const Eigen::VectorXd& hbm) {
   const auto outside = [&](const Eigen::VectorXd& u) {
-    return millimetres * app::rms(on_plateau(study, u - study.reference().displacement, false));
+    return millimetres * app::rms(on_plateau(study, u - study.reference().displacement(), false));
   };
   artefact.claim(
       {"section 5.1",
@@ -55,8 +56,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& 
        report::number(outside(haar)) + " mm against " + report::number(outside(hbm)) + " mm",
        outside(haar) > outside(hbm)});
   const double share = share_on_plateau(study, haar);
-  const double exact =
-      share_on_plateau(study, study.solve_exactly(pair("haar_fourier"), 64).samples.displacement);
+  const double exact = share_on_plateau(study, study.solve_exactly(pair("haar_fourier"), 64).displacement());
   artefact.claim({"section 5.1",
                   "However, the contact plateau is well represented by the constant Haar scaling functions.",
                   "Haar:Fourier is within 2 % of the gap of time stepping on at least 90 % of the plateau",
@@ -66,7 +66,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& 
 }
 
 void claim_bspline(report::Artefact& artefact, const Case& study, const Eigen::VectorXd& spline) {
-  const Eigen::VectorXd difference = on_plateau(study, spline - study.reference().displacement).cwiseAbs();
+  const Eigen::VectorXd difference = on_plateau(study, spline - study.reference().displacement()).cwiseAbs();
   const Eigen::Index cells = difference.size() / 4;
   const double start = millimetres * difference.head(cells).maxCoeff(),
                end = millimetres * difference.tail(cells).maxCoeff();
@@ -86,8 +86,8 @@ void claim_bspline(report::Artefact& artefact, const Case& study, const Eigen::V
 void fig06(report::Artefact& artefact) {
   Case study(artefact, 1);
   const auto responses = study.solve_all(pairs());
-  const auto u = drawn(responses, &solvers::PeriodSamples::displacement);
-  const Eigen::VectorXd& reference = study.reference().displacement;
+  const auto u = drawn(responses, &app::Response::displacement);
+  const Eigen::VectorXd& reference = study.reference().displacement();
   artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                 {"64 functions; reference: time stepping"});
   artefact.picture(
@@ -102,7 +102,7 @@ void fig06(report::Artefact& artefact) {
        "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
        "both 150 Hz and 1275 Hz compared to the time-stepping solution.",
        "at 150 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
-  claim_hbm(artefact, study, responses[0].samples);
+  claim_hbm(artefact, study, responses[0]);
   claim_haar(artefact, study, u[3], u[0]);
   claim_bspline(artefact, study, u[1]);
 }

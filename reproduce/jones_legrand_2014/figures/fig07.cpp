@@ -11,11 +11,11 @@ constexpr double millimetres = 1e3;
 
 double haar_error(Case& study) {
   const auto response = study.solve(pair("haar_fourier"), 64);
-  return app::relative_rms_error(response.samples.displacement, study.reference().displacement);
+  return app::relative_rms_error(response.displacement(), study.reference().displacement());
 }
 
 double penetration(const Case& study) {
-  return study.reference().displacement.maxCoeff() / study.gap() - 1.0;
+  return study.reference().displacement().maxCoeff() / study.gap() - 1.0;
 }
 
 void claim_haar(report::Artefact& artefact, Case& study) {
@@ -24,8 +24,8 @@ void claim_haar(report::Artefact& artefact, Case& study) {
   artefact.claim({"section 5.1", "The Haar basis appears to be less suited for the response at 1275 Hz",
                   "the relative rms error of Haar:Fourier is higher than at 150 Hz",
                   report::percent(here) + " against " + report::percent(there), here > there});
-  const double share = app::contact_fraction(study.reference());
-  const double other_share = app::contact_fraction(other.reference());
+  const double share = app::contact_fraction(study.reference().contacts);
+  const double other_share = app::contact_fraction(other.reference().contacts);
   artefact.claim(
       {"section 5.1", "as the contact plateau is smaller and not as flat",
        "the contact takes less of the period than at 150 Hz, and its penetration is a larger part of the gap",
@@ -40,8 +40,8 @@ void claim_haar(report::Artefact& artefact, Case& study) {
 void fig07(report::Artefact& artefact) {
   Case study(artefact, 2);
   const auto responses = study.solve_all(pairs());
-  const auto u = drawn(responses, &solvers::PeriodSamples::displacement);
-  const Eigen::VectorXd& reference = study.reference().displacement;
+  const auto u = drawn(responses, &app::Response::displacement);
+  const Eigen::VectorXd& reference = study.reference().displacement();
   artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                 {"64 functions; reference: time stepping"});
   artefact.picture(pair_figure({"Tip displacement at 1275 Hz, 64 functions",

@@ -45,9 +45,9 @@ void claim_daubechies(report::Artefact& artefact, const Eigen::VectorXd& referen
 
 void claim_haar(report::Artefact& artefact, Case& study, const Values& v) {
   const auto haar = pairs_named({"haar_fourier", "haar_bspline"});
-  const Eigen::VectorXd& reference = study.reference().velocity;
+  const Eigen::VectorXd& reference = study.reference().velocity();
   Values exact;
-  for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).samples.velocity);
+  for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).velocity());
   const auto errors = measured({v[3], v[5]}, reference, &app::relative_rms_error);
   artefact.claim({"section 5.2",
                   "For cases involving Haar trial functions the velocity function envelope is reasonably "
@@ -62,9 +62,9 @@ void claim_haar(report::Artefact& artefact, Case& study, const Values& v) {
 
 void fig08(report::Artefact& artefact) {
   Case study(artefact, 1);
-  const Eigen::VectorXd& reference = study.reference().velocity;
+  const Eigen::VectorXd& reference = study.reference().velocity();
   const auto responses = study.solve_all(pairs());
-  const auto v = drawn(responses, &solvers::PeriodSamples::velocity);
+  const auto v = drawn(responses, &app::Response::velocity);
   artefact.data(comparison_table(study.time(), reference, v), "time in periods, velocities in m/s",
                 {"64 functions; reference: time stepping"});
   artefact.picture(pair_figure({"Tip velocity at 150 Hz, 64 functions",

@@ -58,9 +58,9 @@ void claim_accuracy(report::Artefact& artefact, const std::vector<double>& rms,
 /// The force of the Haar pairs with `functions`, and of Fourier:Fourier.
 void claim_haar(report::Artefact& artefact, Case& study, const std::vector<double>& rms) {
   const auto haar = pairs_named({"haar_fourier", "haar_bspline"});
-  const Eigen::VectorXd& reference = study.reference().contact_force;
+  const Eigen::VectorXd& reference = study.reference().force();
   Values exact;
-  for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).samples.contact_force);
+  for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).force());
   artefact.claim(
       {"section 5.3",
        "The cases where Haar trial functions are used approximate the contact force relatively well.",
@@ -76,8 +76,8 @@ void claim_haar(report::Artefact& artefact, Case& study, const std::vector<doubl
 void fig09(report::Artefact& artefact) {
   Case study(artefact, 1);
   const double amplitude = study.scene().forcing.amplitude;
-  const Eigen::VectorXd reference = study.reference().contact_force / amplitude;
-  auto forces = drawn(study.solve_all(pairs()), &solvers::PeriodSamples::contact_force);
+  const Eigen::VectorXd reference = study.reference().force() / amplitude;
+  auto forces = drawn(study.solve_all(pairs()), &app::Response::force);
   for (auto& force : forces) force /= amplitude;
   artefact.data(comparison_table(study.time(), reference, forces),
                 "time in periods, contact forces divided by the amplitude F of the external force",

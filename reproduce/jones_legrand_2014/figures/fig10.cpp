@@ -97,7 +97,7 @@ void claim_daubechies(report::Artefact& artefact, const Convergence& off) {
 void fig10(report::Artefact& artefact) {
   const Convergence ratio(
       artefact, "energy_norm_ratio", true, [](Case& study, const app::Response& response) {
-        return app::energy_norm(study.scene(), response.samples) / app::rms(study.reference_energy());
+        return app::energy_norm(study.scene(), response.structure) / app::rms(study.reference_energy());
       });
   const Convergence off = ratio.mapped([](double value) { return std::abs(value - 1.0); });
   artefact.data(ratio.table(), "ratio without unit",

@@ -8,12 +8,12 @@ namespace wavebalance::jl14 {
 void fig11(report::Artefact& artefact) {
   const Convergence errors(
       artefact, "rms_relative_error", false, [](Case& study, const app::Response& response) {
-        return app::relative_rms_error(response.samples.displacement, study.reference().displacement);
+        return app::relative_rms_error(response.displacement(), study.reference().displacement());
       });
   const Convergence midpoints(
       artefact, "midpoint_error", false, [](Case& study, const app::Response& response) {
-        return app::relative_rms_error(cell_midpoints(response.samples.displacement, response.unknowns),
-                                       cell_midpoints(study.reference().displacement, response.unknowns));
+        return app::relative_rms_error(cell_midpoints(response.displacement(), response.unknowns),
+                                       cell_midpoints(study.reference().displacement(), response.unknowns));
       });
   artefact.data(errors.table(), "ratio without unit",
                 {"rms_relative_error: rms over 1024 points of (u - u_ref) divided by the rms of u_ref"});

@@ -4,6 +4,7 @@
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -20,11 +21,11 @@ void reference(report::Artefact& artefact, int case_number) {
   const std::string number = std::to_string(case_number);
   const auto scene = artefact.scene("reference_case" + number + ".toml");
   app::ResponseOptions options;
-  options.full_history = true;
+  options.structure_points = scene.analysis.output_points;
   const auto stepping = converged(app::time_stepping_response(scene, options), "time stepping");
   const auto shooting = converged(app::shooting_response(scene), "shooting");
-  auto table = app::response_table(stepping.samples);
-  table.add_column("system_energy_J", app::system_energy(scene, stepping.samples));
+  auto table = app::response_table(stepping.contacts);
+  table.add_column("system_energy_J", app::system_energy(scene, stepping.structure));
   artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
   artefact.caption(
       fmt::format("The last of {} periods, computed once and read by Figs. 6-11.", stepping.iterations));
@@ -35,13 +36,12 @@ void reference(report::Artefact& artefact, int case_number) {
        "reached within " + std::to_string(scene.analysis.max_periods) + " periods",
        report::number(stepping.residual) + " after " + std::to_string(stepping.iterations) + " periods",
        stepping.residual < 1e-7});
-  const double difference =
-      app::relative_rms_error(stepping.samples.displacement, shooting.samples.displacement);
+  const double difference = app::relative_rms_error(stepping.displacement(), shooting.displacement());
   artefact.note(fmt::format(
       "An independent shooting solution differs from it by {} (relative rms of the tip displacement); "
       "largest displacement {} mm, in contact for {} of the period.",
-      report::number(difference), report::number(1e3 * stepping.samples.displacement.maxCoeff(), 7),
-      report::percent(app::contact_fraction(stepping.samples), 4)));
+      report::number(difference), report::number(1e3 * stepping.displacement().maxCoeff(), 7),
+      report::percent(app::contact_fraction(stepping.contacts), 4)));
 }
 
 }  // namespace wavebalance::jl14

@@ -55,9 +55,9 @@ void add_panels(app::Figure& figure, const Study& study) {
   motion.y = axis("Displacement (mm)", (first ? 0.97 : 0.93) * gap, (first ? 1.022 : 1.055) * gap);
   force.y = axis("Force over amplitude", 0.0, first ? 0.4 : 20.0);
   const double scale = 1.0 / study.scene.forcing.amplitude;
-  auto penalty = centred("", millimetres * study.penalty.samples.displacement, Colour::black);
+  auto penalty = centred("", millimetres * study.penalty.displacement(), Colour::black);
   penalty.dash = app::Dash::dashed;
-  auto penalty_force = centred("exponential law", scale * study.penalty.samples.contact_force, Colour::black);
+  auto penalty_force = centred("exponential law", scale * study.penalty.force(), Colour::black);
   penalty_force.dash = app::Dash::dashed;
   motion.legend = app::Legend::none;
   force.legend = first ? app::Legend::none : app::Legend::top_right;
@@ -66,22 +66,21 @@ void add_panels(app::Figure& figure, const Study& study) {
   for (std::size_t i = 0; i < study.rigid.size(); ++i) {
     if (!study.rigid[i].converged) continue;
     const auto& pair = pairs()[i];
-    const auto& samples = study.rigid[i].samples;
-    motion.add(centred("", millimetres * samples.displacement, pair.colour));
-    force.add(centred("rigid, " + pair.label, scale * samples.contact_force, pair.colour));
+    motion.add(centred("", millimetres * study.rigid[i].displacement(), pair.colour));
+    force.add(centred("rigid, " + pair.label, scale * study.rigid[i].force(), pair.colour));
   }
 }
 
 void append(Table& table, const Study& study) {
   const double amplitude = study.scene.forcing.amplitude, gap = study.scene.contact.gap;
   const auto add = [&](const std::string& contact, const Pair& pair, const app::Response& response) {
-    const auto& samples = response.samples;
+    const Eigen::VectorXd u = response.displacement(), pressure = response.force();
     const double missing = std::nan("");
     table.append_row({std::int64_t{study.number}, contact, pair.trial, pair.weight, response.converged,
-                      samples.displacement.maxCoeff() / gap - 1.0,
+                      u.maxCoeff() / gap - 1.0,
                       response.rigid ? std::max(0.0, response.rigid->max_penetration / gap) : missing,
-                      samples.contact_force.mean() / amplitude, samples.contact_force.maxCoeff() / amplitude,
-                      app::contact_fraction(samples)});
+                      pressure.mean() / amplitude, pressure.maxCoeff() / amplitude,
+                      app::contact_fraction(response.leading())});
   };
   add("exponential", pairs()[0], study.penalty);
   for (std::size_t i = 0; i < study.rigid.size(); ++i) add("rigid", pairs()[i], study.rigid[i]);
@@ -103,12 +102,11 @@ void rigid_plateau(report::Artefact& artefact) {
     append(table, study);
     double worst = 0.0;
     for (const auto& response : study.rigid)
-      worst = std::max(worst, response.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0);
+      worst = std::max(worst, response.displacement().maxCoeff() / study.scene.contact.gap - 1.0);
     artefact.note(fmt::format(
         "Case {}: the exponential law lets the tip {} of the gap beyond it, the rigid obstacle between the "
         "quadrature points up to {}, at them less than 1e-4 %.",
-        number,
-        report::percent(study.penalty.samples.displacement.maxCoeff() / study.scene.contact.gap - 1.0, 2),
+        number, report::percent(study.penalty.displacement().maxCoeff() / study.scene.contact.gap - 1.0, 2),
         report::percent(worst, 2)));
   }
   artefact.data(table, "without unit");

@@ -40,4 +40,11 @@ void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, Ei
   }
 }
 
+Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement) const {
+  return Eigen::MatrixXd::NullaryExpr(
+      displacement.rows(), displacement.cols(), [&](Eigen::Index contact, Eigen::Index point) {
+        return (*this)[static_cast<int>(contact)].force(displacement(contact, point));
+      });
+}
+
 }  // namespace wavebalance::solvers

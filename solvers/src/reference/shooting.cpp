@@ -183,13 +183,10 @@ class Shooting {
         });
     result.displacement = modes().shapes * q.col(0);
     result.velocity = modes().shapes * v.col(0);
-    result.samples.displacement = q.transpose() * modes().contact;
-    result.samples.velocity = v.transpose() * modes().contact;
-    result.samples.contact_force =
-        result.samples.displacement.unaryExpr([&](double u) { return law_.force(u); });
-    if (!options_.full_history) return;
-    result.samples.displacements = modes().shapes * q;
-    result.samples.velocities = modes().shapes * v;
+    result.contacts.displacement = (q.transpose() * modes().contact).eval().transpose();
+    result.contacts.velocity = (v.transpose() * modes().contact).eval().transpose();
+    result.contacts.force = result.contacts.displacement.unaryExpr([&](double u) { return law_.force(u); });
+    if (options_.full_history) result.structure = {modes().shapes * q, modes().shapes * v, {}};
   }
 
   const ShootingOptions& options_;

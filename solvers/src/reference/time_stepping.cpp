@@ -154,7 +154,7 @@ class PeriodRecorder {
   /// Opens the next period; returns the relative rms difference of this one's contact displacement to the
   /// last one's.
   double close_period() {
-    const Eigen::VectorXd contact = contact_rows(0);
+    const Eigen::MatrixXd contact = at_contacts(states_.topRows(system_.dofs())).transpose();
     const double difference = period_ == 0 ? contact.norm() : (contact - contact_).norm();
     const double size = contact.norm();
     const double relative = difference == 0.0 ? 0.0 : difference / size;
@@ -164,30 +164,24 @@ class PeriodRecorder {
     return period_ == 1 ? std::numeric_limits<double>::infinity() : relative;
   }
 
-  PeriodSamples samples(bool full_history) const {
+  Motion contacts() const {
     const int n = system_.dofs();
-    PeriodSamples result;
-    result.contacts = static_cast<int>(system_.contact_dofs().size());
-    result.displacement = contact_rows(0) / system_.angular_frequency();
-    result.velocity = contact_rows(n);
-    result.contact_force.resize(result.displacement.size());
-    for (Eigen::Index l = 0; l < result.displacement.size(); ++l)
-      result.contact_force[l] =
-          system_.laws()[static_cast<int>(l / states_.cols())].force(result.displacement[l]);
-    if (!full_history) return result;
-    result.displacements = states_.topRows(n) / system_.angular_frequency();
-    result.velocities = states_.bottomRows(n);
-    return result;
+    Motion motion{at_contacts(states_.topRows(n)) / system_.angular_frequency(),
+                  at_contacts(states_.bottomRows(n)),
+                  {}};
+    motion.force = system_.laws().force(motion.displacement);
+    return motion;
+  }
+
+  Motion structure() const {
+    const int n = system_.dofs();
+    return {states_.topRows(n) / system_.angular_frequency(), states_.bottomRows(n), {}};
   }
 
  private:
-  // The rows of all contacts, those of the states from `first` on, one after the other.
-  Eigen::VectorXd contact_rows(int first) const {
-    Eigen::VectorXd rows(static_cast<Eigen::Index>(system_.contact_dofs().size()) * states_.cols());
-    for (std::size_t c = 0; c < system_.contact_dofs().size(); ++c)
-      rows.segment(Eigen::Index(c) * states_.cols(), states_.cols()) =
-          states_.row(first + system_.contact_dofs()[c]).transpose();
-    return rows;
+  template <class Rows>
+  Eigen::MatrixXd at_contacts(const Rows& of_all_dofs) const {
+    return of_all_dofs(system_.contact_dofs(), Eigen::all);
   }
 
   double time_of(Eigen::Index sample) const {
@@ -212,8 +206,8 @@ class PeriodRecorder {
   }
 
   const FirstOrderSystem& system_;
-  Eigen::MatrixXd states_;  // 2n x points
-  Eigen::VectorXd contact_;
+  Eigen::MatrixXd states_;   // 2n x points
+  Eigen::MatrixXd contact_;  // points x contacts, of the last period, as in the state
   Eigen::Index next_ = 0;
   int period_ = 0;
 };
@@ -265,7 +259,8 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
       if (!integrator.advance(options.max_periods)) return TimeSteppingStatus::step_failure;
       while (recorder.record(integrator)) {
         const double difference = recorder.close_period();
-        result.samples = recorder.samples(options.full_history);
+        result.contacts = recorder.contacts();
+        if (options.full_history) result.structure = recorder.structure();
         if (++result.periods > 1) result.period_error.push_back(difference);
         const double done = std::log(difference) / std::log(options.period_tolerance);
         const bool stop =

@@ -116,6 +116,7 @@ RigidResponse rigid_response(CondensedProblem& problem, const Eigen::VectorXd& g
   RigidResponse result;
   PeriodicResponse& response = result.response;
   response.frequency = problem.frequency();
+  response.force_by_balance = true;
   response.displacement = problem.contact_free_response();
   response.contact_force = Eigen::VectorXd::Zero(problem.samples());
   if ((response.displacement - gap).maxCoeff() <= 0.0) {

@@ -8,8 +8,9 @@
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 // What holds of several contacts by their coupling and its symmetries; tests/pairs holds them to the
 // assembled system.
@@ -218,7 +219,7 @@ TEST(ManyContactsResponse, BalancesTheWorkOfLoadDampersAndContacts) {
   auto problem = make_problem(testing::fourier_pair(31, 64), structure);
   const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
   ASSERT_TRUE(response.converged());
-  const PeriodicField field = periodic_field(problem, response.contact_force, 64);
+  const Motion field = structure_motion(problem, response.contact_force, 64);
   double load = 0.0, dampers = 0.0, contacts = 0.0, size = 0.0;
   for (int l = 0; l < 64; ++l) {
     const Eigen::VectorXd v = field.velocity.col(l);
@@ -232,21 +233,20 @@ TEST(ManyContactsResponse, BalancesTheWorkOfLoadDampersAndContacts) {
   }
   EXPECT_GT(size, 0.1 * load) << "the contacts do not matter";
   EXPECT_NEAR(load, dampers + contacts, 1e-9 * (load + size));
-  const Eigen::MatrixXd at_contacts = field.displacement(structure.contact_dofs, Eigen::all).transpose();
-  EXPECT_LE((at_contacts.reshaped() - response.displacement).norm(), 1e-9 * response.displacement.norm());
-  MotionEvaluator motion(problem.pair().trial(), 64);
-  EXPECT_LE((motion.displacement(response.coefficients) - at_contacts).norm(), 1e-9 * at_contacts.norm());
-  EXPECT_LE((motion.velocity(response.coefficients, frequency) -
-             field.velocity(structure.contact_dofs, Eigen::all).transpose())
-                .norm(),
+  const Eigen::MatrixXd at_contacts = field.displacement(structure.contact_dofs, Eigen::all);
+  EXPECT_LE((at_contacts - by_contact(response.displacement, 3)).norm(), 1e-9 * at_contacts.norm());
+  const Motion motion = contact_motion(problem, response, springs({0, 1, 2}), 64);
+  EXPECT_LE((motion.displacement - at_contacts).norm(), 1e-9 * at_contacts.norm());
+  EXPECT_LE((motion.velocity - field.velocity(structure.contact_dofs, Eigen::all)).norm(),
             1e-9 * field.velocity.norm());
+  EXPECT_LE((motion.force - by_contact(response.contact_force, 3)).norm(), 1e-9 * motion.force.norm());
 }
 
 TEST(ManyContactsResponse, EnergyHoldsThePotentialOfEveryContact) {
   const LinearStructure structure = chain(3);
   auto problem = make_problem(testing::fourier_pair(31, 64), structure);
   const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
-  const PeriodicField field = periodic_field(problem, response.contact_force, 64);
+  const Motion field = structure_motion(problem, response.contact_force, 64);
   const Eigen::VectorXd stored =
       system_energy(structure, springs({0, 1, 2}), field) - system_energy(structure, AnyContactLaw(), field);
   Eigen::VectorXd expected = Eigen::VectorXd::Zero(64);
@@ -268,11 +268,11 @@ TEST(ManyContactsResponse, IsWhatTimeSteppingSettlesTo) {
   options.period_tolerance = 1e-6;
   const TimeSteppingResult settled = integrate_to_periodic(structure, springs({0, 1}), 0.11, options);
   ASSERT_EQ(settled.status, TimeSteppingStatus::converged);
-  ASSERT_EQ(settled.samples.contacts, 2);
-  ASSERT_EQ(settled.samples.points(), 256);
-  EXPECT_LE((settled.samples.displacement - response.displacement).norm(),
+  ASSERT_EQ(settled.contacts.rows(), 2);
+  ASSERT_EQ(settled.contacts.points(), 256);
+  EXPECT_LE((settled.contacts.displacement - by_contact(response.displacement, 2)).norm(),
             1e-4 * response.displacement.norm());
-  EXPECT_LE((settled.samples.contact_force - response.contact_force).norm(),
+  EXPECT_LE((settled.contacts.force - by_contact(response.contact_force, 2)).norm(),
             1e-3 * response.contact_force.norm());
 }
 
@@ -300,9 +300,9 @@ TEST(ManyContactsSweep, PassesFoldsAndEqualsPointsSolvedSingly) {
     const PeriodicResponse single = forced_response(problem, springs({0, 1}), {});
     ASSERT_TRUE(single.converged());
     MotionEvaluator motion(pair.trial(), options.output_points);
-    const Eigen::MatrixXd u = motion.displacement(single.coefficients);
+    const Eigen::MatrixXd u = motion(single.coefficients, point.frequency).displacement;
     EXPECT_NEAR(u.maxCoeff(), point.max_displacement, 1e-6 * point.max_displacement) << point.frequency;
-    EXPECT_NEAR((u.colwise().norm() / std::sqrt(double(u.rows()))).maxCoeff(), point.rms_displacement,
+    EXPECT_NEAR((u.rowwise().norm() / std::sqrt(double(u.cols()))).maxCoeff(), point.rms_displacement,
                 1e-6 * point.rms_displacement);
     ++compared;
   }

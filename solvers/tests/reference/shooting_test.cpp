@@ -33,8 +33,8 @@ TEST(Shooting, GivesTheClosedFormOfALinearOscillator) {
     const double omega = 2.0 * std::numbers::pi * oscillator.frequency;
     for (int l = 0; l < 60; ++l) {
       const double t = l / (60.0 * oscillator.frequency);
-      EXPECT_NEAR(result.samples.displacement[l], oscillator.steady_displacement(t), 1e-10 * amplitude);
-      EXPECT_NEAR(result.samples.velocity[l], oscillator.steady_velocity(t), 1e-10 * omega * amplitude);
+      EXPECT_NEAR(result.contacts.displacement(0, l), oscillator.steady_displacement(t), 1e-10 * amplitude);
+      EXPECT_NEAR(result.contacts.velocity(0, l), oscillator.steady_velocity(t), 1e-10 * omega * amplitude);
     }
   }
 }
@@ -58,10 +58,10 @@ TEST(Shooting, SamplesDoNotDependOnTheirNumber) {
   const ShootingResult b = shoot(bar, scene.law, scene.frequency_hz, fine);
   ASSERT_EQ(a.status, ShootingStatus::converged);
   ASSERT_EQ(b.status, ShootingStatus::converged);
-  EXPECT_GT(b.samples.contact_force.maxCoeff(), 0.0);
-  const double scale = b.samples.displacement.cwiseAbs().maxCoeff();
+  EXPECT_GT(b.contacts.force.maxCoeff(), 0.0);
+  const double scale = b.contacts.displacement.cwiseAbs().maxCoeff();
   for (int l = 0; l < 10; ++l)
-    EXPECT_NEAR(a.samples.displacement[l], b.samples.displacement[400 * l], 1e-10 * scale);
+    EXPECT_NEAR(a.contacts.displacement(0, l), b.contacts.displacement(0, 400 * l), 1e-10 * scale);
 }
 
 TEST(Shooting, FullHistoryHoldsTheContactSamplesAndTheInitialState) {
@@ -70,17 +70,14 @@ TEST(Shooting, FullHistoryHoldsTheContactSamplesAndTheInitialState) {
   options.full_history = true;
   const ShootingResult result = shoot(jl14_bar(4, 1e-4), testing::ExponentialLaw{}, 150.0, options);
   ASSERT_EQ(result.status, ShootingStatus::converged);
-  ASSERT_EQ(result.samples.displacements.rows(), 4);
-  ASSERT_EQ(result.samples.velocities.cols(), 32);
+  ASSERT_EQ(result.structure.displacement.rows(), 4);
+  ASSERT_EQ(result.structure.velocity.cols(), 32);
   const double eps = std::numeric_limits<double>::epsilon();
-  const PeriodSamples& samples = result.samples;
-  EXPECT_LT((samples.displacements.row(3).transpose() - samples.displacement).norm(),
-            100 * eps * samples.displacement.norm());
-  EXPECT_LT((samples.velocities.row(3).transpose() - samples.velocity).norm(),
-            100 * eps * samples.velocity.norm());
-  EXPECT_LT((samples.displacements.col(0) - result.displacement).norm(),
-            100 * eps * result.displacement.norm());
-  EXPECT_LT((samples.velocities.col(0) - result.velocity).norm(), 100 * eps * result.velocity.norm());
+  const Motion &all = result.structure, &contact = result.contacts;
+  EXPECT_LT((all.displacement.row(3) - contact.displacement).norm(), 100 * eps * contact.displacement.norm());
+  EXPECT_LT((all.velocity.row(3) - contact.velocity).norm(), 100 * eps * contact.velocity.norm());
+  EXPECT_LT((all.displacement.col(0) - result.displacement).norm(), 100 * eps * result.displacement.norm());
+  EXPECT_LT((all.velocity.col(0) - result.velocity).norm(), 100 * eps * result.velocity.norm());
 }
 
 TEST(Shooting, StartsOnEitherBranchOfABistableResponse) {
@@ -96,8 +93,8 @@ TEST(Shooting, StartsOnEitherBranchOfABistableResponse) {
   const ShootingResult free = shoot(bar, scene.law, 1320.0);
   ASSERT_EQ(contact.status, ShootingStatus::converged);
   ASSERT_EQ(free.status, ShootingStatus::converged);
-  EXPECT_GT(contact.samples.contact_force.maxCoeff(), 1e5);
-  EXPECT_EQ(free.samples.contact_force.maxCoeff(), 0.0);
+  EXPECT_GT(contact.contacts.force.maxCoeff(), 1e5);
+  EXPECT_EQ(free.contacts.force.maxCoeff(), 0.0);
   EXPECT_LT(std::abs(contact.floquet_multipliers[0]), 1.0);
   EXPECT_LT(std::abs(free.floquet_multipliers[0]), 1.0);
 }
@@ -134,7 +131,7 @@ TEST(Shooting, LawThatJumpsIsAStepFailure) {
   };
   const ShootingResult result = shoot(jl14_bar(4, 1e-4), Jump{}, 150.0);
   EXPECT_EQ(result.status, ShootingStatus::step_failure);
-  EXPECT_EQ(result.samples.points(), 0);
+  EXPECT_EQ(result.contacts.points(), 0);
 }
 
 TEST(Shooting, RejectsStructuresItCannotTreat) {

@@ -17,17 +17,17 @@ namespace {
 
 using testing::Jl14Case;
 
-double rms(const Eigen::VectorXd& values) { return values.norm() / std::sqrt(values.size()); }
+double rms(const Eigen::MatrixXd& values) { return values.norm() / std::sqrt(values.size()); }
 
 /// The published figures have seven digits; the force ratio and the contact fraction four, and the latter was
 /// counted on a grid of its own.
-void expect_reference(const PeriodSamples& samples, const Jl14Case& scene, double tolerance) {
-  const Eigen::VectorXd& u = samples.displacement;
+void expect_reference(const Motion& motion, const Jl14Case& scene, double tolerance) {
+  const Eigen::MatrixXd& u = motion.displacement;
   EXPECT_NEAR(u.maxCoeff(), scene.max_displacement, tolerance * scene.max_displacement);
   EXPECT_NEAR(u.cwiseAbs().maxCoeff(), scene.max_abs_displacement, tolerance * scene.max_abs_displacement);
   EXPECT_NEAR(rms(u), scene.rms_displacement, tolerance * scene.rms_displacement);
-  EXPECT_NEAR(samples.contact_force.maxCoeff() / 250e3, scene.max_force_ratio, 1e-4 * scene.max_force_ratio);
-  const double fraction = static_cast<double>((samples.contact_force.array() > 0.0).count()) / u.size();
+  EXPECT_NEAR(motion.force.maxCoeff() / 250e3, scene.max_force_ratio, 1e-4 * scene.max_force_ratio);
+  const double fraction = static_cast<double>((motion.force.array() > 0.0).count()) / u.size();
   EXPECT_NEAR(fraction, scene.contact_fraction, 2e-4);
 }
 
@@ -44,14 +44,14 @@ TEST_P(BarInContact, ShootingGivesTheReferenceFigures) {
   // 16384 points, so that the largest sample is the maximum to 1e-7.
   const ShootingResult result = shoot_case(GetParam(), 16384, 1e-12);
   ASSERT_EQ(result.status, ShootingStatus::converged);
-  expect_reference(result.samples, GetParam(), 1e-6);
+  expect_reference(result.contacts, GetParam(), 1e-6);
 }
 
 TEST_P(BarInContact, ShootingErrsByLessThan1e9) {
-  const PeriodSamples samples = shoot_case(GetParam(), 1024, 1e-12).samples;
-  const PeriodSamples finer = shoot_case(GetParam(), 1024, 1e-14).samples;
-  EXPECT_LT(rms(samples.displacement - finer.displacement), 1e-10 * rms(finer.displacement));
-  EXPECT_LT(rms(samples.velocity - finer.velocity), 1e-9 * rms(finer.velocity));
+  const Motion motion = shoot_case(GetParam(), 1024, 1e-12).contacts;
+  const Motion finer = shoot_case(GetParam(), 1024, 1e-14).contacts;
+  EXPECT_LT(rms(motion.displacement - finer.displacement), 1e-10 * rms(finer.displacement));
+  EXPECT_LT(rms(motion.velocity - finer.velocity), 1e-9 * rms(finer.velocity));
 }
 
 TEST_P(BarInContact, TimeSteppingGivesTheReferenceFigures) {
@@ -62,7 +62,7 @@ TEST_P(BarInContact, TimeSteppingGivesTheReferenceFigures) {
       integrate_to_periodic(scene.structure(), scene.law, scene.frequency_hz, options);
   ASSERT_EQ(result.status, TimeSteppingStatus::converged);
   EXPECT_LT(result.period_error.back(), 1e-7);
-  expect_reference(result.samples, scene, 1e-6);
+  expect_reference(result.contacts, scene, 1e-6);
 }
 
 TEST_P(BarInContact, TimeSteppingAgreesWithShooting) {
@@ -73,17 +73,17 @@ TEST_P(BarInContact, TimeSteppingAgreesWithShooting) {
   options.full_history = true;
   ShootingOptions shooting;
   shooting.full_history = true;
-  const PeriodSamples stepped =
-      integrate_to_periodic(scene.structure(), scene.law, scene.frequency_hz, options).samples;
-  const PeriodSamples shot = shoot(scene.structure(), scene.law, scene.frequency_hz, shooting).samples;
-  EXPECT_LT((stepped.displacements - shot.displacements).norm(), 4e-7 * shot.displacements.norm());
-  EXPECT_LT((stepped.velocities - shot.velocities).norm(), 4e-7 * shot.velocities.norm());
+  const Motion stepped =
+      integrate_to_periodic(scene.structure(), scene.law, scene.frequency_hz, options).structure;
+  const Motion shot = shoot(scene.structure(), scene.law, scene.frequency_hz, shooting).structure;
+  EXPECT_LT((stepped.displacement - shot.displacement).norm(), 4e-7 * shot.displacement.norm());
+  EXPECT_LT((stepped.velocity - shot.velocity).norm(), 4e-7 * shot.velocity.norm());
 }
 
 TEST_P(BarInContact, TighterTimeSteppingComesCloserToShooting) {
   const Jl14Case& scene = GetParam();
   TimeSteppingOptions options;
-  const Eigen::VectorXd shot = shoot_case(scene, 1024, 1e-12).samples.displacement;
+  const Eigen::MatrixXd shot = shoot_case(scene, 1024, 1e-12).contacts.displacement;
   const double step_tolerance[] = {1e-8, 1e-10, 1e-12};
   const double period_tolerance[] = {1e-6, 1e-8, 1e-9};
   const double error[] = {2e-6, 2e-8, 4e-9};
@@ -93,7 +93,7 @@ TEST_P(BarInContact, TighterTimeSteppingComesCloserToShooting) {
     const TimeSteppingResult result =
         integrate_to_periodic(scene.structure(), scene.law, scene.frequency_hz, options);
     EXPECT_EQ(result.status, TimeSteppingStatus::converged);
-    EXPECT_LT(rms(result.samples.displacement - shot), error[i] * rms(shot)) << step_tolerance[i];
+    EXPECT_LT(rms(result.contacts.displacement - shot), error[i] * rms(shot)) << step_tolerance[i];
   }
 }
 

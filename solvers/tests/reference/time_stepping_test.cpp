@@ -28,13 +28,13 @@ TEST(TimeStepping, ReachesTheClosedFormOfADampedOscillator) {
   const TimeSteppingResult result =
       integrate_to_periodic(oscillator.structure(), AnyContactLaw(), oscillator.frequency, options);
   ASSERT_EQ(result.status, TimeSteppingStatus::converged);
-  ASSERT_EQ(result.samples.points(), 100);
+  ASSERT_EQ(result.contacts.points(), 100);
   const double amplitude = std::abs(oscillator.amplitude());
   for (int l = 0; l < 100; ++l) {
     const double t = l / (100.0 * oscillator.frequency);
-    EXPECT_NEAR(result.samples.displacement[l], oscillator.steady_displacement(t), 1e-8 * amplitude);
-    EXPECT_NEAR(result.samples.velocity[l], oscillator.steady_velocity(t), 1e-5 * amplitude);
-    EXPECT_EQ(result.samples.contact_force[l], 0.0);
+    EXPECT_NEAR(result.contacts.displacement(0, l), oscillator.steady_displacement(t), 1e-8 * amplitude);
+    EXPECT_NEAR(result.contacts.velocity(0, l), oscillator.steady_velocity(t), 1e-5 * amplitude);
+    EXPECT_EQ(result.contacts.force(0, l), 0.0);
   }
 }
 
@@ -54,7 +54,7 @@ TEST(TimeStepping, FollowsTheTransientFromTheGivenState) {
   ASSERT_EQ(result.period_error.size(), 2u);
   for (int l = 0; l < 64; ++l) {
     const double t = (2.0 + l / 64.0) / oscillator.frequency;
-    EXPECT_NEAR(result.samples.displacement[l], oscillator.transient_displacement(t),
+    EXPECT_NEAR(result.contacts.displacement(0, l), oscillator.transient_displacement(t),
                 1e-7 * oscillator.displacement);
   }
 }
@@ -73,9 +73,9 @@ TEST(TimeStepping, FreeBilinearOscillatorReturnsAfterItsPeriod) {
       integrate_to_periodic(oscillator.structure(), contact, frequency, options);
   EXPECT_EQ(result.status, TimeSteppingStatus::converged);
   EXPECT_EQ(result.periods, 2);
-  EXPECT_NEAR(result.samples.displacement.minCoeff(), -1e-3, 1e-9);
-  EXPECT_NEAR(result.samples.displacement.maxCoeff(), 0.5e-3, 1e-8);  // equal energy: half the amplitude
-  EXPECT_NEAR(result.samples.contact_force.maxCoeff(), contact.stiffness * 0.5e-3, 1e-4);
+  EXPECT_NEAR(result.contacts.displacement.minCoeff(), -1e-3, 1e-9);
+  EXPECT_NEAR(result.contacts.displacement.maxCoeff(), 0.5e-3, 1e-8);  // equal energy: half the amplitude
+  EXPECT_NEAR(result.contacts.force.maxCoeff(), contact.stiffness * 0.5e-3, 1e-4);
 }
 
 TEST(TimeStepping, FullHistoryHoldsTheContactSamples) {
@@ -85,12 +85,12 @@ TEST(TimeStepping, FullHistoryHoldsTheContactSamples) {
   options.full_history = true;
   const TimeSteppingResult result = integrate_to_periodic(bar, testing::ExponentialLaw{}, 150.0, options);
   ASSERT_EQ(result.status, TimeSteppingStatus::converged);
-  ASSERT_EQ(result.samples.displacements.rows(), 4);
-  ASSERT_EQ(result.samples.displacements.cols(), 32);
-  ASSERT_EQ(result.samples.velocities.cols(), 32);
-  EXPECT_EQ(result.samples.displacements.row(3).transpose(), result.samples.displacement);
-  EXPECT_EQ(result.samples.velocities.row(3).transpose(), result.samples.velocity);
-  EXPECT_GT(result.samples.contact_force.maxCoeff(), 0.0);
+  ASSERT_EQ(result.structure.displacement.rows(), 4);
+  ASSERT_EQ(result.structure.displacement.cols(), 32);
+  ASSERT_EQ(result.structure.velocity.cols(), 32);
+  EXPECT_EQ(result.structure.displacement.row(3), result.contacts.displacement);
+  EXPECT_EQ(result.structure.velocity.row(3), result.contacts.velocity);
+  EXPECT_GT(result.contacts.force.maxCoeff(), 0.0);
 }
 
 TEST(TimeStepping, StructureAtRestWithoutLoadStaysThere) {
@@ -98,7 +98,7 @@ TEST(TimeStepping, StructureAtRestWithoutLoadStaysThere) {
   bar.load.setZero();
   const TimeSteppingResult result = integrate_to_periodic(bar, testing::ExponentialLaw{}, 150.0);
   EXPECT_EQ(result.status, TimeSteppingStatus::converged);
-  EXPECT_EQ(result.samples.displacement, Eigen::VectorXd::Zero(1024));
+  EXPECT_EQ(result.contacts.displacement, Eigen::MatrixXd::Zero(1, 1024));
 }
 
 TEST(TimeStepping, TooFewPeriodsOrStepsAreNotConverged) {
@@ -109,14 +109,14 @@ TEST(TimeStepping, TooFewPeriodsOrStepsAreNotConverged) {
       integrate_to_periodic(bar, testing::jl14_case_2.law, 1275.0, options);
   EXPECT_EQ(few_periods.status, TimeSteppingStatus::iteration_limit);
   EXPECT_EQ(few_periods.periods, 4);
-  EXPECT_EQ(few_periods.samples.points(), 1024);
+  EXPECT_EQ(few_periods.contacts.points(), 1024);
   EXPECT_GT(few_periods.period_error.back(), options.period_tolerance);
   options.max_steps_per_period = 10;
   const TimeSteppingResult few_steps = integrate_to_periodic(bar, testing::jl14_case_2.law, 1275.0, options);
   EXPECT_EQ(few_steps.status, TimeSteppingStatus::iteration_limit);
   EXPECT_EQ(few_steps.periods, 0);
   EXPECT_EQ(few_steps.steps, 10);
-  EXPECT_EQ(few_steps.samples.points(), 0);
+  EXPECT_EQ(few_steps.contacts.points(), 0);
 }
 
 TEST(TimeStepping, TellsItsObserverOfEveryPeriodAndMayBeCancelled) {

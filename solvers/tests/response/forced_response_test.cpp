@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -228,14 +228,14 @@ TEST(ForcedResponse, UndampedStructureAtItsNaturalFrequencyIsAnError) {
 
 // With Fourier functions on both sides the velocity of every degree of freedom is among the weights: what the
 // load does in a period is dissipated, but for the sampled work of the contact, which is conservative.
-TEST(PeriodicField, LoadWorkIsDissipatedAndTheContactDoesNone) {
+TEST(StructureMotion, LoadWorkIsDissipatedAndTheContactDoesNone) {
   for (const auto& reference : {testing::jl14_case_1, testing::jl14_case_2}) {
     const int points = 1024;
     const LinearStructure bar = reference.structure();
     CondensedProblem problem(testing::fourier_pair(255, points), bar, testing::cosine_load());
     problem.set_frequency(reference.frequency_hz);
     const PeriodicResponse response = forced_response(problem, reference.law, {});
-    const PeriodicField field = periodic_field(problem, response.contact_force, points);
+    const Motion field = structure_motion(problem, response.contact_force, points);
     double work = 0.0, contact = 0.0;
     for (int l = 0; l < points; ++l) {
       work += std::cos(two_pi * l / points) * bar.load.dot(field.velocity.col(l));
@@ -251,12 +251,12 @@ TEST(PeriodicField, LoadWorkIsDissipatedAndTheContactDoesNone) {
 
 // Without load, damping or contact the energy of a free mode is constant; here the oscillator is driven far
 // above its resonance, where E = (m omega^2 sin^2 + k cos^2) a^2 / 2.
-TEST(PeriodicField, SystemEnergyIsThatOfTheOscillator) {
+TEST(StructureMotion, SystemEnergyIsThatOfTheOscillator) {
   const LinearStructure oscillator = testing::jl14_bar(1, 0.0);
   const double mass = oscillator.mass.coeff(0, 0), stiffness = oscillator.stiffness.coeff(0, 0);
   CondensedProblem problem(testing::fourier_pair(3, 8), oscillator, testing::cosine_load());
   problem.set_frequency(3000.0);
-  const PeriodicField field = periodic_field(problem, Eigen::VectorXd::Zero(8), 32);
+  const Motion field = structure_motion(problem, Eigen::VectorXd::Zero(8), 32);
   const double omega = two_pi * 3000.0, a = oscillator.load[0] / (stiffness - omega * omega * mass);
   const Eigen::VectorXd energy = system_energy(oscillator, AnyContactLaw(), field);
   double square = 0.0;

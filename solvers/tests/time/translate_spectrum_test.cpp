@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/periodic_field.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -62,27 +61,6 @@ TEST(TranslateSpectrum, ComesBackAsTheCoefficients) {
     EXPECT_LE((translate_coefficients(translate_spectrum(a), functions) - a).norm(), 1e-15 * functions);
   }
   EXPECT_THROW(translate_coefficients(Eigen::VectorXcd::Zero(5), 7), std::invalid_argument);
-}
-
-// Cell values 0, 1, 3, 2 make jumps 1, 2, -1, -2 at the left edges, held for half a cell on either side.
-TEST(MotionEvaluator, HaarVelocityIsTheJumpOverTheCellWidth) {
-  Eigen::VectorXd cells(4);
-  cells << 0.0, 1.0, 3.0, 2.0;
-  MotionEvaluator motion(HaarBasis{4}, 16);
-  const Eigen::VectorXd velocity = motion.velocity(translate_spectrum(cells), 10.0);
-  Eigen::VectorXd expected(16);
-  expected << -2, -2, 1, 1, 1, 1, 2, 2, 2, 2, -1, -1, -1, -1, -2, -2;
-  EXPECT_LE((velocity - 40.0 * expected).norm(), 1e-12);
-}
-
-TEST(MotionEvaluator, FourierVelocityIsTheDerivativeInSeconds) {
-  const FourierBasis basis(5);
-  MotionEvaluator motion(basis, 20);
-  Eigen::VectorXd samples(5), expected(20);
-  for (int j = 0; j < 5; ++j) samples[j] = std::sin(2 * std::numbers::pi * j / 5);
-  for (int l = 0; l < 20; ++l)
-    expected[l] = 2 * std::numbers::pi * 50.0 * std::cos(2 * std::numbers::pi * l / 20);
-  EXPECT_LE((motion.velocity(translate_spectrum(samples), 50.0) - expected).norm(), 1e-10);
 }
 
 }  // namespace

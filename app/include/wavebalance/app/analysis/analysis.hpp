@@ -64,8 +64,7 @@ struct Record {
 /// solvers::InadmissiblePair for scenes that load_scene() would have rejected.
 Record analyse(const Scene& scene, const Observer& observer = {});
 
-/// The tables of a record.
-Table response_table(const solvers::PeriodSamples& samples);
+/// The table of a sweep's record; those of a motion are in contact_motion.hpp.
 Table sweep_table(const solvers::FrequencySweep& curve);
 
 /// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.

@@ -2,27 +2,18 @@
 #include <Eigen/Core>
 
 #include "wavebalance/app/files/table.hpp"
-#include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
 
-/// The motion of all contact degrees of freedom over one period, contacts x points each: towards their
-/// obstacles (m, m/s) and the contact forces (N). Empty if there is no motion.
-struct ContactMotion {
-  Eigen::MatrixXd displacement, velocity, force;
+/// The contact with the largest force; without any force, the one that comes nearest to its gap (m, one per
+/// contact). From 0; 0 of an empty motion.
+int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps);
 
-  int contacts() const { return static_cast<int>(displacement.rows()); }
-  int points() const { return static_cast<int>(displacement.cols()); }
-  /// The contact with the largest force; without any force, the one that comes nearest to its gap (m, one a
-  /// contact). From 0.
-  int leading(const Eigen::VectorXd& gaps) const;
-  /// That of contact-major samples.
-  static ContactMotion of(const solvers::PeriodSamples& samples);
-  /// Time histories of one contact.
-  solvers::PeriodSamples samples(int contact) const;
-};
+/// time_fraction, displacement_m, velocity_m_per_s, contact_force_N of one contact, 1 x points each.
+Table response_table(const solvers::Motion& contact);
 
 /// time_fraction, contact (from 1), displacement_m, contact_force_N: every contact at every time.
-Table contacts_table(const ContactMotion& motion);
+Table contacts_table(const solvers::Motion& contacts);
 
 }  // namespace wavebalance::app

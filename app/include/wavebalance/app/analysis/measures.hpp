@@ -3,7 +3,7 @@
 #include <span>
 
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
 
@@ -15,16 +15,16 @@ double rms(const Eigen::VectorXd& values);
 double relative_rms_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
 
 /// Energy of the system over the period, J: kinetic, elastic and contact energy [JL14, eq. (35)], the last
-/// being the contact law's potential. Throws std::invalid_argument unless `samples` hold every degree of
+/// being the contact law's potential. Throws std::invalid_argument unless `motion` holds every degree of
 /// freedom. O(points * degrees of freedom).
-Eigen::VectorXd system_energy(const Scene& scene, const solvers::PeriodSamples& samples);
+Eigen::VectorXd system_energy(const Scene& scene, const solvers::Motion& motion);
 
 /// rms over the period of system_energy(): the energy norm of JL14, Fig. 10, before it is divided by the
 /// reference's.
-double energy_norm(const Scene& scene, const solvers::PeriodSamples& samples);
+double energy_norm(const Scene& scene, const solvers::Motion& motion);
 
 /// Share of the samples with a contact force.
-double contact_fraction(const solvers::PeriodSamples& samples);
+double contact_fraction(const solvers::Motion& motion);
 
 /// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
 /// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not

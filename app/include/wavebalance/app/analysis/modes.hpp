@@ -2,12 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
-#include "wavebalance/solvers/reference/period_samples.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
 
@@ -60,29 +59,23 @@ class ModeStudy {
   /// One period at `points` uniform times from the middle of the motion's symmetry on; contact forces are
   /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
   /// solution. O(c N points).
-  ContactMotion contact_motion(const solvers::ModePoint& point, int points) const;
-  /// The motion of the leading contact; with full_history also that of the reduced structure, which
-  /// model().recover() takes to the whole. O(n N points).
-  solvers::PeriodSamples samples(const solvers::ModePoint& point, int points, bool full_history) const;
+  solvers::Motion contact_motion(const solvers::ModePoint& point, int points) const;
+  /// The same of all degrees of freedom of the reduced structure, without forces; model().recover() gives
+  /// the whole structure's displacements from these. O(n N points).
+  solvers::Motion structure_motion(const solvers::ModePoint& point, int points) const;
 
   /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy
   /// ratio `largest` > 1 in analysis.points points, uniform. Ends at the first that is not accepted, which is
   /// kept. O(points (n N)^3).
   std::vector<solvers::LagrangianPoint> published_branch(double largest) const;
   /// As above, for an accepted point; empty otherwise.
-  ContactMotion contact_motion(const solvers::LagrangianPoint& point, int points) const;
-  solvers::PeriodSamples samples(const solvers::LagrangianPoint& point, int points, bool full_history) const;
+  solvers::Motion contact_motion(const solvers::LagrangianPoint& point, int points) const;
 
   /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
   /// structure's own coordinates; NaN without motion. O(n N).
   double residual(const solvers::ModePoint& point) const;
 
  private:
-  ContactMotion touching(const Eigen::MatrixXcd& amplitudes, const Eigen::MatrixXd& force, double omega,
-                         int points) const;
-  solvers::PeriodSamples sampled(const ContactMotion& motion, const Eigen::MatrixXcd& amplitudes,
-                                 double omega, bool full_history) const;
-
   Scene scene_;
   StructureModel model_;
   StructureModes modes_;

@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
-#include "wavebalance/solvers/reference/period_samples.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
 
@@ -50,29 +47,35 @@ struct Response {
   double wall_seconds = 0.0;             ///< composition, solution and samples
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
-  ContactMotion contacts;                ///< analysis.output_points samples; empty if there is no iterate
-  int contact = 0;                       ///< the leading one, see ContactMotion::leading()
-  solvers::PeriodSamples
-      samples;             ///< motion of that contact; the full history is that of the reduced structure
-  Eigen::MatrixXd motion;  ///< that structure's displacements, size x ResponseOptions::motion_points
+  solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
+  int contact = 0;            ///< the leading one, see leading_contact()
+  solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
+                              ///< ResponseOptions::structure_points points
+
+  /// The motion of the leading contact, 1 x output_points each, and its time histories: output_points values
+  /// each, m, m/s and N.
+  solvers::Motion leading() const { return contacts.contact(contact); }
+  Eigen::VectorXd displacement() const { return leading().displacement.reshaped(); }
+  Eigen::VectorXd velocity() const { return leading().velocity.reshaped(); }
+  Eigen::VectorXd force() const { return leading().force.reshaped(); }
 };
 
 /// What a response holds besides the motion of its contacts, and where its solution starts.
 struct ResponseOptions {
-  bool full_history = false;  ///< also displacement and velocity of every degree of freedom
-  int motion_points = 0;      ///< uniform instants of Response::motion; not used by time stepping
-  Eigen::VectorXd guess;      ///< displacement at the quadrature points, m; empty: the contact-free response.
-                              ///< Not used with time.tolerance
+  int structure_points = 0;  ///< uniform instants of Response::structure; 0: none. Of time stepping and
+                             ///< shooting 0 or analysis.output_points
+  Eigen::VectorXd guess;     ///< displacement at the quadrature points, m; empty: the contact-free response.
+                             ///< Not used with time.tolerance
   Observer observer;
 };
 
 /// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
-/// singular system is reported by `converged` and `status`; then `samples` hold the last iterate. Throws
+/// singular system is reported by `converged` and `status`; then `contacts` hold the last iterate. Throws
 /// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would have rejected.
 ///
 /// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature
 /// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is
-/// known at these points only: the samples hold that of the nearest one.
+/// known at these points only: `contacts` hold that of the nearest one.
 ///
 /// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
 /// converged when the estimated error meets the tolerance.
@@ -88,12 +91,5 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
 
 /// The scene's response by shooting, for checks of the other two. One contact only.
 Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
-
-/// The motion of all contacts in a solution of `problem` at `points` uniform times; velocities as
-/// solvers::MotionEvaluator defines them, contact forces by the laws from the displacements, or where these
-/// do not resolve a stiff law, those of the nearest quadrature points. O(C points log(points)).
-ContactMotion sample_response(const solvers::CondensedProblem& problem,
-                              const solvers::PeriodicResponse& response, const solvers::ContactLaws& laws,
-                              int points);
 
 }  // namespace wavebalance::app

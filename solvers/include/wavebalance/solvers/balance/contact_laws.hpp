@@ -37,6 +37,8 @@ class ContactLaws {
   /// the three vectors have one length. O(samples).
   void evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
                 Eigen::VectorXd& tangent) const;
+  /// The forces (N) at displacements (m), contacts x points each. O(contacts points).
+  Eigen::MatrixXd force(const Eigen::MatrixXd& displacement) const;
 
  private:
   std::vector<AnyContactLaw> laws_;

@@ -5,8 +5,8 @@
 
 #include "wavebalance/solvers/balance/contact_law.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
-#include "wavebalance/solvers/reference/period_samples.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers {
 
@@ -48,7 +48,8 @@ struct ShootingResult {
   Eigen::VectorXd displacement;          ///< n, m, at the load's maximum (t = 0)
   Eigen::VectorXd velocity;              ///< n, m/s, at t = 0
   Eigen::VectorXcd floquet_multipliers;  ///< 2n, of the last iterate, by falling modulus
-  PeriodSamples samples;  ///< the period that starts from the last iterate; empty on step_failure
+  Motion contacts;   ///< of the one contact, from the last iterate on; empty on step_failure
+  Motion structure;  ///< the same of all n degrees of freedom, without forces; with full_history only
 };
 
 /// The periodic response of M u'' + C u' + K u = load cos(2 pi f t) - e f_c(u_c) by Newton on the period map

@@ -5,8 +5,8 @@
 
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
-#include "wavebalance/solvers/reference/period_samples.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers {
 
@@ -47,7 +47,8 @@ struct TimeSteppingResult {
   long failed_steps = 0;  ///< steps tried and rejected
   /// Relative rms difference of the contact displacements of periods i+2 and i+1; periods - 1 entries.
   std::vector<double> period_error;
-  PeriodSamples samples;  ///< the last complete period; empty when there is none
+  Motion contacts;   ///< the last complete period of all contacts; empty when there is none
+  Motion structure;  ///< the same of all n degrees of freedom, without forces; with full_history only
 };
 
 /// Integrates M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c) [JL14, eq. (7)] until two

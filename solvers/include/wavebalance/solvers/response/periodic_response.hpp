@@ -7,7 +7,9 @@
 
 namespace wavebalance::solvers {
 
-/// A periodic response at one frequency.
+/// A periodic response at one frequency, as the solvers leave it. Displacement and force are the unknown of
+/// the balance at the quadrature points and therefore vectors, contact-major like every vector of samples; so
+/// they also serve as the start of another solve. contact_motion() makes them a Motion at any points.
 struct PeriodicResponse {
   SolveStatus status = SolveStatus::iteration_limit;
   double frequency = 0.0;                ///< Hz
@@ -20,7 +22,8 @@ struct PeriodicResponse {
   Eigen::VectorXd contact_force;         ///< N, samples() values
   /// Whether contact_force is the force in the balance rather than the law's force at the displacement. This
   /// is so for a law whose penetration is below rounding of the displacement. The law is then satisfied in
-  /// displacement, to 1e-9 of the motion, and `residual` is that mismatch.
+  /// displacement, to 1e-9 of the motion, and `residual` is that mismatch. It is always so for rigid
+  /// obstacles, which have no law.
   bool force_by_balance = false;
   Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
 

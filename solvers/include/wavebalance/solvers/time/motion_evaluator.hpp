@@ -2,8 +2,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
-#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -24,9 +23,8 @@ class MotionEvaluator {
   Eigen::VectorXd displacement(const Eigen::VectorXcd& coefficients);
   /// m/s; frequency in Hz.
   Eigen::VectorXd velocity(const Eigen::VectorXcd& coefficients, double frequency);
-  /// The same of several motions, a column each: points x C for (M/2 + 1) x C.
-  Eigen::MatrixXd displacement(const Eigen::MatrixXcd& coefficients);
-  Eigen::MatrixXd velocity(const Eigen::MatrixXcd& coefficients, double frequency);
+  /// Both of several motions, R x points without forces, for (M/2 + 1) x R coefficients.
+  Motion operator()(const Eigen::MatrixXcd& coefficients, double frequency);
 
  private:
   Eigen::VectorXd jump_velocity(const Eigen::VectorXcd& coefficients, double frequency);
@@ -37,23 +35,5 @@ class MotionEvaluator {
   std::optional<TrialEvaluator> rates_;  // empty when the trial functions have no pointwise derivative
   std::optional<TrialEvaluator> cells_;  // then: the values at l/M
 };
-
-/// The motion of all n degrees of freedom: n x points each, m and m/s.
-struct PeriodicField {
-  Eigen::MatrixXd displacement;
-  Eigen::MatrixXd velocity;
-};
-
-/// The motion under contact force samples (samples() values, N) of a solved problem. Throws SingularSystem.
-/// O(n (M + points log points)).
-PeriodicField periodic_field(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points);
-
-/// E = u'^T M u' / 2 + u^T K u / 2 + the potentials of all contacts, J, at each point [JL14, eq. (35)].
-/// Throws std::invalid_argument for laws that are neither one nor one per contact. O(n points).
-Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,
-                              const PeriodicField& field);
-
-/// The rms of the system energy over the period, J: the paper's energy norm before it is normalised.
-double energy_norm(const LinearStructure& structure, const ContactLaws& laws, const PeriodicField& field);
 
 }  // namespace wavebalance::solvers

@@ -1,0 +1,45 @@
+#include "wavebalance/solvers/response/response_motion.hpp"
+
+#include <cmath>
+
+#include "wavebalance/solvers/time/motion_evaluator.hpp"
+
+namespace wavebalance::solvers {
+
+Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& response,
+                      const ContactLaws& laws, int points) {
+  MotionEvaluator evaluate(problem.pair().trial(), points);
+  Motion motion = evaluate(response.coefficients, response.frequency);
+  motion.force = response.force_by_balance
+                     ? nearest_samples(by_contact(response.contact_force, problem.contacts()), points)
+                     : laws.force(motion.displacement);
+  return motion;
+}
+
+Motion structure_motion(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points) {
+  MotionEvaluator evaluate(problem.pair().trial(), points);
+  return evaluate(problem.full_coefficients(contact_force).transpose(), problem.frequency());
+}
+
+Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,
+                              const Motion& motion) {
+  laws.require(structure.contacts());
+  const Eigen::MatrixXd momentum = structure.mass * motion.velocity;
+  const Eigen::MatrixXd elastic = structure.stiffness * motion.displacement;
+  Eigen::VectorXd energy = 0.5 * (momentum.cwiseProduct(motion.velocity).colwise().sum() +
+                                  elastic.cwiseProduct(motion.displacement).colwise().sum())
+                                     .transpose();
+  for (int c = 0; c < structure.contacts(); ++c) {
+    const int dof = structure.contact_dofs[static_cast<std::size_t>(c)];
+    for (Eigen::Index l = 0; l < energy.size(); ++l)
+      energy[l] += laws[c].potential(motion.displacement(dof, l));
+  }
+  return energy;
+}
+
+double energy_norm(const LinearStructure& structure, const ContactLaws& laws, const Motion& motion) {
+  const Eigen::VectorXd energy = system_energy(structure, laws, motion);
+  return energy.norm() / std::sqrt(double(energy.size()));
+}
+
+}  // namespace wavebalance::solvers
