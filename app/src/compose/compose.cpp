@@ -36,6 +36,30 @@ solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string&
   return make_basis(name, time.functions);
 }
 
+/// What a scene's pair is made of: the verdict on a pair and the pair itself are of the same bases.
+struct PairParts {
+  solvers::AnyTimeBasis trial, weight;
+  solvers::TimePairOptions options;
+};
+
+PairParts pair_parts(const Time& time) {
+  solvers::TimePairOptions options;
+  options.formulation = time.formulation;
+  options.inner_products = effective_inner_products(time);
+  options.quadrature_points = time.quadrature_points;
+  if (!is_wavelet(time.trial) || !is_wavelet(time.weight))
+    return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
+            std::move(options)};
+  // A filter takes longer to compute than a pair of small bases: one for all.
+  const wavelets::PeriodicBasis trial = wavelet_basis(time.trial, time.functions);
+  const wavelets::PeriodicBasis weight =
+      time.weight == time.trial ? trial : wavelet_basis(time.weight, time.functions);
+  options.exact_column = [trial, weight](int derivative) {
+    return wavelets::periodic_inner_products(trial, weight, derivative);
+  };
+  return {trial, weight, std::move(options)};
+}
+
 }  // namespace
 
 solvers::LinearStructure make_structure(const Scene& scene) { return make_model(scene).structure; }
@@ -74,28 +98,14 @@ InnerProducts effective_inner_products(const Time& time) {
 }
 
 solvers::Admissibility pair_admissibility(const Time& time) {
-  return solvers::admissibility(basis_opposite(time.trial, time.weight, time),
-                                basis_opposite(time.weight, time.trial, time), time.formulation,
-                                effective_inner_products(time));
+  const PairParts parts = pair_parts(time);
+  return solvers::admissibility(parts.trial, parts.weight, parts.options.formulation,
+                                parts.options.inner_products);
 }
 
 solvers::TimePair make_pair(const Time& time) {
-  solvers::TimePairOptions options;
-  options.formulation = time.formulation;
-  options.inner_products = effective_inner_products(time);
-  options.quadrature_points = time.quadrature_points;
-  if (is_wavelet(time.trial) && is_wavelet(time.weight)) {
-    // A filter takes longer to compute than a pair of small bases: one for all.
-    const wavelets::PeriodicBasis trial = wavelet_basis(time.trial, time.functions);
-    const wavelets::PeriodicBasis weight =
-        time.weight == time.trial ? trial : wavelet_basis(time.weight, time.functions);
-    options.exact_column = [trial, weight](int derivative) {
-      return wavelets::periodic_inner_products(trial, weight, derivative);
-    };
-    return {trial, weight, std::move(options)};
-  }
-  return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
-          std::move(options)};
+  PairParts parts = pair_parts(time);
+  return {std::move(parts.trial), std::move(parts.weight), std::move(parts.options)};
 }
 
 StructureModes make_modes(const StructureModel& model) {
