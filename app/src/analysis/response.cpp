@@ -12,6 +12,7 @@
 #include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"

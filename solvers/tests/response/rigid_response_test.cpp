@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "support/jl14_bar.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 namespace wavebalance::solvers {
@@ -63,6 +64,20 @@ TEST(RigidResponse, WithoutContactItIsTheFreeResponse) {
   ASSERT_TRUE(rigid.response.converged());
   EXPECT_TRUE(rigid.response.displacement.isApprox(problem.contact_free_response(), 0.0));
   EXPECT_TRUE(rigid.response.contact_force.isZero(0.0));
+}
+
+// No law gives it: between the quadrature points the motion has the force of the nearest one.
+TEST(RigidResponse, ItsMotionHasTheForceOfTheBalance) {
+  auto problem = fourier_problem(testing::jl14_bar(25, 1e-4), 63, 128, 150.0);
+  const RigidResponse rigid = rigid_response(problem, 1e-3, {});
+  ASSERT_TRUE(rigid.response.converged());
+  EXPECT_TRUE(rigid.response.force_by_balance);
+  const Motion motion = contact_motion(problem, rigid.response, {}, 256);
+  EXPECT_GT(motion.force.maxCoeff(), 0.0);
+  for (int l = 0; l < 128; ++l) {
+    EXPECT_EQ(motion.force(0, 2 * l), rigid.response.contact_force[l]);
+    EXPECT_NEAR(motion.displacement(0, 2 * l), rigid.response.displacement[l], 1e-12);
+  }
 }
 
 TEST(RigidResponse, StaticPushAgainstTheObstacleIsHeldAtTheGap) {
