@@ -74,7 +74,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back("complementarity", response.rigid->product);
     record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
   }
-  append_condition(record, response.condition);
+  append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (scene.analysis.type == AnalysisType::forced_response)
     append_discretisation(record.summary, solved_time(scene.time, response));
@@ -141,7 +141,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
     record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
   }
-  append_condition(record, sweep.curve.condition);
+  append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   append_structure(record.summary, model);
   record.sweep = sweep_table(sweep.curve);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
@@ -162,6 +162,7 @@ struct RigidPoint {
   solvers::SweepPoint point;
   bool converged = false;
   double condition = 0.0;
+  double rounding_error = 0.0;
   double max_penetration = 0.0;  // m
   double max_force = 0.0;        // N
 };
@@ -174,6 +175,7 @@ RigidPoint rigid_point(solvers::CondensedProblem& problem, const StructureModel&
   RigidPoint result;
   result.converged = found.response.converged();
   result.condition = std::max(problem.condensation().condition(), found.response.condition);
+  result.rounding_error = problem.rounding_error(found.response.contact_force);
   result.max_penetration = found.complementarity.max_penetration;
   result.max_force = motion.force.maxCoeff();
   result.point.frequency = problem.frequency();
@@ -194,6 +196,7 @@ void note(Sweep& sweep, const std::optional<RigidPoint>& found) {
   }
   sweep.max_penetration = std::max(sweep.max_penetration, found->max_penetration);
   sweep.max_force = std::max(sweep.max_force, found->max_force);
+  sweep.curve.rounding_error = std::max(sweep.curve.rounding_error, found->rounding_error);
   sweep.curve.points.push_back(found->point);
 }
 
@@ -223,6 +226,7 @@ Sweep rigid_sweep(const Scene& scene, const StructureModel& model, const Observe
 
 std::string Sweep::status() const {
   if (interrupted()) return "interrupted";
+  if (curve.rounding_error > largest_rounding_error) return inaccurate_status(curve.rounding_error);
   if (unsolved == 0) return std::string(to_string(curve.status));
   return "no response at " + std::to_string(unsolved) + " of " +
          std::to_string(curve.points.size() + static_cast<std::size_t>(unsolved)) + " frequencies";

@@ -38,7 +38,7 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
     result.structure = solvers::structure_motion(problem, found.contact_force, options.structure_points);
 }
 
-void note_solution(Response& result, const solvers::CondensedProblem& problem,
+void note_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found) {
   result.converged = found.converged();
   result.status = to_string(found.status);
@@ -46,6 +46,7 @@ void note_solution(Response& result, const solvers::CondensedProblem& problem,
   result.iterations = found.iterations;
   result.strategy = to_string(found.strategy);
   result.condition = std::max(problem.condensation().condition(), found.condition);
+  result.rounding_error = problem.rounding_error(found.contact_force);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
@@ -78,6 +79,13 @@ void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProble
   note_motion(problem, found.response, composed.laws, scene, model, options, result);
 }
 
+/// A converged response without accurate digits is none.
+void require_digits(Response& result) {
+  if (!result.converged || !(result.rounding_error > largest_rounding_error)) return;
+  result.converged = false;
+  result.status = inaccurate_status(result.rounding_error);
+}
+
 /// Whether a reference keeps every degree of freedom.
 bool wants_structure(const Scene& scene, const ResponseOptions& options) {
   const int points = options.structure_points;
@@ -90,6 +98,12 @@ bool wants_structure(const Scene& scene, const ResponseOptions& options) {
 }
 
 }  // namespace
+
+std::string inaccurate_status(double rounding_error) {
+  return fmt::format(
+      "inaccurate: the rounding error of the condensation is about {:.0e} of the motion, more than {:.0e}",
+      rounding_error, largest_rounding_error);
+}
 
 Time solved_time(Time time, const Response& response) {
   if (!response.refinement) return time;
@@ -124,6 +138,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
     result.residual = std::numeric_limits<double>::quiet_NaN();
     result.condition = std::numeric_limits<double>::infinity();
   }
+  require_digits(result);
   result.wall_seconds = seconds_since(start);
   return result;
 }

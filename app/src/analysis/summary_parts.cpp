@@ -36,7 +36,7 @@ void append_structure(Summary& summary, const StructureModel& model) {
   summary.emplace_back("reduction_seconds", model.reduction_seconds);
 }
 
-void append_condition(Record& record, double condition) {
+void append_condition(Record& record, double condition, double rounding_error) {
   constexpr double largest_condition = 1e12;
   if (std::isinf(condition)) {
     record.warnings.emplace_back("a system of the solution is singular to working precision");
@@ -45,7 +45,13 @@ void append_condition(Record& record, double condition) {
         fmt::format("the condition estimate {:.1e} is past {:.0e}: up to {:.0f} of 16 digits may be lost",
                     condition, largest_condition, std::ceil(std::log10(condition))));
   }
+  constexpr double ordinary_rounding_error = 1e-6;
+  if (rounding_error > ordinary_rounding_error)
+    record.warnings.push_back(fmt::format(
+        "the rounding error of the condensation is estimated at {:.1e} of the motion: fewer than six digits are accurate",
+        rounding_error));
   record.summary.emplace_back("condition_estimate", condition);
+  record.summary.emplace_back("rounding_error_estimate", rounding_error);
   record.summary.emplace_back("warnings", record.warnings);
 }
 

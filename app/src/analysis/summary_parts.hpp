@@ -19,9 +19,10 @@ void append_discretisation(Summary& summary, const Time& time);
 /// Sizes of the structure before and after its reduction.
 void append_structure(Summary& summary, const StructureModel& model);
 
-/// Adds condition_estimate (NaN: none) to the summary, and `warnings` to summary and record. Above 1e12 there
-/// is a warning, because fewer than four of the sixteen digits of a double are accurate.
-void append_condition(Record& record, double condition);
+/// Adds condition_estimate and rounding_error_estimate (NaN: none) to the summary, and `warnings` to summary
+/// and record. There is a warning for a condition above 1e12, where fewer than four of the sixteen digits of
+/// a double are accurate, and for a rounding error above 1e-6.
+void append_condition(Record& record, double condition, double rounding_error);
 
 /// The table of all contacts, and which of them the record shows, where there are several.
 void add_contacts(Record& record, const solvers::Motion& contacts, int leading);

@@ -44,6 +44,7 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
   result.residual = found.response.residual;
   result.strategy = to_string(found.response.strategy);
   result.condition = std::max(found.problem->condensation().condition(), found.response.condition);
+  result.rounding_error = found.problem->rounding_error(found.response.contact_force);
   result.unknowns = model.contacts() * found.levels.back().functions;
   for (const auto& level : found.levels) result.iterations += level.iterations;
   result.refinement =

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "analysis/record_figure.hpp"
 #include "support/scene_texts.hpp"
@@ -166,17 +168,88 @@ TEST(Analyse, OrdinaryConditionsAreWithoutWarning) {
   EXPECT_TRUE(stepped.warnings.empty());
 }
 
-// The dynamic stiffness k - omega^2 m is 2e-13 of k beside the natural frequency 1 / (2 pi).
-TEST(Analyse, ConditionsPast1e12Warn) {
+// An undamped oscillator without contact, whose natural frequency is 1 / (2 pi), at a frequency that is
+// larger by this share; its dynamic stiffness k - omega^2 m is twice the share of k.
+Scene beside_resonance(double share) {
   Scene scene =
       scene_of({"structure.stiffness_damping=0", "structure.elements=1", "structure.youngs_modulus=1",
                 "structure.density=3", "structure.area=1", "structure.length=1", "time.functions=9"});
   scene.contact = {};
-  scene.forcing.frequency = (1.0 + 1e-13) / (2.0 * std::acos(-1.0));
-  const Record record = analyse(scene);
+  scene.forcing.frequency = (1.0 + share) / (2.0 * std::acos(-1.0));
+  return scene;
+}
+
+TEST(Analyse, RoundingErrorsPast1e6Warn) {
+  const Record record = analyse(beside_resonance(1e-11));
   EXPECT_TRUE(record.converged) << record.status;
-  EXPECT_NEAR(value_of<double>(record.summary, "condition_estimate"), 1e13, 1e11);
+  EXPECT_NEAR(value_of<double>(record.summary, "rounding_error_estimate"), 9e-5, 1e-5);
   ASSERT_EQ(record.warnings.size(), 1u);
+  EXPECT_NE(record.warnings[0].find("rounding error of the condensation"), std::string::npos)
+      << record.warnings[0];
+  const Record ordinary = analyse(beside_resonance(1e-6));
+  EXPECT_LT(value_of<double>(ordinary.summary, "rounding_error_estimate"), 1e-8);
+  EXPECT_TRUE(ordinary.warnings.empty());
+}
+
+TEST(Analyse, RoundingErrorsPastAThousandthOfTheMotionAreNoResponse) {
+  const Record record = analyse(beside_resonance(1e-13));
+  EXPECT_FALSE(record.converged);
+  EXPECT_EQ(record.status.rfind("inaccurate: ", 0), 0u) << record.status;
+  EXPECT_NE(record.status.find("of the motion, more than 1e-03"), std::string::npos) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "status"), record.status);
+  EXPECT_FALSE(record.response.empty());  // of the last iterate
+}
+
+TEST(Analyse, SweepsWhoseRoundingErrorsPastAThousandthAreNotConverged) {
+  Scene scene = beside_resonance(1e-13);
+  scene.analysis.type = AnalysisType::frequency_sweep;
+  scene.analysis.frequency_from = scene.forcing.frequency;
+  scene.analysis.frequency_to = 2.0 * scene.forcing.frequency;
+  scene.analysis.largest_step = 0.1 * scene.forcing.frequency;
+  scene.analysis.first_step = 0.01 * scene.forcing.frequency;
+  const Record record = analyse(scene);
+  EXPECT_FALSE(record.converged);
+  EXPECT_EQ(record.status.rfind("inaccurate: ", 0), 0u) << record.status;
+}
+
+// Ten equal oscillators in a ring, coupled to the next by 1e-4 of their stiffness; the load acts five of them
+// away from the contact. The modal sum for the motion of the contact cancels all digits.
+TEST(Analyse, MotionFarFromTheLoadInAWeaklyCoupledStructureIsAccurate) {
+  constexpr int size = 10;
+  Eigen::MatrixXd stiffness = 1e4 * Eigen::MatrixXd::Identity(size, size);
+  for (int i = 0; i < size; ++i) {
+    const int next = (i + 1) % size;
+    stiffness(i, i) += 1.0;
+    stiffness(next, next) += 1.0;
+    stiffness(i, next) -= 1.0;
+    stiffness(next, i) -= 1.0;
+  }
+  Scene scene = scene_of({"time.functions=9"});
+  scene.contact = {};
+  const double omega = 80.0;
+  scene.forcing.frequency = omega / (2.0 * std::acos(-1.0));
+  StructureModel model = make_model(scene);
+  auto& structure = model.structure;
+  structure.mass = Eigen::MatrixXd::Identity(size, size).sparseView();
+  structure.stiffness = stiffness.sparseView();
+  structure.damping = 0.5 * structure.mass;
+  structure.load = Eigen::VectorXd::Unit(size, 5) * 1e18;
+  structure.contact_dofs = {0};
+  const Response response = weighted_residual_response(scene, model);
+  const std::complex<double> added(-omega * omega, 0.5 * omega);
+  const Eigen::MatrixXcd stiff = stiffness + added * Eigen::MatrixXcd::Identity(size, size);
+  const double expected =
+      std::abs(stiff.partialPivLu().solve(structure.load.cast<std::complex<double>>())[0]);
+  EXPECT_TRUE(response.converged) << response.status;
+  EXPECT_NEAR(response.displacement().cwiseAbs().maxCoeff(), expected, 1e-3 * expected);
+  EXPECT_LT(response.rounding_error, 1e-11);
+}
+
+TEST(Analyse, ConditionsPast1e12Warn) {
+  const Record record = analyse(beside_resonance(9e-13));
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_NEAR(value_of<double>(record.summary, "condition_estimate"), 1.1e12, 1e10);
+  ASSERT_EQ(record.warnings.size(), 2u);  // of the rounding error too
   EXPECT_EQ(record.warnings, value_of<std::vector<std::string>>(record.summary, "warnings"));
   EXPECT_NE(record.warnings[0].find("past 1e+12"), std::string::npos) << record.warnings[0];
   EXPECT_NE(json_text(record.summary).find("\"warnings\": [\n    \"the condition"), std::string::npos);

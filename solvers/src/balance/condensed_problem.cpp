@@ -1,10 +1,12 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
 
+#include "linalg/safe_norm.hpp"
 #include "linalg/spans.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/spectral/fft.hpp"
@@ -44,7 +46,7 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   factors_ = {pair_.symbol(2) * (frequency_ * frequency_), pair_.symbol(1) * frequency_, pair_.symbol(0)};
   derivatives_ = {pair_.symbol(2) * (2.0 * frequency_), pair_.symbol(1),
                   Eigen::VectorXcd::Zero(pair_.spectrum_size())};
-  condensation_.condense(factors_, derivatives_, condensed_);
+  condensation_.condense(factors_, derivatives_, condensed_, load_);
   condensed_.load_response.array().colwise() *= load_.array();
   condensed_.load_response_slope.array().colwise() *= load_.array();
   slope_is_current_ = false;
@@ -158,6 +160,17 @@ Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
       spectra.col(c) -= condensed_.compliance.col(c + contacts() * d)
                             .cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
   return spectra;
+}
+
+double CondensedProblem::rounding_error(const Eigen::VectorXd& force) {
+  const double motion = coefficients(force).norm();  // and <p, force> in translates
+  const Eigen::MatrixXd spread = condensed_.compliance_error.cwiseSqrt();
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(spread.rows());
+  for (int d = 0; d < contacts(); ++d)
+    moved += spread.col(d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)].cwiseAbs());
+  const Eigen::MatrixXd errors =
+      load_.cwiseAbs().asDiagonal() * condensed_.load_response_error + moved.asDiagonal() * spread;
+  return relative_to(std::max(motion, condensed_.load_response.norm()), errors.norm());
 }
 
 Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& force) {

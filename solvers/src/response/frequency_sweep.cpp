@@ -144,6 +144,7 @@ class Sweep {
     problem_.set_frequency(point.parameter);
     result_.condition = std::max(result_.condition, problem_.condensation().condition());
     system_.evaluate(point.displacement);
+    result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
     const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
     SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.grazing};
     for (int c = 0; c < problem_.contacts(); ++c) {

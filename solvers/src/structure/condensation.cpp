@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
@@ -48,6 +49,10 @@ bool is_dense(const LinearStructure& structure) {
   return size <= 2000.0 && entries > 0.1 * size * size;
 }
 
+CondensationMethod elimination(const LinearStructure& structure) {
+  return is_dense(structure) ? CondensationMethod::dense : CondensationMethod::sparse;
+}
+
 using MethodPointer = std::unique_ptr<Condensation::Method>;
 
 // Sets `chosen` to the method taken.
@@ -60,7 +65,7 @@ MethodPointer choose_method(const LinearStructure& structure, CondensationMethod
   chosen = CondensationMethod::modal;
   if (structure.size() <= modal_limit)
     if (MethodPointer method = make_modal_method(structure)) return method;
-  chosen = is_dense(structure) ? CondensationMethod::dense : CondensationMethod::sparse;
+  chosen = elimination(structure);
   return chosen == CondensationMethod::dense ? make_dense_method(structure) : make_sparse_method(structure);
 }
 
@@ -94,6 +99,21 @@ MethodPointer make_method(const LinearStructure& structure, CondensationMethod& 
       structure, [&method](const LinearStructure& scaled) { return make_unscaled_method(scaled, method); });
 }
 
+double relative_error(const Eigen::MatrixXd& errors, const Eigen::MatrixXcd& values,
+                      const Eigen::VectorXcd& load) {
+  if (load.size() == 0) return relative_to(safe_norm(values), safe_norm(errors));
+  return relative_to(safe_norm(load.asDiagonal() * values), safe_norm(load.cwiseAbs().asDiagonal() * errors));
+}
+
+RoundingErrors relative_errors(const CondensedSpectrum& spectrum, const Eigen::VectorXcd& load) {
+  const Eigen::Index contacts = spectrum.load_response.cols();
+  double largest = 0.0;
+  for (Eigen::Index c = 0; c < contacts; ++c)
+    largest = std::max(largest, spectrum.compliance.col(c * (contacts + 1)).cwiseAbs().maxCoeff());
+  return {relative_to(largest, spectrum.compliance_error.maxCoeff()),
+          relative_error(spectrum.load_response_error, spectrum.load_response, load)};
+}
+
 }  // namespace
 
 StiffnessScale::StiffnessScale(const LinearStructure& structure)
@@ -122,7 +142,10 @@ double StiffnessScale::require_regular(const ImpedanceCoefficients& factors,
 }
 
 Condensation::Condensation(const LinearStructure& structure, CondensationMethod method)
-    : chosen_(method), method_(make_method(structure, chosen_)) {}
+    : chosen_(method), method_(make_method(structure, chosen_)) {
+  if (method == CondensationMethod::automatic && chosen_ == CondensationMethod::modal)
+    structure_ = std::make_unique<LinearStructure>(structure);
+}
 Condensation::Condensation(Condensation&&) noexcept = default;
 Condensation& Condensation::operator=(Condensation&&) noexcept = default;
 Condensation::~Condensation() = default;
@@ -136,13 +159,25 @@ CondensedPoint Condensation::dynamic_compliance(const ImpedanceCoefficients& fac
 }
 
 void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
-                            CondensedSpectrum& result) {
+                            CondensedSpectrum& result, const Eigen::VectorXcd& load) {
+  condense_by_method(factors, derivatives, result, load);
+  constexpr double largest_modal_error = 1e-8;
+  if (!structure_ || rounding_.load_response <= largest_modal_error) return;
+  chosen_ = elimination(*structure_);
+  method_ = make_method(*std::exchange(structure_, nullptr), chosen_);
+  condense_by_method(factors, derivatives, result, load);
+}
+
+void Condensation::condense_by_method(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
+                                      CondensedSpectrum& result, const Eigen::VectorXcd& load) {
   const Eigen::Index size = factors[0].size(), count = contacts();
   for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
   for (auto* matrix : {&result.load_response, &result.load_response_slope}) matrix->resize(size, count);
+  for (auto* matrix : {&result.compliance_error, &result.load_response_error}) matrix->resize(size, count);
   method_->reset_condition();
   method_->condense(factors, derivatives, result);
   condition_ = method_->condition();
+  rounding_ = relative_errors(result, load);
 }
 
 void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
@@ -155,6 +190,8 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
     result.load_response.row(k) = point.load_response.transpose();
     result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
     result.load_response_slope.row(k) = point.load_response_slope.transpose();
+    result.compliance_error.row(k) = point.compliance_error.transpose();
+    result.load_response_error.row(k) = point.load_response_error.transpose();
   }
 }
 

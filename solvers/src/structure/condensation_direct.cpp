@@ -15,7 +15,25 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
   for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), 1.0));
   const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(derivatives) * response);
   const Eigen::MatrixXcd at_contacts = response(structure_.contact_dofs, Eigen::all);
-  return {at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count), slope.col(count)};
+  CondensedPoint point{at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count),
+                       slope.col(count)};
+  set_errors(factors, response, point);
+  return point;
+}
+
+// A factorisation solves (Z + E) x = b with |E| <= eps A, A = |s2| |M| + |s1| |C| + |s0| |K|, so that the
+// entry c of x has the error |y|^T |E| |x| with y = Z^-1 e_c, which is a response to a unit [Skeel]. With y
+// in place of x the row sums of A are an upper bound by Cauchy and Schwarz.
+void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
+                              CondensedPoint& point) const {
+  const int count = contacts();
+  const Eigen::Vector3d size(std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2]));
+  const Eigen::MatrixXd units = response.leftCols(count).cwiseAbs();
+  const Eigen::VectorXd loaded = response.col(count).cwiseAbs();
+  Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
+  for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Eigen::Index(d)] * loaded);
+  point.load_response_error = rounding_unit * (units.transpose() * perturbed);
+  point.compliance_error = rounding_unit * (units.cwiseAbs2().transpose() * (row_sums_ * size));
 }
 
 Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors,

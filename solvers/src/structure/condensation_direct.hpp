@@ -10,7 +10,14 @@ class DirectMethod : public Condensation::Method {
  public:
   using SparseComplex = Eigen::SparseMatrix<std::complex<double>>;
 
-  explicit DirectMethod(const LinearStructure& structure) : structure_(structure), scale_(structure) {}
+  explicit DirectMethod(const LinearStructure& structure)
+      : structure_(structure),
+        scale_(structure),
+        magnitudes_{structure.mass.cwiseAbs(), structure.damping.cwiseAbs(), structure.stiffness.cwiseAbs()},
+        row_sums_(structure.size(), 3) {
+    for (std::size_t d = 0; d < 3; ++d)
+      row_sums_.col(Eigen::Index(d)) = magnitudes_[d] * Eigen::VectorXd::Ones(structure.size());
+  }
 
   int size() const override { return structure_.size(); }
   int contacts() const override { return structure_.contacts(); }
@@ -27,8 +34,14 @@ class DirectMethod : public Condensation::Method {
   virtual void factorize(const ImpedanceCoefficients& factors) = 0;
   virtual Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const = 0;
 
+  // Errors of the responses to units at the contacts and, in the last column, to the load.
+  void set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
+                  CondensedPoint& point) const;
+
   LinearStructure structure_;
   StiffnessScale scale_;
+  std::array<Eigen::SparseMatrix<double>, 3> magnitudes_;  // absolute values of M, C, K
+  Eigen::MatrixX3d row_sums_;                              // of magnitudes_
 };
 
 }  // namespace wavebalance::solvers

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "wavebalance/solvers/structure/condensation.hpp"
@@ -32,6 +33,11 @@ class Condensation::Method {
  private:
   double condition_ = 0.0;
 };
+
+/// Bound of the relative rounding error of an entry of a factorised matrix, a few roundings of its terms. The
+/// errors of eliminations in double precision, compared with long double, are at most 2.5 times those of one
+/// rounding.
+constexpr double rounding_unit = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure
 /// they cancel in Z itself.

@@ -1,6 +1,8 @@
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <random>
 
 #include "linalg/dense.hpp"
 #include "structure/condensation_method.hpp"
@@ -14,7 +16,21 @@ using Complex = std::complex<double>;
 struct Modes {
   Eigen::MatrixXd shapes;  // n x n
   Eigen::VectorXd mass, damping, stiffness;
+  // Frobenius norms of the errors of the three diagonal forms, off the diagonal too.
+  std::array<double, 3> errors = {};
 };
+
+// The norm of shapes^T A shapes - diag(diagonal) from its products with random signs, whose mean square it
+// is. O(n^2).
+double diagonal_error(const Eigen::MatrixXd& shapes, const Eigen::SparseMatrix<double>& matrix,
+                      const Eigen::VectorXd& diagonal) {
+  constexpr int samples = 8;
+  std::minstd_rand generator(1);
+  const Eigen::MatrixXd signs = Eigen::MatrixXd::NullaryExpr(
+      shapes.cols(), samples, [&] { return generator() > generator.max() / 2 ? 1.0 : -1.0; });
+  const Eigen::MatrixXd product = shapes.transpose() * (matrix * (shapes * signs));
+  return (product - diagonal.asDiagonal() * signs).norm() / std::sqrt(double(samples));
+}
 
 // L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its own entry.
 std::optional<Eigen::MatrixXd> definite_factor(const Eigen::MatrixXd& matrix) {
@@ -60,6 +76,8 @@ std::optional<Modes> decouple(const LinearStructure& structure) {
   // eigenvalues.
   constexpr double tolerance = 1e-8;
   if (coupling.cwiseAbs().maxCoeff() > tolerance * modes.damping.cwiseAbs().maxCoeff()) return std::nullopt;
+  modes.errors = {diagonal_error(modes.shapes, structure.mass, modes.mass), coupling.norm(),
+                  diagonal_error(modes.shapes, structure.stiffness, modes.stiffness)};
   return modes;
 }
 
@@ -70,6 +88,9 @@ class ModalMethod final : public Condensation::Method {
         contacts_(modes_.shapes(structure.contact_dofs, Eigen::all)),
         load_(modes_.shapes.transpose() * structure.load),
         sizes_(modes_.shapes.colwise().squaredNorm().transpose()),
+        contact_squares_(contacts_.cwiseAbs2()),
+        load_squares_(load_.cwiseAbs2()),
+        load_terms_(contacts_.cwiseAbs() * load_.cwiseAbs().asDiagonal()),
         scale_(structure) {}
 
   int size() const override { return static_cast<int>(load_.size()); }
@@ -92,6 +113,7 @@ class ModalMethod final : public Condensation::Method {
     point.load_response = joined(loaded.head(2 * count));
     point.compliance_slope = joined(parts.bottomRows(2 * count));
     point.load_response_slope = joined(loaded.tail(2 * count));
+    set_errors(factors, compliance, point);
     return point;
   }
 
@@ -119,10 +141,26 @@ class ModalMethod final : public Condensation::Method {
     return inverse;
   }
 
+  // Rounding of the sums, eps sum_j |s_j w_j l_j|, and of the modes: with E the errors of their diagonal
+  // form, s^T W E W l with W = diag(w), at most ||W s|| ||E|| ||W l||.
+  void set_errors(const ImpedanceCoefficients& factors, const Eigen::ArrayXcd& compliance,
+                  CondensedPoint& point) const {
+    const Eigen::VectorXd squares = compliance.abs2(), sizes = squares.cwiseSqrt();
+    double error = 0.0;
+    for (std::size_t d = 0; d < 3; ++d) error += std::abs(factors[d]) * modes_.errors[d];
+    const Eigen::VectorXd contact = contact_squares_ * squares;
+    const double load = std::sqrt(load_squares_.dot(squares));
+    point.compliance_error = rounding_unit * (contact_squares_ * sizes) + error * contact;
+    point.load_response_error = rounding_unit * (load_terms_ * sizes) + error * load * contact.cwiseSqrt();
+  }
+
   Modes modes_;
-  Eigen::MatrixXd contacts_;  // contacts x n, modes at the contacts
-  Eigen::VectorXd load_;      // n, modal load
-  Eigen::ArrayXd sizes_;      // n, squared norms of the modes
+  Eigen::MatrixXd contacts_;         // contacts x n, modes at the contacts
+  Eigen::VectorXd load_;             // n, modal load
+  Eigen::ArrayXd sizes_;             // n, squared norms of the modes
+  Eigen::MatrixXd contact_squares_;  // contacts x n, of contacts_
+  Eigen::VectorXd load_squares_;     // n, of load_
+  Eigen::MatrixXd load_terms_;       // contacts x n, magnitudes of contacts_ times load_
   StiffnessScale scale_;
 };
 

@@ -46,6 +46,8 @@ class ScaledMethod final : public Condensation::Method {
     point.load_response *= per_unit;
     point.compliance_slope *= per_unit;
     point.load_response_slope *= per_unit;
+    point.compliance_error *= per_unit;
+    point.load_response_error *= per_unit;
     return point;
   }
 

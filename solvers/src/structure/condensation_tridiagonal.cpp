@@ -45,6 +45,8 @@ class TridiagonalMethod final : public Condensation::Method {
         diagonal_(load_.size()),
         off_(load_.size()),
         inverse_pivot_(load_.size()),
+        diagonal_error_(load_.size()),
+        off_error_(load_.size()),
         units_(contacts_.size(), Eigen::VectorXcd(load_.size())),
         loaded_(load_.size()) {}
 
@@ -63,6 +65,7 @@ class TridiagonalMethod final : public Condensation::Method {
     if (load_at_contact_) {
       point.load_response = load_[single_] * point.compliance;
       point.load_response_slope = load_[single_] * point.compliance_slope;
+      point.load_response_error = std::abs(load_[single_]) * point.compliance_error;
       return point;
     }
     loaded_ = load_.cast<Complex>();
@@ -71,6 +74,7 @@ class TridiagonalMethod final : public Condensation::Method {
     point.load_response_slope.resize(contacts());
     for (std::size_t c = 0; c < contacts_.size(); ++c)
       point.load_response_slope[Eigen::Index(c)] = -product(units_[c], derivatives, loaded_);
+    set_load_error(point);
     return point;
   }
 
@@ -80,9 +84,10 @@ class TridiagonalMethod final : public Condensation::Method {
     PivotRecursion recursion(factors, derivatives);
     for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
     if (recursion.weak()) return Method::condense(factors, derivatives, result);
-    recursion.last(result.compliance.col(0), result.compliance_slope.col(0));
+    recursion.last(result.compliance.col(0), result.compliance_slope.col(0), result.compliance_error.col(0));
     result.load_response = load_[single_] * result.compliance;
     result.load_response_slope = load_[single_] * result.compliance_slope;
+    result.load_response_error = std::abs(load_[single_]) * result.compliance_error;
     for (Eigen::Index k = 0; k < factors[0].size(); ++k)
       record(scale_.condition({factors[0][k], factors[1][k], factors[2][k]},
                               std::abs(result.compliance(k, 0)), 1.0));
@@ -111,19 +116,49 @@ class TridiagonalMethod final : public Condensation::Method {
   // singular, or the part of the structure before that row is at a natural frequency of its own.
   bool factorize(const ImpedanceCoefficients& s) {
     const int n = size();
+    const std::array<double, 3> sizes{std::abs(s[0]), std::abs(s[1]), std::abs(s[2])};
     for (int i = 0; i < n; ++i)
       diagonal_[i] = s[0] * mass_.diagonal[i] + s[1] * damping_.diagonal[i] + s[2] * stiffness_.diagonal[i];
     for (int i = 0; i + 1 < n; ++i)
       off_[i] = s[0] * mass_.off[i] + s[1] * damping_.off[i] + s[2] * stiffness_.off[i];
+    set_magnitudes(sizes);
     for (int i = 0; i < n; ++i) {
       Complex pivot = diagonal_[i];
       if (i > 0) pivot -= multiply(multiply(off_[i - 1], off_[i - 1]), inverse_pivot_[i - 1]);
-      const double scale = std::abs(s[0] * mass_.diagonal[i]) + std::abs(s[1] * damping_.diagonal[i]) +
-                           std::abs(s[2] * stiffness_.diagonal[i]);
-      if (!(std::norm(pivot) > weak_pivot * weak_pivot * scale * scale)) return false;
+      const double scale = diagonal_error_[i], square = std::norm(pivot);
+      if (!(square > weak_pivot * weak_pivot * scale * scale)) return false;
       inverse_pivot_[i] = reciprocal(pivot);
+      // |L| |D| |L^T|: the pivot is the difference of the entry and of a term that may exceed it.
+      diagonal_error_[i] = scale + std::sqrt(square);
     }
     return true;
+  }
+
+  // Sums of the magnitudes of the terms of Z.
+  void set_magnitudes(const std::array<double, 3>& sizes) {
+    diagonal_error_ = sizes[0] * mass_.diagonal.cwiseAbs() + sizes[1] * damping_.diagonal.cwiseAbs() +
+                      sizes[2] * stiffness_.diagonal.cwiseAbs();
+    off_error_.setZero();
+    off_error_.head(size() - 1) = sizes[0] * mass_.off.cwiseAbs() + sizes[1] * damping_.off.cwiseAbs() +
+                                  sizes[2] * stiffness_.off.cwiseAbs();
+  }
+
+  // |y|^T A |x| with the bands of A in diagonal_error_ and off_error_, as in DirectMethod.
+  double perturbation(const Eigen::VectorXd& y, const Eigen::VectorXd& x) const {
+    const Eigen::Index last = y.size() - 1;
+    return diagonal_error_.cwiseProduct(y).dot(x) +
+           off_error_.head(last).cwiseProduct(y.head(last)).dot(x.tail(last)) +
+           off_error_.head(last).cwiseProduct(y.tail(last)).dot(x.head(last));
+  }
+
+  static Eigen::VectorXd magnitudes(const Eigen::VectorXcd& values) { return values.cwiseAbs2().cwiseSqrt(); }
+
+  void set_load_error(CondensedPoint& point) const {
+    const Eigen::VectorXd loaded = magnitudes(loaded_);
+    point.load_response_error.resize(contacts());
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      point.load_response_error[Eigen::Index(c)] =
+          rounding_unit * perturbation(magnitudes(units_[c]), loaded);
   }
 
   // Computes the columns of Z^-1 at the contacts, in units_.
@@ -131,12 +166,15 @@ class TridiagonalMethod final : public Condensation::Method {
                       CondensedPoint& point) {
     point.compliance.resize(contacts(), contacts());
     point.compliance_slope.resize(contacts(), contacts());
+    point.compliance_error.resize(contacts());
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       units_[c].setZero();
       units_[c][contacts_[c]] = 1.0;
       solve(units_[c]);
       record(scale_.require_regular(factors, units_[c], 1.0));
       const auto column = Eigen::Index(c);
+      const Eigen::VectorXd unit = magnitudes(units_[c]);
+      point.compliance_error[column] = rounding_unit * perturbation(unit, unit);
       for (std::size_t d = 0; d <= c; ++d) {
         const auto row = Eigen::Index(d);
         point.compliance(row, column) = point.compliance(column, row) = units_[c][contacts_[d]];
@@ -183,7 +221,8 @@ class TridiagonalMethod final : public Condensation::Method {
   int single_;  // the contact when there is one, or else -1
   bool load_at_contact_;
   Eigen::VectorXcd diagonal_, off_, inverse_pivot_;
-  std::vector<Eigen::VectorXcd> units_;  // one column per contact
+  Eigen::VectorXd diagonal_error_, off_error_;  // |L| |D| |L^T| and the magnitudes of the terms of Z
+  std::vector<Eigen::VectorXcd> units_;         // one column per contact
   Eigen::VectorXcd loaded_;
 };
 

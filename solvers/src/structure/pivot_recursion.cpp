@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "structure/condensation_method.hpp"
+
 namespace wavebalance::solvers {
 
 PivotRecursion::PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives)
@@ -28,18 +30,23 @@ PivotRecursion::Parts PivotRecursion::combine(const std::array<Parts, 3>& spectr
           spectrum[0].im * entries[0] + spectrum[1].im * entries[1] + spectrum[2].im * entries[2]};
 }
 
+PivotRecursion::Block PivotRecursion::sum_of_magnitudes(const std::array<Block, 3>& magnitudes,
+                                                        const std::array<double, 3>& entries) {
+  return magnitudes[0] * std::abs(entries[0]) + magnitudes[1] * std::abs(entries[1]) +
+         magnitudes[2] * std::abs(entries[2]);
+}
+
 void PivotRecursion::eliminate(const Row& row) {
   for (Chunk& chunk : chunks_) eliminate(row, chunk);
   first_ = false;
 }
 
 void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
-  const auto& [factors, derivatives, magnitudes, inverse, slope] = chunk;
+  const auto& [factors, derivatives, magnitudes, inverse, slope, error] = chunk;
   Parts pivot = combine(factors, row.diagonal);
   Parts rate = combine(derivatives, row.diagonal);
   // The size of the terms, not of their sum: at a natural frequency of an undamped structure they cancel.
-  const Block scale = magnitudes[0] * std::abs(row.diagonal[0]) + magnitudes[1] * std::abs(row.diagonal[1]) +
-                      magnitudes[2] * std::abs(row.diagonal[2]);
+  const Block scale = sum_of_magnitudes(magnitudes, row.diagonal);
   if (!first_) {
     const Parts off = combine(factors, row.off);
     const Parts off_rate = combine(derivatives, row.off);
@@ -50,7 +57,12 @@ void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
     pivot.im -= off.re * w.im + off.im * w.re;
     rate.re -= 2.0 * (off_rate.re * w.re - off_rate.im * w.im) + square.re * slope.re - square.im * slope.im;
     rate.im -= 2.0 * (off_rate.re * w.im + off_rate.im * w.re) + square.re * slope.im + square.im * slope.re;
+    // dd_i = dz_ii - 2 w doff + w^2 dd_{i-1}, and 2 |w| <= 1 + |w|^2.
+    const Block gain = w.re.square() + w.im.square();
+    const Block off_scale = sum_of_magnitudes(magnitudes, row.off);
+    chunk.error = gain * (error + off_scale) + off_scale;
   }
+  chunk.error += scale + pivot.re.abs() + pivot.im.abs();
   const Block norm = pivot.re.square() + pivot.im.square();
   weak_ = weak_ || !(norm > (weak_pivot * weak_pivot) * scale.square()).all();
   chunk.inverse = {pivot.re / norm, -pivot.im / norm};
@@ -59,12 +71,14 @@ void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
   chunk.slope = {rate.im * square.im - rate.re * square.re, -(rate.re * square.im + rate.im * square.re)};
 }
 
-void PivotRecursion::last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope) const {
+void PivotRecursion::last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope,
+                          Eigen::Ref<Eigen::VectorXd> error) const {
   for (Eigen::Index k = 0; k < inverse.size(); ++k) {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(k / block_size)];
     const Eigen::Index i = k % block_size;
     inverse[k] = {chunk.inverse.re[i], chunk.inverse.im[i]};
     slope[k] = {chunk.slope.re[i], chunk.slope.im[i]};
+    error[k] = rounding_unit * chunk.error[i] * std::norm(inverse[k]);
   }
 }
 

@@ -27,8 +27,9 @@ class PivotRecursion {
 
   /// Whether a pivot nearly vanished, so that elimination without row exchanges is inaccurate.
   bool weak() const { return weak_; }
-  /// 1/d and its derivative after the last row, K values each.
-  void last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope) const;
+  /// 1/d, its derivative and its estimated rounding error after the last row, K values each.
+  void last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope,
+            Eigen::Ref<Eigen::VectorXd> error) const;
 
  private:
   static constexpr Eigen::Index block_size = 8;
@@ -40,8 +41,11 @@ class PivotRecursion {
     std::array<Parts, 3> factors, derivatives;
     std::array<Block, 3> magnitudes;  // absolute values of the factors
     Parts inverse, slope;             // 1/d and its derivative
+    Block error = Block::Zero();      // of d, per rounding_unit
   };
   static Parts combine(const std::array<Parts, 3>& spectrum, const std::array<double, 3>& entries);
+  static Block sum_of_magnitudes(const std::array<Block, 3>& magnitudes,
+                                 const std::array<double, 3>& entries);
   void eliminate(const Row& row, Chunk& chunk);
 
   std::vector<Chunk> chunks_;

@@ -19,7 +19,10 @@ struct Sweep {
   double max_penetration = 0.0;  ///< m, with rigid contact: at the quadrature points of the whole curve
   double max_force = 0.0;        ///< N, with rigid contact
 
-  bool converged() const { return curve.status == solvers::SweepStatus::reached_end && unsolved == 0; }
+  bool converged() const {
+    return curve.status == solvers::SweepStatus::reached_end && unsolved == 0 &&
+           curve.rounding_error <= largest_rounding_error;
+  }
   /// The observer stopped it; the curve holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
   /// "reached_end", or the reason why not, such as "interrupted".

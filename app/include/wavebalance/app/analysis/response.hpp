@@ -32,6 +32,9 @@ struct Refinement {
   std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
+/// Rounding errors of the condensation that a result may have, relative to the motion.
+inline constexpr double largest_rounding_error = 1e-3;
+
 /// A periodic response of a scene's contacts, or the status and the last iterate if none was found.
 struct Response {
   bool converged = false;
@@ -44,6 +47,9 @@ struct Response {
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();
+  /// solvers::CondensedProblem::rounding_error(); NaN as above. Above largest_rounding_error the response has
+  /// not converged, and the status says `inaccurate`.
+  double rounding_error = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance

@@ -68,6 +68,11 @@ class CondensedProblem {
   /// a(k) = contact-free response - compliance * <p, f>. O(C N log N + C^2 M).
   Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
 
+  /// Estimated rounding error of the condensation in the motion of those coefficients, at fixed forces: the
+  /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
+  /// whichever is larger. O(C N log N + C^2 M).
+  double rounding_error(const Eigen::VectorXd& force);
+
   /// Spectra over translates of the coefficients of all n degrees of freedom, n x (M/2 + 1), for force
   /// samples of all contacts (samples()). Throws SingularSystem. O(n M), or M/2 + 1 factorisations.
   Eigen::MatrixXcd full_coefficients(const Eigen::VectorXd& force);

@@ -69,6 +69,7 @@ struct FrequencySweep {
   /// The largest Condensation::condition() of the curve's points and PeriodicResponse::condition of the
   /// first.
   double condition = 0.0;
+  double rounding_error = 0.0;  ///< the largest CondensedProblem::rounding_error() of the curve's points
 };
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through

@@ -23,6 +23,9 @@ struct CondensedPoint {
   /// Derivatives of both along dZ = d2 M + d1 C + d0 K.
   Eigen::MatrixXcd compliance_slope;
   Eigen::VectorXcd load_response_slope;
+  /// Estimated rounding errors, C each, by first-order bounds: of the diagonal of the compliance, m/N, whose
+  /// entry (c, d) has at most the geometric mean of those of c and d, and of the load response, m.
+  Eigen::VectorXd compliance_error = {}, load_response_error = {};
 };
 
 /// The three complex factors of M, C and K.
@@ -36,11 +39,21 @@ using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
 struct CondensedSpectrum {
   Eigen::MatrixXcd compliance, load_response;              ///< K x C^2, m/N; K x C, m
   Eigen::MatrixXcd compliance_slope, load_response_slope;  ///< along the derivatives of the factors
+  Eigen::MatrixXd compliance_error, load_response_error;   ///< K x C each, m/N and m
+};
+
+/// Estimated rounding errors of a condensation, relative.
+struct RoundingErrors {
+  double compliance = 0.0;     ///< largest error over k and contacts, over the largest diagonal entry
+  double load_response = 0.0;  ///< of the contact-free response: 2-norms over k and contacts
 };
 
 /// How dynamic stiffnesses are solved. n degrees of freedom, C contacts.
 enum class CondensationMethod {
-  automatic,    ///< tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU
+  /// Tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU; an LU also from the first
+  /// condense() on in which the modal sum loses so many digits that the relative error of the contact-free
+  /// response is estimated above 1e-8.
+  automatic,
   tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) per point, O(n) for one contact
   modal,  ///< modes computed once, O(n^3), then O(n C^2) per point; the damping must be diagonal in them
   dense,  ///< one dense LU per point, O(n^3)
@@ -72,15 +85,20 @@ class Condensation {
 
   /// dynamic_compliance() for all k at once, with results resized to fit. A bar that is loaded and touches at
   /// its last degree of freedom alone takes one forward recursion, vectorised over k. K times the cost of a
-  /// point.
+  /// point. `load`: amplitude of the load at each k, which weights the error of the load response; empty: 1.
   void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
-                CondensedSpectrum& result);
+                CondensedSpectrum& result, const Eigen::VectorXcd& load = {});
 
   /// Condition of the dynamic stiffnesses of the last condense(): the largest over k of (|s2| max|M| + |s1|
   /// max|C| + |s0| max|K|) ||x|| / ||b|| over the systems Z(k) x = b that were solved, a lower bound up to a
   /// factor of the row length. SingularSystem is thrown from 4.5e14 on; the vectorised recursion of a bar
   /// computes the contact's entry of x alone.
   double condition() const { return condition_; }
+
+  /// Rounding errors of the last condense(). The modal sums lose the digits by which their terms exceed them:
+  /// far from the load in a weakly coupled structure all of them. An elimination keeps them there, and loses
+  /// digits beside natural frequencies and antiresonances only.
+  const RoundingErrors& rounding() const { return rounding_; }
 
   /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b
   /// (C).
@@ -90,8 +108,13 @@ class Condensation {
   class Method;  ///< how one dynamic stiffness is solved; see condensation.cpp
 
  private:
+  void condense_by_method(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
+                          CondensedSpectrum& result, const Eigen::VectorXcd& load);
+
+  std::unique_ptr<LinearStructure> structure_;  // kept while the modal method may be replaced
   CondensationMethod chosen_;
   double condition_ = 0.0;
+  RoundingErrors rounding_;
   std::unique_ptr<Method> method_;
 };
 
