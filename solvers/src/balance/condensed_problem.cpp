@@ -163,14 +163,14 @@ Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
 }
 
 double CondensedProblem::rounding_error(const Eigen::VectorXd& force) {
-  const double motion = coefficients(force).norm();  // and <p, force> in translates
+  const double motion = safe_norm(coefficients(force));  // and <p, force> in translates
   const Eigen::MatrixXd spread = condensed_.compliance_error.cwiseSqrt();
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(spread.rows());
   for (int d = 0; d < contacts(); ++d)
     moved += spread.col(d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)].cwiseAbs());
   const Eigen::MatrixXd errors =
       load_.cwiseAbs().asDiagonal() * condensed_.load_response_error + moved.asDiagonal() * spread;
-  return relative_to(std::max(motion, condensed_.load_response.norm()), errors.norm());
+  return relative_to(std::max(motion, safe_norm(condensed_.load_response)), safe_norm(errors));
 }
 
 Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& force) {

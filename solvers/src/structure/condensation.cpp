@@ -99,19 +99,19 @@ MethodPointer make_method(const LinearStructure& structure, CondensationMethod& 
       structure, [&method](const LinearStructure& scaled) { return make_unscaled_method(scaled, method); });
 }
 
-double relative_error(const Eigen::MatrixXd& errors, const Eigen::MatrixXcd& values,
-                      const Eigen::VectorXcd& load) {
-  if (load.size() == 0) return relative_to(safe_norm(values), safe_norm(errors));
-  return relative_to(safe_norm(load.asDiagonal() * values), safe_norm(load.cwiseAbs().asDiagonal() * errors));
-}
-
+// NaN where squares leave the range of numbers.
 RoundingErrors relative_errors(const CondensedSpectrum& spectrum, const Eigen::VectorXcd& load) {
   const Eigen::Index contacts = spectrum.load_response.cols();
-  double largest = 0.0;
-  for (Eigen::Index c = 0; c < contacts; ++c)
-    largest = std::max(largest, spectrum.compliance.col(c * (contacts + 1)).cwiseAbs().maxCoeff());
-  return {relative_to(largest, spectrum.compliance_error.maxCoeff()),
-          relative_error(spectrum.load_response_error, spectrum.load_response, load)};
+  double largest = 0.0, response = 0.0, error = 0.0;  // squares
+  for (Eigen::Index c = 0; c < contacts; ++c) {
+    largest = std::max(largest, spectrum.compliance.col(c * (contacts + 1)).cwiseAbs2().maxCoeff());
+    const auto responses = spectrum.load_response.col(c).cwiseAbs2();
+    const auto errors = spectrum.load_response_error.col(c).cwiseAbs2();
+    response += load.size() == 0 ? responses.sum() : responses.dot(load.cwiseAbs2());
+    error += load.size() == 0 ? errors.sum() : errors.dot(load.cwiseAbs2());
+  }
+  return {relative_to(std::sqrt(largest), spectrum.compliance_error.maxCoeff()),
+          relative_to(std::sqrt(response), std::sqrt(error))};
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
                             CondensedSpectrum& result, const Eigen::VectorXcd& load) {
   condense_by_method(factors, derivatives, result, load);
   constexpr double largest_modal_error = 1e-8;
-  if (!structure_ || rounding_.load_response <= largest_modal_error) return;
+  if (!structure_ || !(rounding_.load_response > largest_modal_error)) return;
   chosen_ = elimination(*structure_);
   method_ = make_method(*std::exchange(structure_, nullptr), chosen_);
   condense_by_method(factors, derivatives, result, load);

@@ -88,9 +88,9 @@ class TridiagonalMethod final : public Condensation::Method {
     result.load_response = load_[single_] * result.compliance;
     result.load_response_slope = load_[single_] * result.compliance_slope;
     result.load_response_error = std::abs(load_[single_]) * result.compliance_error;
-    for (Eigen::Index k = 0; k < factors[0].size(); ++k)
-      record(scale_.condition({factors[0][k], factors[1][k], factors[2][k]},
-                              std::abs(result.compliance(k, 0)), 1.0));
+    Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(factors[0].size());  // of the squares none overflows
+    for (std::size_t d = 0; d < 3; ++d) sizes += scale_.largest()[d] * factors[d].array().abs2().sqrt();
+    record((sizes * result.compliance.col(0).array().abs2().sqrt()).maxCoeff());
   }
 
   Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, Complex load_amplitude,

@@ -20,7 +20,7 @@ PivotRecursion::PivotRecursion(const StiffnessSpectrum& factors, const Stiffness
         chunk.derivatives[d].re[i] = derivatives[d][k].real();
         chunk.derivatives[d].im[i] = derivatives[d][k].imag();
       }
-      chunk.magnitudes[d] = chunk.factors[d].re.abs() + chunk.factors[d].im.abs();
+      chunk.magnitudes[d] = weak_pivot * (chunk.factors[d].re.abs() + chunk.factors[d].im.abs());
     }
 }
 
@@ -28,12 +28,6 @@ PivotRecursion::Parts PivotRecursion::combine(const std::array<Parts, 3>& spectr
                                               const std::array<double, 3>& entries) {
   return {spectrum[0].re * entries[0] + spectrum[1].re * entries[1] + spectrum[2].re * entries[2],
           spectrum[0].im * entries[0] + spectrum[1].im * entries[1] + spectrum[2].im * entries[2]};
-}
-
-PivotRecursion::Block PivotRecursion::sum_of_magnitudes(const std::array<Block, 3>& magnitudes,
-                                                        const std::array<double, 3>& entries) {
-  return magnitudes[0] * std::abs(entries[0]) + magnitudes[1] * std::abs(entries[1]) +
-         magnitudes[2] * std::abs(entries[2]);
 }
 
 void PivotRecursion::eliminate(const Row& row) {
@@ -46,29 +40,32 @@ void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
   Parts pivot = combine(factors, row.diagonal);
   Parts rate = combine(derivatives, row.diagonal);
   // The size of the terms, not of their sum: at a natural frequency of an undamped structure they cancel.
-  const Block scale = sum_of_magnitudes(magnitudes, row.diagonal);
+  const Block scale = magnitudes[0] * std::abs(row.diagonal[0]) + magnitudes[1] * std::abs(row.diagonal[1]) +
+                      magnitudes[2] * std::abs(row.diagonal[2]);
   if (!first_) {
     const Parts off = combine(factors, row.off);
-    const Parts off_rate = combine(derivatives, row.off);
+    const Parts twice_off_rate = combine(derivatives, {2.0 * row.off[0], 2.0 * row.off[1], 2.0 * row.off[2]});
     // w = off / d, so that d_i = z_ii - off w and d_i' = z_ii' - 2 off' w - off^2 (1/d)'.
     const Parts w{off.re * inverse.re - off.im * inverse.im, off.re * inverse.im + off.im * inverse.re};
     const Parts square{off.re * off.re - off.im * off.im, 2.0 * off.re * off.im};
     pivot.re -= off.re * w.re - off.im * w.im;
     pivot.im -= off.re * w.im + off.im * w.re;
-    rate.re -= 2.0 * (off_rate.re * w.re - off_rate.im * w.im) + square.re * slope.re - square.im * slope.im;
-    rate.im -= 2.0 * (off_rate.re * w.im + off_rate.im * w.re) + square.re * slope.im + square.im * slope.re;
-    // dd_i = dz_ii - 2 w doff + w^2 dd_{i-1}, and 2 |w| <= 1 + |w|^2.
-    const Block gain = w.re.square() + w.im.square();
-    const Block off_scale = sum_of_magnitudes(magnitudes, row.off);
-    chunk.error = gain * (error + off_scale) + off_scale;
+    rate.re -=
+        twice_off_rate.re * w.re - twice_off_rate.im * w.im + square.re * slope.re - square.im * slope.im;
+    rate.im -=
+        twice_off_rate.re * w.im + twice_off_rate.im * w.re + square.re * slope.im + square.im * slope.re;
+    // An error of z_ii changes d_i as much, and one of d_{i-1} by |w|^2. Those of off and of the pivot itself
+    // are of the same sizes, since off^2 is at most the product of two diagonal entries.
+    chunk.error = error * (w.re.square() + w.im.square()) + scale;
+  } else {
+    chunk.error = scale;
   }
-  chunk.error += scale + pivot.re.abs() + pivot.im.abs();
   const Block norm = pivot.re.square() + pivot.im.square();
-  weak_ = weak_ || !(norm > (weak_pivot * weak_pivot) * scale.square()).all();
+  weak_ = weak_ || !(norm > scale.square()).all();
   chunk.inverse = {pivot.re / norm, -pivot.im / norm};
   // (1/d)' = -d' / d^2
-  const Parts square{inverse.re.square() - inverse.im.square(), 2.0 * inverse.re * inverse.im};
-  chunk.slope = {rate.im * square.im - rate.re * square.re, -(rate.re * square.im + rate.im * square.re)};
+  const Parts square{inverse.im.square() - inverse.re.square(), -2.0 * inverse.re * inverse.im};
+  chunk.slope = {rate.re * square.re - rate.im * square.im, rate.re * square.im + rate.im * square.re};
 }
 
 void PivotRecursion::last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope,
@@ -78,7 +75,7 @@ void PivotRecursion::last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen
     const Eigen::Index i = k % block_size;
     inverse[k] = {chunk.inverse.re[i], chunk.inverse.im[i]};
     slope[k] = {chunk.slope.re[i], chunk.slope.im[i]};
-    error[k] = rounding_unit * chunk.error[i] * std::norm(inverse[k]);
+    error[k] = (rounding_unit / weak_pivot) * chunk.error[i] * std::norm(inverse[k]);
   }
 }
 

@@ -39,13 +39,11 @@ class PivotRecursion {
   };
   struct Chunk {  // a block of values of k; the last block is filled up with its last value
     std::array<Parts, 3> factors, derivatives;
-    std::array<Block, 3> magnitudes;  // absolute values of the factors
+    std::array<Block, 3> magnitudes;  // of the factors, times weak_pivot
     Parts inverse, slope;             // 1/d and its derivative
-    Block error = Block::Zero();      // of d, per rounding_unit
+    Block error = Block::Zero();      // of d, over rounding_unit / weak_pivot
   };
   static Parts combine(const std::array<Parts, 3>& spectrum, const std::array<double, 3>& entries);
-  static Block sum_of_magnitudes(const std::array<Block, 3>& magnitudes,
-                                 const std::array<double, 3>& entries);
   void eliminate(const Row& row, Chunk& chunk);
 
   std::vector<Chunk> chunks_;
