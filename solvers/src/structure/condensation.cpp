@@ -133,7 +133,12 @@ double StiffnessScale::condition(const ImpedanceCoefficients& factors, double so
 double StiffnessScale::require_regular(const ImpedanceCoefficients& factors,
                                        const Eigen::Ref<const Eigen::VectorXcd>& solution,
                                        double right_norm) const {
-  const double found = condition(factors, safe_norm(solution), right_norm);
+  return require_regular(factors, safe_norm(solution), right_norm);
+}
+
+double StiffnessScale::require_regular(const ImpedanceCoefficients& factors, double solution_norm,
+                                       double right_norm) const {
+  const double found = condition(factors, solution_norm, right_norm);
   constexpr double largest_condition = 0.1 / std::numeric_limits<double>::epsilon();
   if (found <= largest_condition) return found;
   throw SingularSystem(

@@ -54,6 +54,7 @@ class StiffnessScale {
   /// working precision makes it, or not finite. Returns condition(). O(n).
   double require_regular(const ImpedanceCoefficients& factors,
                          const Eigen::Ref<const Eigen::VectorXcd>& solution, double right_norm) const;
+  double require_regular(const ImpedanceCoefficients& factors, double solution_norm, double right_norm) const;
 
  private:
   std::array<double, 3> largest_;

@@ -88,17 +88,23 @@ class ModalMethod final : public Condensation::Method {
         contacts_(modes_.shapes(structure.contact_dofs, Eigen::all)),
         load_(modes_.shapes.transpose() * structure.load),
         sizes_(modes_.shapes.colwise().squaredNorm().transpose()),
-        contact_squares_(contacts_.cwiseAbs2()),
-        load_squares_(load_.cwiseAbs2()),
-        load_terms_(contacts_.cwiseAbs() * load_.cwiseAbs().asDiagonal()),
-        scale_(structure) {}
+        size_squares_(sizes_.square()),
+        squares_(contacts_.rows() + 1, load_.size()),
+        terms_(2 * contacts_.rows(), load_.size()),
+        scale_(structure) {
+    squares_ << contacts_.cwiseAbs2(), load_.cwiseAbs2().transpose();
+    terms_ << squares_.topRows(contacts_.rows()), contacts_.cwiseAbs() * load_.cwiseAbs().asDiagonal();
+    terms_ *= rounding_unit;
+  }
 
   int size() const override { return static_cast<int>(load_.size()); }
   int contacts() const override { return static_cast<int>(contacts_.rows()); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives) override {
-    const Eigen::ArrayXcd compliance = invert(factors);
+    const Eigen::ArrayXcd compliance = combine(factors).inverse();
+    const Eigen::VectorXd squares = compliance.abs2();
+    record(scale_.require_regular(factors, std::sqrt(squares.dot(size_squares_)), 1.0));
     const Eigen::ArrayXcd slope = -compliance.square() * combine(derivatives);
     const Eigen::Index count = contacts_.rows();
     // One real product computes the real and imaginary parts of both.
@@ -113,7 +119,7 @@ class ModalMethod final : public Condensation::Method {
     point.load_response = joined(loaded.head(2 * count));
     point.compliance_slope = joined(parts.bottomRows(2 * count));
     point.load_response_slope = joined(loaded.tail(2 * count));
-    set_errors(factors, compliance, point);
+    set_errors(factors, squares, point);
     return point;
   }
 
@@ -143,24 +149,24 @@ class ModalMethod final : public Condensation::Method {
 
   // Rounding of the sums, eps sum_j |s_j w_j l_j|, and of the modes: with E the errors of their diagonal
   // form, s^T W E W l with W = diag(w), at most ||W s|| ||E|| ||W l||.
-  void set_errors(const ImpedanceCoefficients& factors, const Eigen::ArrayXcd& compliance,
+  void set_errors(const ImpedanceCoefficients& factors, const Eigen::VectorXd& squares,
                   CondensedPoint& point) const {
-    const Eigen::VectorXd squares = compliance.abs2(), sizes = squares.cwiseSqrt();
-    double error = 0.0;
-    for (std::size_t d = 0; d < 3; ++d) error += std::abs(factors[d]) * modes_.errors[d];
-    const Eigen::VectorXd contact = contact_squares_ * squares;
-    const double load = std::sqrt(load_squares_.dot(squares));
-    point.compliance_error = rounding_unit * (contact_squares_ * sizes) + error * contact;
-    point.load_response_error = rounding_unit * (load_terms_ * sizes) + error * load * contact.cwiseSqrt();
+    const Eigen::Index count = contacts_.rows();
+    const double error = std::abs(factors[0]) * modes_.errors[0] + std::abs(factors[1]) * modes_.errors[1] +
+                         std::abs(factors[2]) * modes_.errors[2];
+    const Eigen::VectorXd rounding = terms_ * squares.cwiseSqrt();
+    const Eigen::VectorXd norms = error * (squares_ * squares);  // of the contacts and, last, of the load
+    point.compliance_error = rounding.head(count) + norms.head(count);
+    point.load_response_error = rounding.tail(count) + (norms.head(count) * norms[count]).cwiseSqrt();
   }
 
   Modes modes_;
-  Eigen::MatrixXd contacts_;         // contacts x n, modes at the contacts
-  Eigen::VectorXd load_;             // n, modal load
-  Eigen::ArrayXd sizes_;             // n, squared norms of the modes
-  Eigen::MatrixXd contact_squares_;  // contacts x n, of contacts_
-  Eigen::VectorXd load_squares_;     // n, of load_
-  Eigen::MatrixXd load_terms_;       // contacts x n, magnitudes of contacts_ times load_
+  Eigen::MatrixXd contacts_;  // contacts x n, modes at the contacts
+  Eigen::VectorXd load_;      // n, modal load
+  Eigen::ArrayXd sizes_;      // n, squared norms of the modes
+  Eigen::VectorXd size_squares_;
+  Eigen::MatrixXd squares_;  // contacts + 1 x n, of contacts_ and of load_
+  Eigen::MatrixXd terms_;    // 2 contacts x n, rounding_unit times the squares and |contacts_ load_|
   StiffnessScale scale_;
 };
 
