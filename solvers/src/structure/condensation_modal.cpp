@@ -103,8 +103,8 @@ class ModalMethod final : public Condensation::Method {
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives) override {
     const Eigen::ArrayXcd compliance = combine(factors).inverse();
-    const Eigen::VectorXd squares = compliance.abs2();
-    record(scale_.require_regular(factors, std::sqrt(squares.dot(size_squares_)), 1.0));
+    moduli_.col(0) = compliance.abs2();
+    record(scale_.require_regular(factors, std::sqrt(moduli_.col(0).dot(size_squares_)), 1.0));
     const Eigen::ArrayXcd slope = -compliance.square() * combine(derivatives);
     const Eigen::Index count = contacts_.rows();
     // One real product computes the real and imaginary parts of both.
@@ -119,7 +119,7 @@ class ModalMethod final : public Condensation::Method {
     point.load_response = joined(loaded.head(2 * count));
     point.compliance_slope = joined(parts.bottomRows(2 * count));
     point.load_response_slope = joined(loaded.tail(2 * count));
-    set_errors(factors, squares, point);
+    set_errors(factors, point);
     return point;
   }
 
@@ -149,15 +149,16 @@ class ModalMethod final : public Condensation::Method {
 
   // Rounding of the sums, eps sum_j |s_j w_j l_j|, and of the modes: with E the errors of their diagonal
   // form, s^T W E W l with W = diag(w), at most ||W s|| ||E|| ||W l||.
-  void set_errors(const ImpedanceCoefficients& factors, const Eigen::VectorXd& squares,
-                  CondensedPoint& point) const {
+  void set_errors(const ImpedanceCoefficients& factors, CondensedPoint& point) {
     const Eigen::Index count = contacts_.rows();
     const double error = std::abs(factors[0]) * modes_.errors[0] + std::abs(factors[1]) * modes_.errors[1] +
                          std::abs(factors[2]) * modes_.errors[2];
-    const Eigen::VectorXd rounding = terms_ * squares.cwiseSqrt();
-    const Eigen::VectorXd norms = error * (squares_ * squares);  // of the contacts and, last, of the load
-    point.compliance_error = rounding.head(count) + norms.head(count);
-    point.load_response_error = rounding.tail(count) + (norms.head(count) * norms[count]).cwiseSqrt();
+    moduli_.col(1) = moduli_.col(0).cwiseSqrt();
+    norms_.noalias() = squares_ * moduli_.col(0);  // of the contacts and, last, of the load
+    rounding_.noalias() = terms_ * moduli_.col(1);
+    point.compliance_error = rounding_.head(count) + error * norms_.head(count);
+    point.load_response_error =
+        rounding_.tail(count) + error * (norms_.head(count) * norms_[count]).cwiseSqrt();
   }
 
   Modes modes_;
@@ -168,6 +169,8 @@ class ModalMethod final : public Condensation::Method {
   Eigen::MatrixXd squares_;  // contacts + 1 x n, of contacts_ and of load_
   Eigen::MatrixXd terms_;    // 2 contacts x n, rounding_unit times the squares and |contacts_ load_|
   StiffnessScale scale_;
+  Eigen::MatrixX2d moduli_{load_.size(), 2};  // work space: squares of |w_j| and |w_j|
+  Eigen::VectorXd norms_, rounding_;          // work space
 };
 
 }  // namespace
