@@ -28,12 +28,12 @@ void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen:
                               CondensedPoint& point) const {
   const int count = contacts();
   const Eigen::Vector3d size(std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2]));
-  const Eigen::MatrixXd units = response.leftCols(count).cwiseAbs();
-  const Eigen::VectorXd loaded = response.col(count).cwiseAbs();
+  const Eigen::MatrixXd squares = response.cwiseAbs2(), moduli = squares.cwiseSqrt();
+  const auto loaded = moduli.col(count);
   Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
   for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Eigen::Index(d)] * loaded);
-  point.load_response_error = rounding_unit * (units.transpose() * perturbed);
-  point.compliance_error = rounding_unit * (units.cwiseAbs2().transpose() * (row_sums_ * size));
+  point.load_response_error = rounding_unit * (moduli.leftCols(count).transpose() * perturbed);
+  point.compliance_error = rounding_unit * (squares.leftCols(count).transpose() * (row_sums_ * size));
 }
 
 Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors,
