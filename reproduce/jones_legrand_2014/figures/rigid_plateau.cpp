@@ -12,6 +12,8 @@ using app::Colour;
 
 namespace {
 
+constexpr double millimetres = 1e3;
+
 struct Study {
   int number;
   app::Scene scene;
