@@ -43,7 +43,7 @@ solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
 // Complementarity paths would hide what Newton takes.
 solvers::ForcedResponseOptions newton_only() {
   solvers::ForcedResponseOptions options;
-  options.complementarity = false;
+  options.fallbacks = false;
   return options;
 }
 

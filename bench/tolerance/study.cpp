@@ -48,7 +48,7 @@ ToleranceStudy::Solution ToleranceStudy::solve(const FixedChoice& choice) const 
   solvers::CondensedProblem problem = app::make_problem(scene, model_);
   // A choice that Newton alone does not solve is never the cheapest of its error.
   solvers::ForcedResponseOptions options;
-  options.complementarity = false;
+  options.fallbacks = false;
   auto response = solvers::forced_response(problem, law_, options);
   return {std::move(problem), std::move(response)};
 }

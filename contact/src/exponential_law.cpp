@@ -41,6 +41,24 @@ ForceAndTangent ExponentialLaw::in_contact(double displacement) const {
   return {detail::saturate(force), detail::saturate(exponent_ * (force + constant_))};
 }
 
+// With x = alpha (u - g0), b = alpha c a_c and y = alpha (v - g0): x + b (exp(x) - 1) = y. Both bounds of x
+// taken lie above the solution.
+ForceAndTangent ExponentialLaw::resolvent(double v, double flexibility) const {
+  if (v < gap_) return {};
+  const double y = exponent_ * (v - gap_), b = exponent_ * flexibility * constant_;
+  constexpr int max_iterations = 100;
+  double x = std::min(y / (1.0 + b), std::log1p(y / b));
+  for (int i = 0; i < max_iterations && x > 0.0; ++i) {
+    const ForceAndTangent at = in_contact(gap_ + x / exponent_);
+    const double rise = 1.0 + flexibility * at.tangent;
+    const double step = (x - y + exponent_ * flexibility * at.force) / rise;
+    x = std::max(x - step, 0.0);
+    if (!(step > 1e-15 * x)) break;
+  }
+  const double tangent = in_contact(gap_ + x / exponent_).tangent;
+  return {detail::saturate((v - gap_ - x / exponent_) / flexibility), 1.0 / (1.0 / tangent + flexibility)};
+}
+
 double ExponentialLaw::potential_in_contact(double displacement) const {
   const double argument = exponent_ * (displacement - gap_);
   if (!(argument > linear_beyond))

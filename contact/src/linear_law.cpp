@@ -17,6 +17,12 @@ ForceAndTangent LinearLaw::evaluate(double displacement) const {
   return {detail::saturate(stiffness_ * penetration), penetration >= 0.0 ? stiffness_ : penetration};
 }
 
+ForceAndTangent LinearLaw::resolvent(double v, double flexibility) const {
+  if (v < gap_) return {};
+  const double slope = stiffness_ / (1.0 + stiffness_ * flexibility);
+  return {detail::saturate(slope * (v - gap_)), slope};
+}
+
 double LinearLaw::potential(double displacement) const {
   if (displacement <= gap_) return 0.0;
   const double penetration = displacement - gap_;

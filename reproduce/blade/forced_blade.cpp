@@ -18,7 +18,7 @@ std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::Str
   const auto frequencies = solvers::uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
                                                         analysis.largest_step, analysis.max_points);
   solvers::ForcedResponseOptions nearby;
-  nearby.complementarity = false;
+  nearby.fallbacks = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
   auto composed = app::compose_problem(scene, model);
   Eigen::VectorXd guess;

@@ -68,6 +68,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back("strategy", response.strategy);
+  if (response.attractor_periods >= 0)
+    record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
   if (response.rigid) {
     record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
     record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);

@@ -45,6 +45,7 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   result.residual = found.residual;
   result.iterations = found.iterations;
   result.strategy = to_string(found.strategy);
+  result.attractor_periods = found.attractor_periods;
   result.condition = std::max(problem.condensation().condition(), found.condition);
   result.rounding_error = problem.rounding_error(found.contact_force);
 }

@@ -25,8 +25,10 @@ struct CondensedProblem::Work {
 CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structure,
                                    Eigen::VectorXcd load_harmonics, CondensationMethod method)
     : pair_(std::move(pair)),
+      structure_(std::make_shared<const LinearStructure>(structure)),
+      load_harmonics_(std::move(load_harmonics)),
       condensation_(structure, method),
-      load_(pair_.load(load_harmonics)),
+      load_(pair_.load(load_harmonics_)),
       columns_are_current_(structure.contact_dofs.size(), false),
       work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {}
 
@@ -50,8 +52,36 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   condensed_.load_response.array().colwise() *= load_.array();
   condensed_.load_response_slope.array().colwise() *= load_.array();
   slope_is_current_ = false;
-  columns_are_current_.assign(columns_are_current_.size(), false);
+  update_kernel();
   synthesize(condensed_.load_response, free_response_);
+}
+
+void CondensedProblem::set_regularization(Eigen::VectorXd flexibility) {
+  if (flexibility.size() != 0 && flexibility.size() != contacts())
+    throw std::invalid_argument("CondensedProblem::set_regularization: there are " +
+                                std::to_string(flexibility.size()) + " entries; give none or " +
+                                std::to_string(contacts()) + ", one per contact");
+  if (!flexibility.allFinite() || (flexibility.array() < 0.0).any())
+    throw std::invalid_argument(
+        "CondensedProblem::set_regularization: every flexibility must be at least 0 m/N and finite");
+  regularization_ = std::move(flexibility);
+  if (frequency_ > 0.0) update_kernel();
+}
+
+// P is the inverse of the symbol of degree 0 after the inner products with the weighting functions.
+void CondensedProblem::update_kernel() {
+  columns_are_current_.assign(columns_are_current_.size(), false);
+  kernel_ = condensed_.compliance;
+  for (int c = 0; c < regularization_.size(); ++c)
+    kernel_.col(c + contacts() * c) -= regularization_[c] * factors_[2].cwiseInverse();
+}
+
+// A constant has the spectrum over translates k = 0 alone, on which time derivatives vanish.
+Eigen::VectorXd CondensedProblem::contact_compliance() const {
+  Eigen::VectorXd compliance(contacts());
+  for (int c = 0; c < contacts(); ++c)
+    compliance[c] = std::abs(condensed_.compliance(0, c + contacts() * c) * factors_[2][0]);
+  return compliance;
 }
 
 // Samples of the motions whose coefficients have the columns of `spectra` over translates.
@@ -96,7 +126,7 @@ void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::Vect
 }
 
 void CondensedProblem::apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement) {
-  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), displacement);
+  apply_kernel(force, pair_.weight_spectrum(), kernel_, pair_.trial_spectrum(), displacement);
 }
 
 void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd& slope) {
@@ -105,8 +135,7 @@ void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd
 
 // The compliance is symmetric: exchanging the two bases transposes K.
 void CondensedProblem::apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result) {
-  apply_kernel(values, pair_.trial_spectrum(), condensed_.compliance.conjugate(), pair_.weight_spectrum(),
-               result);
+  apply_kernel(values, pair_.trial_spectrum(), kernel_.conjugate(), pair_.weight_spectrum(), result);
 }
 
 Eigen::MatrixXcd CondensedProblem::harmonic_response(int n) const {
@@ -116,7 +145,7 @@ Eigen::MatrixXcd CondensedProblem::harmonic_response(int n) const {
   const std::complex<double> bases =
       scale * std::conj(pair_.weight_spectrum()[n]) * pair_.trial_spectrum()[n];
   Eigen::MatrixXcd compliance =
-      condensed_.compliance.row(mirrored ? pair_.functions() - k : k).reshaped(contacts(), contacts());
+      kernel_.row(mirrored ? pair_.functions() - k : k).reshaped(contacts(), contacts());
   if (mirrored) compliance = compliance.conjugate().eval();
   return bases * compliance;
 }
@@ -152,14 +181,29 @@ void CondensedProblem::project(const Eigen::VectorXd& force) {
   }
 }
 
-Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
+Eigen::VectorXd CondensedProblem::displacement(const Eigen::VectorXd& force) {
+  Eigen::VectorXd product;
+  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), product);
+  return free_response_ - product;
+}
+
+// Contact-free response less what the force causes by `kernel`.
+Eigen::MatrixXcd CondensedProblem::respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force) {
   project(force);
   Eigen::MatrixXcd spectra = condensed_.load_response;
   for (int c = 0; c < contacts(); ++c)
     for (int d = 0; d < contacts(); ++d)
-      spectra.col(c) -= condensed_.compliance.col(c + contacts() * d)
-                            .cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
+      spectra.col(c) -=
+          kernel.col(c + contacts() * d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
   return spectra;
+}
+
+Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
+  return respond(condensed_.compliance, force);
+}
+
+Eigen::MatrixXcd CondensedProblem::unknown_coefficients(const Eigen::VectorXd& force) {
+  return respond(kernel_, force);
 }
 
 double CondensedProblem::rounding_error(const Eigen::VectorXd& force) {

@@ -1,6 +1,11 @@
 #include "wavebalance/solvers/balance/contact_law.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace wavebalance::solvers {
 namespace {
@@ -10,6 +15,8 @@ struct NoContact {
   double tangent(double) const { return 0.0; }
   double potential(double) const { return 0.0; }
   double gap() const { return std::numeric_limits<double>::infinity(); }
+  bool unilateral() const { return true; }
+  ForceSlope resolvent(double, double) const { return {}; }
 };
 
 }  // namespace
@@ -19,5 +26,73 @@ AnyContactLaw::AnyContactLaw() : AnyContactLaw(NoContact{}) {}
 double AnyContactLaw::force(double displacement) const { return model_->force(displacement); }
 double AnyContactLaw::tangent(double displacement) const { return model_->tangent(displacement); }
 double AnyContactLaw::potential(double displacement) const { return model_->potential(displacement); }
+
+bool AnyContactLaw::is_rigid() const {
+  const double at = gap();
+  return std::isfinite(at) && std::isinf(tangent(at));
+}
+
+// Newton on r(u) = u + c force(u) - v, which rises with slope 1 + c tangent, within the bracket that its signs
+// make; halves it where a step leaves it. A force that opposes the displacement keeps u between v and the
+// first point at which the force is zero, which doubling finds.
+ForceSlope AnyContactLaw::solve_resolvent(const Interface& law, double v, double flexibility) {
+  constexpr int max_iterations = 200;
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const auto at = [&](double u) {
+    const double tangent = law.tangent(u);
+    return ForceSlope{law.force(u), tangent / (1.0 + flexibility * tangent)};
+  };
+  const double first = flexibility * law.force(v);
+  if (first == 0.0) return at(v);
+  if (std::isnan(first)) return {first, first};
+  // r(v) = c force(v) has the sign of the force: the other end of the bracket lies on the other side of v.
+  const double outward = first > 0.0 ? -1.0 : 1.0;
+  double near = v, far = v;
+  double reach = std::min(std::abs(first), std::max(std::abs(v - law.gap()), eps * std::abs(v)));
+  if (!(reach > 0.0)) reach = std::abs(first);
+  const auto residual = [&](double u) { return u + flexibility * law.force(u) - v; };
+  for (int i = 0; i < max_iterations; ++i, reach *= 2.0) {
+    far = v + outward * reach;
+    if (residual(far) * outward >= 0.0) break;
+    near = far;
+  }
+  double u = 0.5 * (near + far), step = std::abs(far - near);
+  for (int i = 0; i < max_iterations; ++i) {
+    const double r = residual(u);
+    if (r == 0.0) break;
+    (r * outward < 0.0 ? near : far) = u;
+    const double newton = u - r / (1.0 + flexibility * law.tangent(u));
+    const bool inside = (newton - near) * (newton - far) < 0.0 && std::abs(newton - u) <= 0.5 * step;
+    const double next = inside ? newton : 0.5 * (near + far);
+    step = std::abs(next - u);
+    u = next;
+    if (step <= eps * std::abs(u)) break;
+  }
+  // The spring says the force without the cancellation of a steep law.
+  return {(v - u) / flexibility, at(u).tangent};
+}
+
+bool AnyContactLaw::vanishes_below_gap(const Interface& law) {
+  const double gap = law.gap();
+  if (!std::isfinite(gap)) return gap > 0.0;
+  const double scale = gap != 0.0 ? std::abs(gap) : 1.0;
+  for (double distance = 1e-9 * scale; distance <= 1e9 * scale; distance *= 10.0)
+    if (law.force(gap - distance) != 0.0 || law.force(gap + distance) < 0.0) return false;
+  return true;
+}
+
+ResolventLaw::ResolventLaw(AnyContactLaw law, double flexibility)
+    : law_(std::move(law)), flexibility_(flexibility) {
+  if (!(flexibility > 0.0) || !std::isfinite(flexibility))
+    throw std::invalid_argument("ResolventLaw: flexibility is " + std::to_string(flexibility) +
+                                " m/N; it must be positive and finite");
+}
+
+double ResolventLaw::potential(double v) const {
+  const double force = evaluate(v).force;
+  const double u = v - flexibility_ * force;
+  const double stored = law_.potential(u);
+  return (std::isfinite(stored) ? stored : 0.0) + 0.5 * flexibility_ * force * force;
+}
 
 }  // namespace wavebalance::solvers

@@ -30,6 +30,20 @@ double ContactLaws::largest_gap() const {
   return largest;
 }
 
+bool ContactLaws::have_finite_force() const {
+  return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return !law.is_rigid(); });
+}
+
+bool ContactLaws::unilateral() const {
+  return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.unilateral(); });
+}
+
+ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
+  std::vector<AnyContactLaw> laws;
+  for (int c = 0; c < flexibility.size(); ++c) laws.emplace_back(ResolventLaw((*this)[c], flexibility[c]));
+  return ContactLaws(std::move(laws));
+}
+
 void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
                            Eigen::VectorXd& tangent) const {
   const auto points = static_cast<std::size_t>(displacement.size() / contacts);

@@ -15,6 +15,7 @@ ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
       tangent_(problem.samples()),
       jacobian_(std::make_unique<JacobianSolver>()) {
   laws_.require(problem.contacts());
+  if (problem.regularization().size() > 0) laws_ = laws_.resolvents(problem.regularization());
   gaps_ = laws_.gaps(problem.contacts());
 }
 ContactSystem::ContactSystem(ContactSystem&&) noexcept = default;
@@ -43,8 +44,11 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
     product_.setZero(displacement.size());
   } else {
     problem_->apply(force_, product_);
+    const double contacts = problem_->contacts(), points = problem_->points();
+    products_ += contacts * points * (20.0 * std::log2(points + 1.0) + 8.0 * contacts);
   }
   residual_ = displacement - free + product_;
+  if (added_motion_.size() > 0) residual_ -= added_motion_;
   relative_residual_ = relative_to(safe_norm(free) + safe_norm(product_), safe_norm(residual_));
   if (!std::isfinite(relative_residual_)) relative_residual_ = std::numeric_limits<double>::infinity();
   return relative_residual_;
@@ -58,7 +62,7 @@ bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double r
   return jacobian_->solve(*problem_, r, reduction, x);
 }
 
-double ContactSystem::operations() const { return jacobian_->operations(); }
+double ContactSystem::operations() const { return products_ + jacobian_->operations(); }
 
 double ContactSystem::condition() { return jacobian_->condition(*problem_); }
 

@@ -25,7 +25,10 @@ ComplianceOperator compliance_of(CondensedProblem& problem) {
 
 void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::VectorXd& tangent) {
   active_ = (tangent.array() != 0.0).count();
-  const bool large = active_ > (problem.contacts() == 1 ? crossover : crossover_of_several);
+  // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
+  const bool decays = problem.regularization().size() == 0;
+  const Eigen::Index limit = !decays ? largest_dense : problem.contacts() == 1 ? crossover : crossover_of_several;
+  const bool large = active_ > limit;
   const bool given_up = krylov_failed_ && active_ <= largest_dense;
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);

@@ -33,6 +33,7 @@ void NewtonOptions::validate() const {
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_iterations", max_iterations, 0);
   detail::require_positive(who, "min_step", min_step);
+  if (!(max_operations > 0.0)) detail::reject(who, "max_operations", max_operations, "positive");
 }
 
 namespace {
@@ -87,15 +88,19 @@ class ContactEquation {
     return !singular_ &&
            system_.solve(system_.residual(), direction, forcing_term(residual_, options_.tolerance));
   }
-  bool goes_on(int iterations) const {
-    return solvers::goes_on(options_.observer, {"Newton", iterations, residual_, "relative residual"});
+  bool goes_on(int iterations) {
+    exhausted_ = system_.operations() - first_operations_ > options_.max_operations;
+    return !exhausted_ && solvers::goes_on(options_.observer, {"Newton", iterations, residual_, "relative residual"});
   }
 
   NewtonResult solve(Eigen::VectorXd& u) {
     u_ = &u;
+    first_operations_ = system_.operations();
     const detail::NewtonRun run = detail::damped_newton(*this, u, options_.max_iterations, options_.min_step);
     NewtonResult result;
-    result.status = is_acceptable() ? SolveStatus::converged : status_of(run.end);
+    result.status = is_acceptable() ? SolveStatus::converged
+                    : exhausted_    ? SolveStatus::effort_limit
+                                    : status_of(run.end);
     result.iterations = run.iterations;
     result.residual = residual_;
     result.residual_history = std::move(history_);
@@ -125,7 +130,8 @@ class ContactEquation {
   const Eigen::VectorXd* u_ = nullptr;
   double residual_ = std::numeric_limits<double>::infinity();
   std::vector<double> history_;
-  bool factorized_ = false, singular_ = false;
+  double first_operations_ = 0.0;
+  bool factorized_ = false, singular_ = false, exhausted_ = false;
 };
 
 }  // namespace

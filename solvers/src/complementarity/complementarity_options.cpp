@@ -17,6 +17,10 @@ std::string_view to_string(Strategy strategy) {
       return "none";
     case Strategy::newton:
       return "newton";
+    case Strategy::settling:
+      return "settling";
+    case Strategy::continuation:
+      return "continuation";
     case Strategy::soft_obstacle:
       return "soft_obstacle";
     case Strategy::long_segments:

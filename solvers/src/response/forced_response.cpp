@@ -1,8 +1,11 @@
 #include "wavebalance/solvers/response/forced_response.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "complementarity/josephy_newton.hpp"
 
@@ -19,79 +22,193 @@ void require_start(const CondensedProblem& problem, const Eigen::VectorXd& guess
                                 std::to_string(problem.samples()));
 }
 
-// Largest accepted mismatch between force law and displacement, relative to the motion.
-constexpr double largest_defect = 1e-9;
-// If rounding of u changes the force by more than this (relative), Newton cannot converge and is not tried.
-constexpr double largest_rounding = 1e-9;
-
-// A state of the contacts that a method ended with.
-struct Candidate {
-  NewtonResult newton;
-  Eigen::VectorXd displacement;  // samples() values, m
-  Eigen::VectorXd force;         // N; empty where it is the law's force at the displacement
-  Strategy strategy = Strategy::none;
-
-  bool converged() const { return newton.status == SolveStatus::converged; }
+/// A motion to start from, samples() values each.
+struct Start {
+  Eigen::VectorXd displacement;  // m
+  Eigen::VectorXd force;         // N; empty where none is known
 };
 
-Candidate try_newton(ContactSystem& system, Eigen::VectorXd start, Strategy strategy,
-                     const ForcedResponseOptions& options) {
-  NewtonOptions newton_options = options.newton;
-  newton_options.observer = options.observer;
-  Candidate candidate;
-  candidate.newton = newton(system, start, newton_options);
-  candidate.displacement = std::move(start);
+/// What Newton's method ended with in one form.
+struct Candidate {
+  NewtonResult newton;
+  Eigen::VectorXd regularization;  // of its form, see CondensedProblem::set_regularization
+  Eigen::VectorXd unknown;         // m, samples() values
+  Eigen::VectorXd force;           // N; empty where it is the law's force at the unknown
+  Strategy strategy = Strategy::none;
+  int iterations = 0;  // of all attempts so far
+
+  bool converged() const { return newton.status == SolveStatus::converged; }
+  bool ended() const { return converged() || newton.status == SolveStatus::cancelled; }
+};
+
+/// The better of two, with the iterations of both.
+Candidate better(Candidate before, Candidate next) {
+  next.iterations += before.iterations;
+  if (next.newton.status == SolveStatus::cancelled && next.unknown.size() == 0) {
+    before.newton.status = SolveStatus::cancelled;
+    before.iterations = next.iterations;
+    return before;
+  }
+  if (next.ended() || next.newton.residual < before.newton.residual) return next;
+  before.iterations = next.iterations;
+  if (next.newton.status == SolveStatus::effort_limit) before.newton.status = next.newton.status;
+  return before;
+}
+
+/// The problem, its laws and options, as all attempts see them.
+struct Task {
+  CondensedProblem& problem;
+  const ContactLaws& laws;
+  const ForcedResponseOptions& options;
+
+  ContactSystem system(const Eigen::VectorXd& regularization) const {
+    problem.set_regularization(regularization);
+    return ContactSystem(problem, laws);
+  }
+};
+
+// v = u + f / epsilon in the force form.
+Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& regularization) {
+  Eigen::VectorXd unknown = start.displacement;
+  const Eigen::Index points = regularization.size() > 0 ? unknown.size() / regularization.size() : 0;
+  if (start.force.size() > 0)
+    for (Eigen::Index c = 0; c < regularization.size(); ++c)
+      unknown.segment(c * points, points) += regularization[c] * start.force.segment(c * points, points);
+  return unknown;
+}
+
+Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, Strategy strategy) {
+  NewtonOptions newton_options = task.options.newton;
+  newton_options.observer = task.options.observer;
+  if (strategy != Strategy::newton)
+    newton_options.max_operations = std::min(newton_options.max_operations, task.options.max_fallback_operations);
+  candidate.newton = newton(system, candidate.unknown, newton_options);
+  candidate.iterations += candidate.newton.iterations;
   if (candidate.converged()) candidate.strategy = strategy;
   return candidate;
 }
 
-// The solution that complementarity found, improved by Newton where displacements resolve the law.
-Candidate polish(ContactSystem& system, const LawForce& found, const ForcedResponseOptions& options) {
+Candidate try_newton(const Task& task, const Eigen::VectorXd& regularization, const Start& start,
+                     Strategy strategy) {
+  ContactSystem system = task.system(regularization);
   Candidate candidate;
+  candidate.regularization = regularization;
+  candidate.unknown = unknown_of(start, regularization);
+  return improve(task, system, std::move(candidate), strategy);
+}
+
+Candidate try_continuation(const Task& task, const Eigen::VectorXd& regularization, const Start& start) {
+  ContactSystem system = task.system(regularization);
+  Candidate candidate;
+  candidate.regularization = regularization;
+  candidate.unknown = unknown_of(start, regularization);
+  candidate.newton.residual = std::numeric_limits<double>::infinity();
+  ResidualHomotopyOptions homotopy = task.options.continuation;
+  homotopy.observer = task.options.observer;
+  switch (residual_homotopy(system, candidate.unknown, homotopy)) {
+    case HomotopyStatus::arrived:
+      return improve(task, system, std::move(candidate), Strategy::continuation);
+    case HomotopyStatus::cancelled:
+      candidate.newton.status = SolveStatus::cancelled;
+      break;
+    case HomotopyStatus::effort_limit:
+    case HomotopyStatus::lost:
+      candidate.newton.status = SolveStatus::stalled;
+      break;
+  }
+  return candidate;
+}
+
+/// The solution by the complementarity problem of the contact forces, improved by Newton's method where
+/// displacements resolve the law.
+Candidate try_complementarity(const Task& task) {
+  // Largest accepted mismatch between force law and displacement, relative to the motion.
+  constexpr double largest_defect = 1e-9;
+  // If rounding of u changes the force by more than this (relative), Newton cannot converge and is not tried.
+  constexpr double largest_rounding = 1e-9;
+  ContactSystem system = task.system({});
+  LawForce found = josephy_newton(system, task.options.paths, task.options.observer);
+  Candidate candidate;
+  candidate.iterations = found.pivots;
+  candidate.newton.residual = std::numeric_limits<double>::infinity();
+  candidate.newton.status = found.status;
+  if (!found.found) return candidate;
+  candidate.unknown = found.displacement;
   if (found.rounding <= largest_rounding)
-    candidate = try_newton(system, found.displacement, found.strategy, options);
-  const bool ended = candidate.converged() || candidate.newton.status == SolveStatus::cancelled;
-  if (ended || found.defect > largest_defect) return candidate;
+    candidate = improve(task, system, std::move(candidate), found.strategy);
+  if (candidate.ended() || found.defect > largest_defect) return candidate;
   candidate.newton.status = SolveStatus::converged;
   candidate.newton.residual = found.defect;
   candidate.newton.residual_history.push_back(found.defect);
   candidate.newton.condition = found.condition;
-  candidate.displacement = found.displacement;
-  candidate.force = found.force;
+  candidate.unknown = std::move(found.displacement);
+  candidate.force = std::move(found.force);
   candidate.strategy = found.strategy;
   return candidate;
 }
 
-// The solution by complementarity, or `failed` with what ended it.
-Candidate try_complementarity(ContactSystem& system, Candidate failed, const ForcedResponseOptions& options,
-                              int& iterations) {
-  const LawForce found = josephy_newton(system, options.paths, options.observer);
-  iterations += found.pivots;
-  if (!found.found) {
-    if (found.status != SolveStatus::stalled) failed.newton.status = found.status;
-    return failed;
-  }
-  Candidate candidate = polish(system, found, options);
-  iterations += candidate.newton.iterations;
-  if (candidate.newton.status == SolveStatus::cancelled) failed.newton.status = SolveStatus::cancelled;
-  const bool better = candidate.displacement.size() > 0 && candidate.newton.residual < failed.newton.residual;
-  return candidate.converged() || better ? candidate : failed;
+/// The forms in the order in which they are tried: that of the options, and where it is left open the other.
+std::vector<Eigen::VectorXd> forms_of(const Task& task) {
+  const auto in = [&](ContactForm form) { return contact_regularization(task.problem, task.laws, form); };
+  const ContactForm asked = task.options.form;
+  std::vector<Eigen::VectorXd> forms{in(asked)};
+  if (asked != ContactForm::automatic || !task.laws.unilateral()) return forms;
+  if (forms.front().size() == 0)
+    forms.push_back(in(ContactForm::force));
+  else if (task.laws.have_finite_force())
+    forms.emplace_back();
+  return forms;
 }
 
-PeriodicResponse response_of(ContactSystem& system, Candidate candidate, int iterations) {
+Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_periods) {
+  const std::vector<Eigen::VectorXd> forms = forms_of(task);
+  const Start first{guess.size() != 0 ? guess : task.problem.contact_free_response(), {}};
+  Start start = first;
+  Candidate best = try_newton(task, forms.front(), start, Strategy::newton);
+  if (best.ended() || !task.options.fallbacks) return best;
+  if (task.laws.unilateral() && task.laws.have_finite_force() && task.options.form != ContactForm::force)
+    best = better(std::move(best), try_complementarity(task));
+  if (best.ended()) return best;
+  SettlingOptions settling = task.options.settling;
+  settling.observer = task.options.observer;
+  const SettledMotion motion = settle(task.problem, task.laws, settling);
+  attractor_periods = motion.attractor_periods;
+  if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
+  if (motion.cancelled) return best;
+  const bool settled = attractor_periods != SettledMotion::not_integrated;
+  if (settled)
+    start = {resample(motion.displacement, task.problem.points(), motion.start),
+             resample(motion.force, task.problem.points(), motion.start)};
+  const Strategy from = settled ? Strategy::settling : Strategy::newton;
+  for (std::size_t i = settled ? 0 : 1; i < forms.size() && !best.ended(); ++i)
+    best = better(std::move(best), try_newton(task, forms[i], start, from));
+  // A structure that does not settle to a motion of the load's period may have an unstable one.
+  if (attractor_periods != 1) start = first;
+  for (std::size_t i = 0; i < forms.size() && !best.ended(); ++i)
+    best = better(std::move(best), try_continuation(task, forms[i], start));
+  return best;
+}
+
+PeriodicResponse response_of(const Task& task, Candidate candidate) {
+  ContactSystem system = task.system(candidate.regularization);
   PeriodicResponse response;
-  response.frequency = system.problem().frequency();
+  system.evaluate(candidate.unknown);
+  response.frequency = task.problem.frequency();
   response.force_by_balance = candidate.force.size() != 0;
-  if (!response.force_by_balance) system.evaluate(candidate.displacement);
-  response.contact_force = response.force_by_balance ? candidate.force : system.force();
+  response.contact_force = response.force_by_balance ? std::move(candidate.force) : system.force();
   response.status = candidate.newton.status;
   response.residual = candidate.newton.residual;
   response.residual_history = std::move(candidate.newton.residual_history);
   response.condition = candidate.newton.condition;
-  response.iterations = iterations;
+  response.iterations = candidate.iterations;
   response.strategy = candidate.strategy;
-  response.coefficients = system.problem().coefficients(response.contact_force);
-  response.displacement = std::move(candidate.displacement);
+  response.coefficients = task.problem.coefficients(response.contact_force);
+  response.unknown_coefficients = task.problem.unknown_coefficients(response.contact_force);
+  response.regularization = std::move(candidate.regularization);
+  response.unknown = std::move(candidate.unknown);
+  response.displacement = response.regularization.size() == 0
+                              ? response.unknown
+                              : task.problem.displacement(response.contact_force);
   return response;
 }
 
@@ -100,20 +217,22 @@ PeriodicResponse response_of(ContactSystem& system, Candidate candidate, int ite
 void ForcedResponseOptions::validate() const {
   newton.validate();
   paths.validate();
+  settling.validate();
+  continuation.validate();
 }
 
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess) {
   options.validate();
   require_start(problem, guess);
-  ContactSystem system(problem, laws);
-  Candidate candidate = try_newton(system, guess.size() != 0 ? guess : problem.contact_free_response(),
-                                   Strategy::newton, options);
-  int iterations = candidate.newton.iterations;
-  const bool cancelled = candidate.newton.status == SolveStatus::cancelled;
-  if (!candidate.converged() && !cancelled && options.complementarity)
-    candidate = try_complementarity(system, std::move(candidate), options, iterations);
-  return response_of(system, std::move(candidate), iterations);
+  laws.require(problem.contacts());
+  const Task task{problem, laws, options};
+  int attractor_periods = SettledMotion::not_integrated;
+  Candidate candidate = solve(task, guess, attractor_periods);
+  PeriodicResponse response = response_of(task, std::move(candidate));
+  problem.set_regularization({});
+  response.attractor_periods = attractor_periods;
+  return response;
 }
 
 }  // namespace wavebalance::solvers

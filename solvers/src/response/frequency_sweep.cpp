@@ -54,9 +54,12 @@ class Sweep {
  public:
   Sweep(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweepOptions& options)
       : problem_(problem),
+        laws_(laws),
         system_(problem, laws),
         options_(options),
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
+
+  ~Sweep() { problem_.set_regularization({}); }
 
   FrequencySweep run() {
     // Whether long steps pass a narrow undamped resonance depends on where they end, so other lengths are
@@ -81,14 +84,17 @@ class Sweep {
     problem_.set_frequency(options_.from);
     ForcedResponseOptions start = options_.start;
     if (!start.observer) start.observer = options_.observer;
-    const PeriodicResponse first = forced_response(problem_, system_.laws(), start);
+    const PeriodicResponse first = forced_response(problem_, laws_, start);
     result_.condition = std::max(problem_.condensation().condition(), first.condition);
     if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
+    problem_.set_regularization(first.regularization);
+    system_ = ContactSystem(problem_, laws_);  // in the form of the first point
+    result_.form = first.regularization.size() > 0 ? ContactForm::force : ContactForm::displacement;
     const FrequencyParameter parameter;
     ArcLength curve(system_, parameter, scaled_options(first));
     const double direction = options_.to > options_.from ? 1.0 : -1.0;
-    if (curve.start(first.displacement, options_.from, direction) != ArcLength::Status::advanced) return;
+    if (curve.start(first.unknown, options_.from, direction) != ArcLength::Status::advanced) return;
     result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
   }
 
@@ -146,7 +152,7 @@ class Sweep {
     system_.evaluate(point.displacement);
     result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
     const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
-    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, point.residual, point.grazing};
+    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, system_.force().maxCoeff(), point.residual, point.grazing};
     for (int c = 0; c < problem_.contacts(); ++c) {
       const Eigen::VectorXd u = evaluator_(coefficients.col(c));
       measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
@@ -165,6 +171,7 @@ class Sweep {
   }
 
   CondensedProblem& problem_;
+  const ContactLaws& laws_;
   ContactSystem system_;
   const FrequencySweepOptions& options_;
   TrialEvaluator evaluator_;

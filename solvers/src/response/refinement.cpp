@@ -134,7 +134,7 @@ class Refinement {
 
   PeriodicResponse from_contact_free(CondensedProblem& problem, RefinementLevel& level, bool paths) const {
     ForcedResponseOptions solver = options_.solver;
-    solver.complementarity = paths && solver.complementarity && level.points >= screening_points;
+    solver.fallbacks = paths && solver.fallbacks && level.points >= screening_points;
     PeriodicResponse response = forced_response(problem, laws_, solver);
     level.iterations += response.iterations;
     return response;
@@ -159,7 +159,7 @@ class Refinement {
     ContactSystem system(problem, laws_);
     const bool trust = system.evaluate(smooth) <= much_better * system.evaluate(straight);
     ForcedResponseOptions solver = options_.solver;
-    solver.complementarity = false;
+    solver.fallbacks = false;
     PeriodicResponse response = forced_response(problem, laws_, solver, trust ? smooth : straight);
     level.iterations = response.iterations;
     if (response.converged()) return response;

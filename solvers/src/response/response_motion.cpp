@@ -10,9 +10,13 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
                       const ContactLaws& laws, int points) {
   MotionEvaluator evaluate(problem.pair().trial(), points);
   Motion motion = evaluate(response.coefficients, response.frequency);
-  motion.force = response.force_by_balance
-                     ? nearest_samples(by_contact(response.contact_force, problem.contacts()), points)
-                     : laws.force(motion.displacement);
+  if (response.force_by_balance)
+    motion.force = nearest_samples(by_contact(response.contact_force, problem.contacts()), points);
+  else if (response.regularization.size() > 0)
+    motion.force = laws.resolvents(response.regularization)
+                       .force(evaluate(response.unknown_coefficients, response.frequency).displacement);
+  else
+    motion.force = laws.force(motion.displacement);
   return motion;
 }
 

@@ -244,7 +244,7 @@ TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
   for (const auto method : {LinearSolver::dense, LinearSolver::krylov}) {
     ForcedResponseOptions options;
     options.newton.linear_solver = method;
-    options.complementarity = false;
+    options.fallbacks = false;
     for (const double detuning : {0.5, 1e-13, 0.0}) {
       const double stiffness = (1.0 - detuning) * bar.stiffness.coeff(0, 0);
       const auto response = forced_response(problem, Destabilising{stiffness}, options);
@@ -286,7 +286,7 @@ TEST(LinearSolver, ResponsesByGmresAndByLuAreEqual) {
       for (const AnyContactLaw& law :
            {AnyContactLaw(reference.law), AnyContactLaw(Stop{reference.law.start})}) {
         ForcedResponseOptions options;
-        options.complementarity = false;
+        options.fallbacks = false;
         options.newton.linear_solver = LinearSolver::dense;
         const PeriodicResponse lu = forced_response(problem, law, options);
         options.newton.linear_solver = LinearSolver::krylov;

@@ -121,7 +121,7 @@ TEST(ForcedResponse, SaysWhenIterationsRanOut) {
   CondensedProblem problem = case_1(63, 256);
   ForcedResponseOptions options;
   options.newton.max_iterations = 1;
-  options.complementarity = false;
+  options.fallbacks = false;
   const PeriodicResponse response = forced_response(problem, testing::jl14_case_1.law, options);
   EXPECT_EQ(response.status, SolveStatus::iteration_limit);
   EXPECT_FALSE(response.converged());
@@ -139,7 +139,7 @@ CondensedProblem stiff_haar_problem() {
 TEST(ForcedResponse, ComplementarityFindsWhatNewtonDoesNot) {
   CondensedProblem problem = stiff_haar_problem();
   ForcedResponseOptions options;
-  options.complementarity = false;
+  options.fallbacks = false;
   const PeriodicResponse plain = forced_response(problem, testing::jl14_case_2.law, options);
   EXPECT_EQ(plain.status, SolveStatus::stalled);
   EXPECT_EQ(plain.strategy, Strategy::none);

@@ -146,7 +146,7 @@ TEST(FrequencySweep, SaysWhenThereIsNoStart) {
   BarSweep sweep(testing::fourier_pair(31, 128));
   sweep.options.from = 1275.0;
   sweep.options.start.newton.max_iterations = 1;
-  sweep.options.start.complementarity = false;
+  sweep.options.start.fallbacks = false;
   const FrequencySweep result = sweep.run();
   EXPECT_EQ(result.status, SweepStatus::no_start);
   EXPECT_TRUE(result.points.empty());

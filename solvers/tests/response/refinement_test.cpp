@@ -229,7 +229,7 @@ TEST(Refinement, ReportsThatRoundingIsReached) {
 TEST(Refinement, ReportsThatLevelsHaveNoResponse) {
   RefinementOptions options;
   options.solver.newton.max_iterations = 1;
-  options.solver.complementarity = false;
+  options.solver.fallbacks = false;
   const RefinementResult found = response_to_tolerance(bar, law_1, options);
   EXPECT_EQ(found.status, RefinementStatus::not_converged);
   EXPECT_TRUE(std::isnan(found.estimated_error));

@@ -36,9 +36,14 @@ class ExponentialLaw {
     return displacement < gap_ ? 0.0 : in_contact(displacement).tangent;
   }
   /// J, the integral of the force from the gap: the contact energy of [JL14, eq. (35)].
+  static constexpr bool unilateral() { return true; }
   double potential(double displacement) const {
     return displacement <= gap_ ? 0.0 : potential_in_contact(displacement);
   }
+
+  /// f = force(v - flexibility f) and its slope by v, flexibility > 0, m/N: the spring in series with a linear
+  /// one. By a Newton iteration from above, which converges monotonically as the force is convex.
+  ForceAndTangent resolvent(double v, double flexibility) const;
 
   /// Force and tangent at the cost of one exponential.
   ForceAndTangent evaluate(double displacement) const {

@@ -24,6 +24,10 @@ class LinearLaw {
   double potential(double displacement) const;  ///< J, k/2 max(u - g0, 0)^2
 
   ForceAndTangent evaluate(double displacement) const;
+  static constexpr bool unilateral() { return true; }
+  /// f = max(v - g0, 0) / (1/k + flexibility) and its slope: the spring in series with another of
+  /// `flexibility` > 0, m/N.
+  ForceAndTangent resolvent(double v, double flexibility) const;
   /// Force and tangent of arrays of one length. O(n). Throws std::invalid_argument if the lengths differ.
   void evaluate(std::span<const double> displacement, std::span<double> force,
                 std::span<double> tangent) const;

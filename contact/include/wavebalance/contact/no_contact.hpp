@@ -11,7 +11,9 @@ struct NoContact {
   double tangent(double) const { return 0.0; }
   double potential(double) const { return 0.0; }
   double gap() const { return std::numeric_limits<double>::infinity(); }
+  static constexpr bool unilateral() { return true; }
   ForceAndTangent evaluate(double) const { return {}; }
+  ForceAndTangent resolvent(double, double) const { return {}; }
 };
 
 }  // namespace wavebalance::contact

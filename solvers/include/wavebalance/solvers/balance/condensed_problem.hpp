@@ -19,6 +19,15 @@ namespace wavebalance::solvers {
 /// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
 /// columns onto each other.
 ///
+/// In the force form the unknown is v = u + E lambda / epsilon, with lambda = P f the coefficients of the
+/// contact force in the trial functions and E their samples:
+///
+///   v = u0 - (K - E P / epsilon) rho(v),
+///
+/// rho the resolvent of the contact law (ContactLaws::resolvents). This is the same equation for another K,
+/// which set_regularization() makes: one residual, one Newton matrix and one curve serve both forms. A rigid
+/// obstacle has a resolvent of slope epsilon, and epsilon -> infinity is the displacement form.
+///
 /// Owns plans and buffers: one object per thread.
 class CondensedProblem {
  public:
@@ -36,6 +45,8 @@ class CondensedProblem {
   int points() const { return pair_.points(); }              ///< N, samples of each contact
   int samples() const { return contacts() * points(); }      ///< C N
   const Condensation& condensation() const { return condensation_; }
+  const LinearStructure& structure() const { return *structure_; }
+  const Eigen::VectorXcd& load_harmonics() const { return load_harmonics_; }
 
   /// Condenses at a frequency (Hz, > 0). Throws std::invalid_argument or SingularSystem. M/2 + 1 points of
   /// condensation and O(C N log N).
@@ -45,6 +56,17 @@ class CondensedProblem {
   /// u0, m, samples() values, and its derivative by frequency, m/Hz.
   const Eigen::VectorXd& contact_free_response() const { return free_response_; }
   const Eigen::VectorXd& contact_free_response_slope();
+
+  /// Takes K - E P / epsilon in place of K in apply(), apply_transposed(), harmonic_response() and columns():
+  /// the force form. `flexibility[c]` is 1 / epsilon of contact c, m/N, at least 0; an empty vector is the
+  /// displacement form. coefficients() stay those of the displacement u. O(C M). Throws
+  /// std::invalid_argument for another number of entries or a negative one.
+  void set_regularization(Eigen::VectorXd flexibility);
+  /// 1 / epsilon of each contact, m/N; empty in the displacement form.
+  const Eigen::VectorXd& regularization() const { return regularization_; }
+
+  /// How far each contact yields to a constant unit force at it, m/N: the scale of 1 / epsilon.
+  Eigen::VectorXd contact_compliance() const;
 
   /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
   void apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement);
@@ -64,9 +86,14 @@ class CondensedProblem {
   /// columns() of which only those of the contacts in `wanted` need be valid.
   const Eigen::MatrixXd& columns(std::span<const int> wanted);
 
+  /// u0 - K f with the K of the displacement form in either form, m, samples() values.
+  Eigen::VectorXd displacement(const Eigen::VectorXd& force);
+
   /// Spectra over translates, (M/2 + 1) x C, of the coefficients that belong to force samples (samples()):
   /// a(k) = contact-free response - compliance * <p, f>. O(C N log N + C^2 M).
   Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
+  /// The same of v, the unknown of the form: coefficients() in the displacement form.
+  Eigen::MatrixXcd unknown_coefficients(const Eigen::VectorXd& force);
 
   /// Estimated rounding error of the condensation in the motion of those coefficients, at fixed forces: the
   /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
@@ -83,13 +110,19 @@ class CondensedProblem {
                     const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);
   void project(const Eigen::VectorXd& force);
+  Eigen::MatrixXcd respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force);
+  void update_kernel();
 
   TimePair pair_;
+  std::shared_ptr<const LinearStructure> structure_;
+  Eigen::VectorXcd load_harmonics_;
   Condensation condensation_;
   Eigen::VectorXcd load_;  // projected load, spectrum over translates
   double frequency_ = 0.0;
   StiffnessSpectrum factors_, derivatives_;
   CondensedSpectrum condensed_;  // load responses times the projected load
+  Eigen::VectorXd regularization_;
+  Eigen::MatrixXcd kernel_;  // of K or, in the force form, of K - E P / epsilon
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
   Eigen::MatrixXd columns_;

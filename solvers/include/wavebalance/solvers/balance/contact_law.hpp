@@ -25,6 +25,29 @@ concept EvaluatesTogether = requires(const Law& law, double displacement) {
   { law.evaluate(displacement).tangent } -> std::convertible_to<double>;  // N/m
 };
 
+/// A law that offers its resolvent in closed form, `resolvent(v, flexibility)` with members `force` and
+/// `tangent`: the force f = force(v - flexibility f), flexibility in m/N, and its slope by v. Without it the
+/// scalar equation is solved for by a Newton iteration within a bracket. A rigid obstacle is a law that has
+/// nothing else to offer: its force beyond the gap is infinite.
+template <class Law>
+concept OffersResolvent = requires(const Law& law, double v, double flexibility) {
+  { law.resolvent(v, flexibility).force } -> std::convertible_to<double>;    // N
+  { law.resolvent(v, flexibility).tangent } -> std::convertible_to<double>;  // N/m
+};
+
+/// A law that says whether it acts beyond its gap alone, `unilateral()`. One that does not say is asked for
+/// its force below the gap.
+template <class Law>
+concept SaysWhereItActs = requires(const Law& law) {
+  { law.unilateral() } -> std::convertible_to<bool>;
+};
+
+/// A force and its slope.
+struct ForceSlope {
+  double force = 0.0;    ///< N
+  double tangent = 0.0;  ///< N/m
+};
+
 /// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which
 /// makes the indirection free; copies share the (immutable) law and may be used from several threads.
 class AnyContactLaw {
@@ -41,6 +64,14 @@ class AnyContactLaw {
   double tangent(double displacement) const;
   double potential(double displacement) const;
   double gap() const { return model_->gap(); }
+
+  /// f with f = force(v - flexibility f), and df/dv, for flexibility > 0 in m/N: the law in series with a
+  /// spring. A monotone law has exactly one; for a falling one any is returned.
+  ForceSlope resolvent(double v, double flexibility) const { return model_->resolvent(v, flexibility); }
+  /// Whether the force beyond the gap is infinite, so that only the force form can solve for it.
+  bool is_rigid() const;
+  /// Whether the force vanishes below the gap and is never negative.
+  bool unilateral() const { return model_->unilateral(); }
 
   /// Force (N) and tangent (N/m) at each displacement (m); the three spans have one length. O(n).
   void evaluate(std::span<const double> displacement, std::span<double> force,
@@ -59,6 +90,8 @@ class AnyContactLaw {
     virtual double tangent(double displacement) const = 0;
     virtual double potential(double displacement) const = 0;
     virtual double gap() const = 0;
+    virtual ForceSlope resolvent(double v, double flexibility) const = 0;
+    virtual bool unilateral() const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>) const = 0;
   };
@@ -70,6 +103,20 @@ class AnyContactLaw {
     double tangent(double displacement) const override { return law_.tangent(displacement); }
     double potential(double displacement) const override { return law_.potential(displacement); }
     double gap() const override { return law_.gap(); }
+    ForceSlope resolvent(double v, double flexibility) const override {
+      if constexpr (OffersResolvent<Law>) {
+        const auto both = law_.resolvent(v, flexibility);
+        return {both.force, both.tangent};
+      } else {
+        return solve_resolvent(*this, v, flexibility);
+      }
+    }
+    bool unilateral() const override {
+      if constexpr (SaysWhereItActs<Law>)
+        return law_.unilateral();
+      else
+        return vanishes_below_gap(*this);
+    }
     void evaluate(std::span<const double> u, std::span<double> f, std::span<double> slope) const override {
       for (std::size_t i = 0; i < u.size(); ++i) {
         if constexpr (EvaluatesTogether<Law>) {
@@ -88,7 +135,29 @@ class AnyContactLaw {
     Law law_;
   };
 
+  static ForceSlope solve_resolvent(const Interface& law, double v, double flexibility);
+  static bool vanishes_below_gap(const Interface& law);
+
   std::shared_ptr<const Interface> model_;
+};
+
+/// The resolvent of a law as a law of its own, of v = u + flexibility f: the law of the force form. Its
+/// potential is that of the law and of the spring.
+class ResolventLaw {
+ public:
+  /// Throws std::invalid_argument for a flexibility that is not positive and finite (m/N).
+  ResolventLaw(AnyContactLaw law, double flexibility);
+
+  double force(double v) const { return evaluate(v).force; }
+  double tangent(double v) const { return evaluate(v).tangent; }
+  double potential(double v) const;
+  double gap() const { return law_.gap(); }
+  bool unilateral() const { return law_.unilateral(); }
+  ForceSlope evaluate(double v) const { return law_.resolvent(v, flexibility_); }
+
+ private:
+  AnyContactLaw law_;
+  double flexibility_;
 };
 
 }  // namespace wavebalance::solvers

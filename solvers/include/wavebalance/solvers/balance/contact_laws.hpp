@@ -33,6 +33,13 @@ class ContactLaws {
   /// The largest finite |gap|, m; 0 when none is finite. A length that the motion in contact has.
   double largest_gap() const;
 
+  /// Whether no law is rigid: one whose force beyond the gap is infinite.
+  bool have_finite_force() const;
+  /// Whether all laws are unilateral.
+  bool unilateral() const;
+  /// The laws of the force form: the resolvents of the laws for a flexibility 1 / epsilon (m/N) per contact.
+  ContactLaws resolvents(const Eigen::VectorXd& flexibility) const;
+
   /// Force (N) and tangent (N/m) at displacements (m) of `contacts` contacts with equally many samples each;
   /// the three vectors have one length. O(samples).
   void evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,

@@ -23,7 +23,8 @@ enum class LinearSolver {
 /// m, contact-major):
 ///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = diag(f_c'(u)).
 /// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an
-/// LU of their number and one product with K. Many of them are solved for by GMRES, which forms no matrix
+/// LU of their number and one product with K. In the force form of the problem u stands for its unknown v, and
+/// the laws are their resolvents. Many of them are solved for by GMRES, which forms no matrix
 /// over them.
 class ContactSystem {
  public:
@@ -34,6 +35,7 @@ class ContactSystem {
   ~ContactSystem();
 
   CondensedProblem& problem() { return *problem_; }
+  /// The laws of the form that the problem had at construction.
   const ContactLaws& laws() const { return laws_; }
   /// The law of the contact that a sample belongs to, and its gap in m.
   const AnyContactLaw& law_at(int sample) const { return laws_[sample / problem_->points()]; }
@@ -51,6 +53,10 @@ class ContactSystem {
   const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
   /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
   double relative_residual() const { return relative_residual_; }
+
+  /// Adds a motion to the contact-free response in the residual, m, samples() values; empty for none. A curve
+  /// of states leads from an approximate motion, which solves the system with its residual added, to a solution.
+  void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }
 
   /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
   void set_tangent(int sample, double value) { tangent_[sample] = value; }
@@ -86,8 +92,9 @@ class ContactSystem {
 
   CondensedProblem* problem_;
   ContactLaws laws_;
-  Eigen::VectorXd gaps_;
+  Eigen::VectorXd gaps_, added_motion_;
   double relative_residual_ = 0.0;
+  double products_ = 0.0;  // operations of products with K
   Eigen::VectorXd force_, tangent_, residual_, product_;
   std::unique_ptr<JacobianSolver> jacobian_;
 };

@@ -25,6 +25,7 @@ struct NewtonOptions {
   double tolerance = 1e-11;      ///< on ||R|| / (||u0|| + ||K f||)
   int max_iterations = 60;       ///< 0 evaluates the start alone
   double min_step = 1.0 / 4096;  ///< least step of the line search, relative to the Newton step
+  double max_operations = 1e11;  ///< of linear systems and products; 1e10 take about a second
   LinearSolver linear_solver = LinearSolver::automatic;
   Observer observer;  ///< called before each iteration
 

@@ -3,11 +3,13 @@
 
 namespace wavebalance::solvers {
 
-/// What found a periodic response: Newton's method, or one of the complementarity paths, which lower an
-/// obstacle onto the motion and then stiffen it. LcpHomotopy describes all paths.
+/// What found a periodic response: Newton's method, one of the complementarity paths, which lower an obstacle
+/// onto the motion and then stiffen it (LcpHomotopy describes all of them), or what follows where they fail.
 enum class Strategy {
   none,             ///< no response was found
-  newton,           ///< Newton's method, or no contact at all
+  newton,           ///< Newton's method from the start given, or no contact at all
+  settling,         ///< Newton's method from the motion that the structure at rest settles to
+  continuation,     ///< the arc length of a residual homotopy
   soft_obstacle,    ///< an obstacle as soft as the structure, stiffened in short segments
   long_segments,    ///< the same with segments of more pivots
   small_factors,    ///< the same, by factors close to 1

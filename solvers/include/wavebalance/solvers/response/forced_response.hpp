@@ -1,25 +1,34 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/complementarity/complementarity_options.hpp"
+#include "wavebalance/solvers/continuation/residual_homotopy.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
+#include "wavebalance/solvers/response/settling.hpp"
 
 namespace wavebalance::solvers {
 
 /// How a forced response is sought.
 struct ForcedResponseOptions {
   NewtonOptions newton;
-  /// Whether the complementarity problem of the contact forces is solved when Newton does not converge.
-  bool complementarity = true;
+  ContactForm form = ContactForm::automatic;
+  /// Whether more than Newton's method from the start is tried: the complementarity problem of the contact
+  /// forces, the motion that the structure settles to, the other form, and continuation.
+  bool fallbacks = true;
+  double max_fallback_operations = 1e10;  ///< of each further Newton run
+  SettlingOptions settling;              ///< its observer is not used
+  ResidualHomotopyOptions continuation;  ///< its observer is not used
   ComplementarityOptions paths;
-  Observer observer;  ///< called by Newton and by the paths; NewtonOptions::observer is not used here
+  Observer observer;                     ///< called in all phases; NewtonOptions::observer is not used here
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
 };
 
 /// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one for
-/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. If it
+/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The problem is
+/// left in the displacement form, whatever the form of the response. If it
 /// does not converge, the status gives the reason. Throws std::invalid_argument for a guess or a list of laws
 /// of another length, for a problem without frequency and for options out of range.
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,

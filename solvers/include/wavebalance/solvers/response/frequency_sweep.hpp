@@ -27,6 +27,7 @@ struct SweepPoint {
   double max_displacement = 0.0;      ///< m, over output_points of the period
   double rms_displacement = 0.0;      ///< m
   double max_abs_displacement = 0.0;  ///< m
+  double max_force = 0.0;             ///< N, over the points and contacts
   double residual = 0.0;              ///< relative
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
 };
@@ -64,6 +65,7 @@ struct FrequencySweepOptions {
 /// A curve of periodic responses.
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
+  ContactForm form = ContactForm::displacement;  ///< of the whole curve
   std::vector<SweepPoint> points;
   std::vector<TurningPoint> turning_points;
   /// The largest Condensation::condition() of the curve's points and PeriodicResponse::condition of the

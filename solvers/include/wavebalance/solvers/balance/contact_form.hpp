@@ -1,0 +1,26 @@
+#pragma once
+#include <Eigen/Core>
+#include <string_view>
+
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+
+namespace wavebalance::solvers {
+
+/// The unknown in which contact is solved for; see CondensedProblem.
+enum class ContactForm {
+  automatic,     ///< force for a rigid law, else displacement
+  displacement,  ///< u at the points, with the law's force at u
+  force          ///< u + E lambda / epsilon, with the law's resolvent
+};
+
+std::string_view to_string(ContactForm form);
+
+/// 1 / epsilon of each contact (m/N) for the force form, empty for the displacement form: the argument of
+/// CondensedProblem::set_regularization. Needs the problem's frequency. Throws
+/// std::invalid_argument for a rigid law in the displacement form, and for a law in the force form that acts
+/// below its gap.
+Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,
+                                       ContactForm form);
+
+}  // namespace wavebalance::solvers

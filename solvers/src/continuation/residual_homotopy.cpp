@@ -1,0 +1,67 @@
+#include "wavebalance/solvers/continuation/residual_homotopy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "linalg/option_checks.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// p scales the residual of the start, which is added to the contact-free response.
+class ResidualParameter final : public CurveParameter {
+ public:
+  explicit ResidualParameter(Eigen::VectorXd start_residual) : start_residual_(std::move(start_residual)) {}
+  bool contains(double p) const override { return std::isfinite(p); }
+  void set(ContactSystem& system, double p) const override { system.set_added_motion(p * start_residual_); }
+  void slope(ContactSystem&, Eigen::VectorXd& slope) const override { slope = -start_residual_; }
+
+ private:
+  Eigen::VectorXd start_residual_;
+};
+
+HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualHomotopyOptions& options) {
+  system.evaluate(u);
+  const ResidualParameter parameter(system.residual());
+  ArcLengthOptions arc;
+  arc.displacement_scale = std::max(u.norm() / std::sqrt(double(u.size())), system.laws().largest_gap());
+  arc.parameter_scale = 1.0;
+  arc.initial_step = 0.1;
+  arc.max_step = 0.5;
+  arc.grazing_events = GrazingEvents::where_needed;
+  arc.max_operations = options.max_operations;
+  ArcLength curve(system, parameter, arc);
+  if (curve.start(u, 1.0, -1.0) != ArcLength::Status::advanced) return HomotopyStatus::lost;
+  const double limit = system.operations() + options.max_operations;
+  for (int point = 1; point <= options.max_points; ++point) {
+    if (curve.advance() != ArcLength::Status::advanced)
+      return system.operations() > limit ? HomotopyStatus::effort_limit : HomotopyStatus::lost;
+    if (curve.point().parameter <= 0.0) {
+      CurvePoint end;
+      const bool found = curve.locate([](const CurvePoint& at) { return at.parameter; }, end);
+      u = found ? std::move(end.displacement) : curve.point().displacement;
+      return HomotopyStatus::arrived;
+    }
+    if (!goes_on(options.observer, {"continuation", point, curve.point().parameter, "share of the residual"}))
+      return HomotopyStatus::cancelled;
+  }
+  return HomotopyStatus::effort_limit;
+}
+
+}  // namespace
+
+void ResidualHomotopyOptions::validate() const {
+  detail::require_at_least("ResidualHomotopyOptions", "max_points", max_points, 1);
+  detail::require_positive("ResidualHomotopyOptions", "max_operations", max_operations);
+}
+
+HomotopyStatus residual_homotopy(ContactSystem& system, Eigen::VectorXd& u,
+                                 const ResidualHomotopyOptions& options) {
+  options.validate();
+  const HomotopyStatus status = follow(system, u, options);
+  system.set_added_motion({});
+  return status;
+}
+
+}  // namespace wavebalance::solvers

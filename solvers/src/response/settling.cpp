@@ -1,0 +1,192 @@
+#include "wavebalance/solvers/response/settling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <deque>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "linalg/dense.hpp"
+#include "linalg/option_checks.hpp"
+#include "structure/modal_flow.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Contact forces f at the end of a step with f_c = law_c(predicted_c - (D f)_c), D the compliance of the step:
+// Gauss-Seidel, each force by its resolvent for the flexibility D_cc.
+void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
+                  const Eigen::VectorXd& predicted, Eigen::VectorXd& force) {
+  constexpr int max_rounds = 200;
+  constexpr double settled = 1e-12;
+  for (int round = 0; round < max_rounds; ++round) {
+    double change = 0.0;
+    for (Eigen::Index c = 0; c < force.size(); ++c) {
+      const double others = compliance.row(c).dot(force) - compliance(c, c) * force[c];
+      const double next =
+          laws[static_cast<int>(c)].resolvent(predicted[c] - others, compliance(c, c)).force;
+      change = std::max(change, std::abs(next - force[c]));
+      force[c] = next;
+    }
+    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) return;
+  }
+}
+
+// Responses of all degrees of freedom to the load's harmonics without contact, n x harmonics.
+Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::VectorXcd& harmonics,
+                                double frequency) {
+  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), harmonics.size());
+  for (Eigen::Index n = 0; n < harmonics.size(); ++n) {
+    if (harmonics[n] == 0.0) continue;
+    const Complex rate(0.0, 2.0 * std::numbers::pi * frequency * double(n));
+    const Eigen::MatrixXcd impedance = Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
+                                       rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
+                                       rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
+    const Eigen::VectorXcd right = harmonics[n] * structure.load.cast<Complex>();
+    responses.col(n) = detail::Lu<Complex>(impedance).solve(right);
+  }
+  return responses;
+}
+
+// The contact-free motion of the contacts at steps k = 0..steps-1, C x steps.
+Eigen::MatrixXd contact_free_motion(const Eigen::MatrixXcd& responses, const std::vector<int>& contacts,
+                                    int steps) {
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(contacts.size()), steps);
+  for (Eigen::Index n = 0; n < responses.cols(); ++n)
+    for (int k = 0; k < steps; ++k) {
+      const Complex phase = std::polar(1.0, 2.0 * std::numbers::pi * double(n) * k / steps);
+      for (std::size_t c = 0; c < contacts.size(); ++c)
+        motion(static_cast<Eigen::Index>(c), k) += (responses(contacts[c], n) * phase).real();
+    }
+  return motion;
+}
+
+// The harmonics of a load that is `start` periods ahead, so that its first one is at its maximum: a load that
+// comes later then gives the same motion later.
+Eigen::VectorXcd from_maximum(Eigen::VectorXcd harmonics, double& start) {
+  start = 0.0;
+  Eigen::Index first = 1;
+  while (first < harmonics.size() && harmonics[first] == 0.0) ++first;
+  if (first >= harmonics.size()) return harmonics;
+  start = -std::arg(harmonics[first]) / (2.0 * std::numbers::pi * double(first));
+  for (Eigen::Index n = 0; n < harmonics.size(); ++n)
+    harmonics[n] *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * start);
+  return harmonics;
+}
+
+class Settling {
+ public:
+  Settling(const CondensedProblem& problem, const ContactLaws& laws, const SettlingOptions& options,
+           ModalFlow flow)
+      : laws_(laws), options_(options), flow_(std::move(flow)) {
+    const LinearStructure& structure = problem.structure();
+    const Eigen::VectorXcd harmonics = from_maximum(problem.load_harmonics(), start_);
+    const Eigen::MatrixXcd responses = load_responses(structure, harmonics, problem.frequency());
+    free_ = contact_free_motion(responses, structure.contact_dofs, options.steps);
+    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(structure.size());
+    for (Eigen::Index n = 0; n < responses.cols(); ++n)
+      velocity -= 2.0 * std::numbers::pi * problem.frequency() * double(n) * responses.col(n).imag();
+    // The state is the deviation from the motion without contact.
+    free_state_ = flow_.state(responses.real().rowwise().sum(), velocity);
+    state_ = -free_state_;
+    force_ = Eigen::VectorXd::Zero(free_.rows());
+  }
+
+  SettledMotion run() {
+    SettledMotion result;
+    result.start = start_;
+    result.displacement = free_;
+    result.force = Eigen::MatrixXd::Zero(free_.rows(), free_.cols());
+    std::deque<Eigen::VectorXd> past{state_};
+    for (result.attractor_periods = 0; result.periods < options_.max_periods; ++result.periods) {
+      if (!state_.allFinite()) return result;
+      integrate_period(result);
+      const double scale = (state_ + free_state_).norm();
+      int repeats = 0;
+      for (std::size_t q = 1; q <= past.size() && repeats == 0; ++q)
+        if ((state_ - past[q - 1]).norm() <= options_.tolerance * scale) repeats = static_cast<int>(q);
+      const double change = (state_ - past.front()).norm() / scale;
+      past.push_front(state_);
+      if (past.size() > static_cast<std::size_t>(options_.longest)) past.pop_back();
+      constexpr int transient = 50;  // before a motion is taken for one of several periods
+      if (repeats == 1 || (repeats > 1 && result.periods > transient)) {
+        result.attractor_periods = repeats;
+        return result;
+      }
+      const Progress progress{"settling", result.periods + 1, change, "relative change per period",
+                              double(result.periods + 1) / options_.max_periods};
+      if (!goes_on(options_.observer, progress)) {
+        result.cancelled = true;
+        return result;
+      }
+    }
+    return result;
+  }
+
+ private:
+  void integrate_period(SettledMotion& result) {
+    const Eigen::MatrixXd& compliance = flow_.step_compliance();
+    for (int k = 0; k < options_.steps; ++k) {
+      const int next = k + 1 < options_.steps ? k + 1 : 0;
+      Eigen::VectorXd end = flow_.advance(state_, force_);
+      const Eigen::VectorXd predicted = free_.col(next) + flow_.contact_displacement(end);
+      solve_forces(laws_, compliance, predicted, force_);
+      flow_.add_force(end, force_);
+      state_.swap(end);
+      result.displacement.col(next) = predicted - compliance * force_;
+      result.force.col(next) = force_;
+    }
+  }
+
+  const ContactLaws& laws_;
+  const SettlingOptions& options_;
+  ModalFlow flow_;
+  double start_ = 0.0;  // periods after t = 0 at which the motion starts
+  Eigen::MatrixXd free_;
+  Eigen::VectorXd free_state_, state_, force_;
+};
+
+}  // namespace
+
+void SettlingOptions::validate() const {
+  constexpr const char* who = "SettlingOptions";
+  detail::require_at_least(who, "steps", steps, 1);
+  detail::require_at_least(who, "max_periods", max_periods, 1);
+  detail::require_at_least(who, "longest", longest, 1);
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_at_least(who, "max_modes", max_modes, 1);
+  detail::require_at_least(who, "max_size", max_size, 0);
+}
+
+SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
+                     const SettlingOptions& options) {
+  options.validate();
+  laws.require(problem.contacts());
+  const LinearStructure& structure = problem.structure();
+  if (structure.size() > options.max_size) return {};
+  const double step = 1.0 / (problem.frequency() * options.steps);
+  auto flow = ModalFlow::make(structure, problem.frequency(), step, options.max_modes);
+  if (!flow) return {};
+  return Settling(problem, laws, options, *std::move(flow)).run();
+}
+
+Eigen::VectorXd resample(const Eigen::MatrixXd& by_contact, int points, double start) {
+  const Eigen::Index steps = by_contact.cols();
+  Eigen::VectorXd samples(by_contact.rows() * points);
+  for (Eigen::Index c = 0; c < by_contact.rows(); ++c)
+    for (int l = 0; l < points; ++l) {
+      const double shifted = double(l) / points - start;
+      const double at = (shifted - std::floor(shifted)) * double(steps);
+      const auto before = static_cast<Eigen::Index>(at);
+      const double share = at - double(before);
+      samples[c * points + l] =
+          (1.0 - share) * by_contact(c, before % steps) + share * by_contact(c, (before + 1) % steps);
+    }
+  return samples;
+}
+
+}  // namespace wavebalance::solvers

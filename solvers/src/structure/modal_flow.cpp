@@ -1,0 +1,103 @@
+#include "structure/modal_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linalg/dense.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// exp(A) by a Taylor polynomial of A / 2^s and s squarings. In the energy norm of a damped structure the
+// powers do not grow, so that squaring keeps the digits.
+Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& matrix) {
+  constexpr int degree = 14;
+  const double norm = matrix.cwiseAbs().rowwise().sum().maxCoeff();
+  const int squarings = norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
+  const Eigen::MatrixXd scaled = std::ldexp(1.0, -squarings) * matrix;
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
+  Eigen::MatrixXd result = one;
+  for (int k = degree; k >= 1; --k) result = (one + scaled * result / k).eval();
+  for (int i = 0; i < squarings; ++i) result = (result * result).eval();
+  return result;
+}
+
+Eigen::MatrixXd with_mass_everywhere(Eigen::MatrixXd mass) {
+  const double least = 1e-9 * mass.diagonal().mean();
+  for (Eigen::Index i = 0; i < mass.rows(); ++i)
+    if (mass(i, i) < least) mass(i, i) = least;
+  return mass;
+}
+
+// First-order form of q'' + damping q' + stiffness q = input f, of y = (sigma q, q').
+Eigen::MatrixXd first_order(const Eigen::VectorXd& sigma, const Eigen::VectorXd& stiffness,
+                            const Eigen::MatrixXd& damping) {
+  const Eigen::Index m = sigma.size();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * m, 2 * m);
+  matrix.topRightCorner(m, m) = sigma.asDiagonal();
+  matrix.bottomLeftCorner(m, m) = (-stiffness.cwiseQuotient(sigma)).asDiagonal();
+  matrix.bottomRightCorner(m, m) = -damping;
+  return matrix;
+}
+
+}  // namespace
+
+std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, double frequency, double step,
+                                         int max_modes) {
+  const Eigen::MatrixXd mass = with_mass_everywhere(Eigen::MatrixXd(structure.mass));
+  const auto eigen = detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), mass);
+  if (!eigen) return std::nullopt;
+  const Eigen::Index all = eigen->values.size(), m = std::min<Eigen::Index>(all, max_modes);
+  const Eigen::Index contacts = structure.contacts();
+  ModalFlow flow;
+  flow.shapes_ = eigen->vectors.leftCols(m);
+  flow.projection_ = flow.shapes_.transpose() * mass;
+  const Eigen::VectorXd stiffness = eigen->values.head(m);
+  flow.sigma_ = stiffness.cwiseMax(0.0).cwiseSqrt().cwiseMax(2.0 * std::numbers::pi * frequency);
+  Eigen::MatrixXd contact(contacts, all);
+  for (Eigen::Index c = 0; c < contacts; ++c)
+    contact.row(c) = eigen->vectors.row(structure.contact_dofs[static_cast<std::size_t>(c)]);
+  flow.contact_ = contact.leftCols(m);
+  const Eigen::MatrixXd damping = flow.shapes_.transpose() * (structure.damping * flow.shapes_);
+  // Van Loan's block matrix for a force that is linear in time.
+  const Eigen::Index states = 2 * m, size = states + 2 * contacts;
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+  block.topLeftCorner(states, states) = step * first_order(flow.sigma_, stiffness, damping);
+  block.block(m, states, m, contacts) = -step * flow.contact_.transpose();
+  block.block(states, states + contacts, contacts, contacts).setIdentity();
+  const Eigen::MatrixXd exponential = matrix_exponential(block);
+  flow.exponential_ = exponential.topLeftCorner(states, states);
+  flow.end_ = exponential.block(0, states + contacts, states, contacts);
+  flow.begin_ = exponential.block(0, states, states, contacts) - flow.end_;
+  flow.step_compliance_.resize(contacts, contacts);
+  for (Eigen::Index c = 0; c < contacts; ++c)
+    flow.step_compliance_.col(c) = -flow.contact_displacement(flow.end_.col(c));
+  const Eigen::MatrixXd omitted = contact.rightCols(all - m);
+  flow.step_compliance_ +=
+      omitted * eigen->values.tail(all - m).cwiseInverse().asDiagonal() * omitted.transpose();
+  return flow;
+}
+
+Eigen::VectorXd ModalFlow::advance(const Eigen::VectorXd& state, const Eigen::VectorXd& force) const {
+  Eigen::VectorXd next = exponential_ * state;
+  if (!force.isZero(0.0)) next.noalias() += begin_ * force;
+  return next;
+}
+
+void ModalFlow::add_force(Eigen::VectorXd& state, const Eigen::VectorXd& force) const {
+  state.noalias() += end_ * force;
+}
+
+Eigen::VectorXd ModalFlow::contact_displacement(const Eigen::VectorXd& state) const {
+  return contact_ * state.head(modes()).cwiseQuotient(sigma_);
+}
+
+Eigen::VectorXd ModalFlow::state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const {
+  Eigen::VectorXd state(states());
+  state.head(modes()) = sigma_.cwiseProduct(projection_ * displacement);
+  state.tail(modes()) = projection_ * velocity;
+  return state;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,51 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+
+namespace wavebalance::solvers {
+
+/// The exact motion of a structure over a step of time, for contact forces that are linear within the step:
+///
+///   y(t + h) = E y(t) + B0 f(t) + B1 f(t + h),
+///
+/// y = (sigma q, dq/dt) the state of its modes q, in which the norm of y is that of the energy: sigma is the
+/// natural angular frequency or, if that is larger, the load's. E, B0 and B1 are integrals of the matrix
+/// exponential [C. F. Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m modes.
+class ModalFlow {
+ public:
+  /// step in s, frequency in Hz (> 0). The lowest `max_modes` modes are taken; the others follow their static
+  /// deflection. A degree of freedom without mass is given 1e-9 of the mean mass. Nothing when the modes are not
+  /// found: mass neither positive definite nor zero on its diagonal. O(n^3).
+  static std::optional<ModalFlow> make(const LinearStructure& structure, double frequency, double step,
+                                       int max_modes);
+
+  Eigen::Index modes() const { return shapes_.cols(); }  ///< m
+  Eigen::Index states() const { return 2 * modes(); }
+
+  /// Takes a state over a step in which the contact forces (C, N) vanish at the end; to be followed by
+  /// add_force().
+  Eigen::VectorXd advance(const Eigen::VectorXd& state, const Eigen::VectorXd& force) const;
+  /// Adds what forces at the end of the step have caused.
+  void add_force(Eigen::VectorXd& state, const Eigen::VectorXd& force) const;
+
+  /// Displacements of the contacts (C, m) in a state, without the static deflection under present forces.
+  Eigen::VectorXd contact_displacement(const Eigen::VectorXd& state) const;
+  /// C x C, m/N: what forces at the end of a step take from the displacements there, static deflection of the
+  /// omitted modes included. Symmetric, not negative.
+  const Eigen::MatrixXd& step_compliance() const { return step_compliance_; }
+  /// State of a displacement (n, m) and a velocity (n, m/s). O(n m).
+  Eigen::VectorXd state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const;
+
+ private:
+  ModalFlow() = default;
+
+  Eigen::MatrixXd shapes_;      // n x m, mass-normalised
+  Eigen::MatrixXd projection_;  // m x n, shapes^T mass
+  Eigen::VectorXd sigma_;       // m, rad/s
+  Eigen::MatrixXd contact_;     // C x m
+  Eigen::MatrixXd exponential_, begin_, end_, step_compliance_;
+};
+
+}  // namespace wavebalance::solvers

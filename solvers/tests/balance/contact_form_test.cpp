@@ -1,0 +1,235 @@
+// The force form: the resolvents of laws, and responses to rigid and stiff laws with them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/balance/contact_form.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A rigid obstacle as a user writes it.
+struct Rigid {
+  double start;  // m
+  double force(double u) const { return u > start ? infinity : 0.0; }
+  double tangent(double u) const { return u >= start ? infinity : 0.0; }
+  double potential(double u) const { return u > start ? infinity : 0.0; }
+  double gap() const { return start; }
+  ForceSlope resolvent(double v, double flexibility) const {
+    return v < start ? ForceSlope{} : ForceSlope{(v - start) / flexibility, 1.0 / flexibility};
+  }
+};
+
+// Stops on both sides, and a cubic spring.
+struct TwoSided {
+  double stiffness = 1e6, start = 1e-3;
+  double force(double u) const {
+    return u > start ? stiffness * (u - start) : u < -start ? stiffness * (u + start) : 0.0;
+  }
+  double tangent(double u) const { return std::abs(u) >= start ? stiffness : 0.0; }
+  double potential(double u) const { return 0.5 * stiffness * std::pow(std::max(std::abs(u) - start, 0.0), 2); }
+  double gap() const { return start; }
+};
+struct Cubic {
+  double stiffness = 1e11, begin = 0.0;
+  double force(double u) const { return stiffness * u * u * u; }
+  double tangent(double u) const { return 3.0 * stiffness * u * u; }
+  double potential(double u) const { return 0.25 * stiffness * u * u * u * u; }
+  double gap() const { return begin; }
+};
+
+TEST(Resolvent, IsTheForceOfTheLawInSeriesWithASpring) {
+  const std::vector<AnyContactLaw> laws{testing::LinearContact{1e7, 1e-3}, testing::ExponentialLaw{},
+                                        testing::ExponentialLaw{1e8, 1e4, -2e-3}, TwoSided{}, Cubic{}};
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    for (const double flexibility : {1e-12, 1e-9, 1e-6, 1e-3})
+      for (const double v : {-0.2, -3e-3, 0.0, 0.9e-3, 1.1e-3, 2e-3, 0.02, 0.5}) {
+        SCOPED_TRACE(::testing::Message() << "law " << i << ", " << flexibility << " m/N, v = " << v);
+        const ForceSlope found = laws[i].resolvent(v, flexibility);
+        const double u = v - flexibility * found.force;
+        // As far as rounding of u decides the force.
+        const double rounding = 1e-15 * (std::abs(v) + std::abs(u)) * (laws[i].tangent(u) + 1.0 / flexibility);
+        EXPECT_NEAR(laws[i].force(u), found.force, 1e-9 * std::abs(found.force) + 10.0 * rounding);
+        const double tangent = laws[i].tangent(u);
+        EXPECT_NEAR(found.tangent, tangent / (1.0 + flexibility * tangent),
+                    1e-6 * found.tangent + 1e-6 / flexibility * (rounding > 0.0 ? 1e-3 : 0.0));
+      }
+}
+
+TEST(Resolvent, OfAResolventLawHasThePotentialOfLawAndSpring) {
+  const ResolventLaw law(testing::LinearContact{1e7, 1e-3}, 1e-6);
+  const double v = 3e-3, step = 1e-8;
+  EXPECT_NEAR((law.potential(v + step) - law.potential(v - step)) / (2.0 * step), law.force(v),
+              1e-6 * law.force(v));
+  EXPECT_EQ(law.force(0.9e-3), 0.0);
+  EXPECT_THROW(ResolventLaw(testing::LinearContact{1e7, 1e-3}, 0.0), std::invalid_argument);
+}
+
+TEST(ContactLaw, IsUnilateralUnlessItActsBelowItsGap) {
+  EXPECT_TRUE(AnyContactLaw().unilateral());
+  EXPECT_TRUE(AnyContactLaw(testing::LinearContact{1e7, 1e-3}).unilateral());
+  EXPECT_TRUE(AnyContactLaw(Rigid{1e-3}).unilateral());
+  EXPECT_FALSE(AnyContactLaw(TwoSided{}).unilateral());
+  EXPECT_FALSE(AnyContactLaw(TwoSided{1e6, -1e-3}).unilateral());
+  EXPECT_FALSE(AnyContactLaw(Cubic{}).unilateral());
+  EXPECT_TRUE(AnyContactLaw(Rigid{1e-3}).is_rigid());
+  EXPECT_FALSE(AnyContactLaw(testing::ExponentialLaw{}).is_rigid());
+}
+
+// The bar of JL14 whose tip has no mass: the neighbour takes it.
+LinearStructure massless_tip(LinearStructure bar) {
+  const Eigen::Index tip = bar.size() - 1;
+  Eigen::MatrixXd mass(bar.mass);
+  mass(tip - 1, tip - 1) += mass(tip, tip) + 2.0 * mass(tip, tip - 1);
+  mass.row(tip).setZero();
+  mass.col(tip).setZero();
+  bar.mass = mass.sparseView();
+  return bar;
+}
+
+CondensedProblem bar_problem(const testing::Jl14Case& one, TimePair pair) {
+  CondensedProblem problem(std::move(pair), massless_tip(one.structure()), testing::cosine_load());
+  problem.set_frequency(one.frequency_hz);
+  return problem;
+}
+
+Eigen::VectorXd tip_motion(CondensedProblem& problem, const PeriodicResponse& response) {
+  return TrialEvaluator(problem.pair().trial(), 4096, 0)(response.coefficients.col(0));
+}
+
+// Errors over the rms of the motion with 511 functions and 1024 points, itself good to about 3e-4.
+TEST(RigidContact, OfTheBarConvergesInDisplacement) {
+  const testing::Jl14Case& one = testing::jl14_case_2;
+  CondensedProblem fine = bar_problem(one, testing::fourier_pair(511, 1024));
+  const PeriodicResponse reference = forced_response(fine, Rigid{one.law.start}, {});
+  ASSERT_TRUE(reference.converged());
+  EXPECT_EQ(reference.strategy, Strategy::newton);
+  const Eigen::VectorXd exact = tip_motion(fine, reference);
+  for (const auto& [functions, bound] :
+       {std::pair{31, 6.1e-3}, std::pair{63, 2.9e-3}, std::pair{127, 7.5e-4}, std::pair{255, 3e-4}}) {
+    SCOPED_TRACE(functions);
+    CondensedProblem problem = bar_problem(one, testing::fourier_pair(functions, 2 * (functions + 1)));
+    const PeriodicResponse response = forced_response(problem, Rigid{one.law.start}, {});
+    ASSERT_TRUE(response.converged()) << to_string(response.status);
+    EXPECT_GT(response.regularization.size(), 0);
+    EXPECT_LE(response.iterations, 20);
+    EXPECT_GE(response.contact_force.minCoeff(), 0.0);
+    EXPECT_LE((tip_motion(problem, response) - exact).norm(), bound * exact.norm());
+  }
+}
+
+std::vector<TimePair> pairs_without_nyquist() {
+  const spectral::FourierBasis fourier(63);
+  return {testing::fourier_pair(63, 128), testing::fourier_pair(63, 256),
+          testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, 128)};
+}
+
+TEST(RigidContact, IsSolvedInEveryKindOfPair) {
+  for (const testing::Jl14Case* one : {&testing::jl14_case_1, &testing::jl14_case_2})
+    for (const TimePair& pair : pairs_without_nyquist()) {
+      CondensedProblem problem = bar_problem(*one, pair);
+      const PeriodicResponse response = forced_response(problem, Rigid{one->law.start}, {});
+      ASSERT_TRUE(response.converged()) << to_string(response.status);
+      EXPECT_GE(response.contact_force.minCoeff(), 0.0);
+      EXPECT_LE(response.displacement.maxCoeff(), 1.03 * one->law.start);
+      EXPECT_GT(response.contact_force.maxCoeff(), 0.2 * 250e3);
+    }
+}
+
+TEST(RigidContact, DependsOnEpsilonByLessThanTheDiscretisation) {
+  const testing::Jl14Case& one = testing::jl14_case_2;
+  CondensedProblem problem = bar_problem(one, testing::fourier_pair(127, 256));
+  const Eigen::VectorXd chosen =
+      contact_regularization(problem, Rigid{one.law.start}, ContactForm::automatic);
+  std::vector<Eigen::VectorXd> motions;
+  for (const double factor : {1.0, 3.0}) {
+    problem.set_regularization(factor * chosen);
+    ContactSystem system(problem, Rigid{one.law.start});
+    Eigen::VectorXd unknown = problem.contact_free_response();
+    ASSERT_EQ(newton(system, unknown, {}).status, SolveStatus::converged);
+    motions.push_back(problem.displacement(system.force()));
+  }
+  EXPECT_LE((motions[0] - motions[1]).norm(), 1e-3 * motions[0].norm());
+  EXPECT_GT((motions[0] - motions[1]).norm(), 0.0);
+}
+
+TEST(RigidContact, IsTheLimitOfStiffSprings) {
+  const testing::Jl14Case& one = testing::jl14_case_2;
+  CondensedProblem problem = bar_problem(one, testing::fourier_pair(63, 128));
+  const PeriodicResponse rigid = forced_response(problem, Rigid{one.law.start}, {});
+  ASSERT_TRUE(rigid.converged());
+  for (const double stiffness : {1e13, 1e16, 1e19}) {
+    ForcedResponseOptions options;
+    options.form = ContactForm::force;
+    const PeriodicResponse stiff =
+        forced_response(problem, testing::LinearContact{stiffness, one.law.start}, options);
+    ASSERT_TRUE(stiff.converged()) << stiffness;
+    EXPECT_LE((stiff.displacement - rigid.displacement).norm(), 1e13 / stiffness * 1e-3 * rigid.displacement.norm());
+  }
+}
+
+// Turning points by an independent computation: 1331.0 and 1314.839 Hz.
+TEST(RigidContact, IsSweptThroughBothTurningPoints) {
+  CondensedProblem problem(testing::fourier_pair(127, 512), massless_tip(testing::jl14_case_2.structure()),
+                           testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 1100.0;
+  options.to = 1700.0;
+  const FrequencySweep sweep = frequency_sweep(problem, Rigid{testing::jl14_case_2.law.start}, options);
+  EXPECT_EQ(sweep.status, SweepStatus::reached_end);
+  EXPECT_EQ(sweep.form, ContactForm::force);
+  ASSERT_EQ(sweep.turning_points.size(), 2u);
+  EXPECT_NEAR(sweep.turning_points[0].frequency, 1331.0, 0.2);
+  EXPECT_NEAR(sweep.turning_points[1].frequency, 1314.839, 0.02);
+  for (const SweepPoint& point : sweep.points)
+    EXPECT_LE(point.max_displacement, 1.005 * testing::jl14_case_2.law.start);
+}
+
+TEST(ContactForm, RefusesWhatItCannotSolve) {
+  CondensedProblem problem = bar_problem(testing::jl14_case_1, testing::fourier_pair(7, 16));
+  EXPECT_THROW(contact_regularization(problem, Rigid{1e-3}, ContactForm::displacement), std::invalid_argument);
+  EXPECT_THROW(contact_regularization(problem, TwoSided{}, ContactForm::force), std::invalid_argument);
+  EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::automatic).size(), 0);
+  EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::force).size(), 1);
+  EXPECT_THROW(problem.set_regularization(Eigen::VectorXd::Ones(2)), std::invalid_argument);
+  EXPECT_THROW(problem.set_regularization(-Eigen::VectorXd::Ones(1)), std::invalid_argument);
+}
+
+// A law that also pushes on the other side was taken for a one-sided one, and its motion called converged.
+TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
+  const double k = 1e5;
+  const Eigen::Matrix3d stiffness{{2 * k, -k, 0}, {-k, 2 * k, -k}, {0, -k, k}};
+  LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(), 1e-4 * stiffness.sparseView(),
+                        stiffness.sparseView(), Eigen::Vector3d(0, 0, 50), {2}};
+  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
+  const std::vector<AnyContactLaw> laws{TwoSided{},     TwoSided{1e6, -1e-3}, TwoSided{1e4, 1e-3}, Cubic{},
+                                        Cubic{1e11, -1.0}, Cubic{1e11, 1e-3}};
+  int solved = 0;
+  for (const AnyContactLaw& law : laws)
+    for (const double frequency : {10.0, 20.0, 30.0}) {
+      problem.set_frequency(frequency);
+      const PeriodicResponse response = forced_response(problem, law, {});
+      if (!response.converged()) continue;
+      ++solved;
+      Eigen::VectorXd force(problem.samples()), tangent(problem.samples()), product;
+      ContactLaws(law).evaluate(1, response.displacement, force, tangent);
+      problem.apply(force, product);
+      EXPECT_LE((response.displacement - problem.contact_free_response() + product).norm(),
+                1e-9 * (problem.contact_free_response().norm() + product.norm()));
+      EXPECT_FALSE(response.force_by_balance);
+    }
+  EXPECT_GE(solved, 12);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

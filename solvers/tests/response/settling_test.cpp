@@ -1,0 +1,129 @@
+// Motions that structures at rest settle to, and continuation from approximate motions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "structure/modal_flow.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/continuation/residual_homotopy.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/settling.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::LinearContact;
+
+// q'' + c q' + k q = -f with f rising linearly: a particular solution of first degree, and free decay.
+TEST(ModalFlow, IsExactForForcesLinearInTime) {
+  const testing::Oscillator one;
+  const double step = 0.013, from = 3.0, to = -5.0;
+  const auto flow = ModalFlow::make(one.structure(), 25.0, step, 10);
+  ASSERT_TRUE(flow);
+  const double k = one.stiffness, c = one.damping, m = one.mass, rate = (to - from) / step;
+  const double offset = -(from - c * rate / k) / k;  // particular solution offset - rate t / k
+  const double u0 = 2e-3, v0 = 0.1;
+  const double decay = 0.5 * c / m, natural = std::sqrt(k / m - decay * decay);
+  const double a = u0 - offset, b = (v0 + rate / k + decay * a) / natural;
+  const double expected = offset - rate * step / k +
+                          std::exp(-decay * step) * (a * std::cos(natural * step) + b * std::sin(natural * step));
+  const Eigen::VectorXd start = flow->state(Eigen::VectorXd::Constant(1, u0), Eigen::VectorXd::Constant(1, v0));
+  Eigen::VectorXd end = flow->advance(start, Eigen::VectorXd::Constant(1, from));
+  const double without_end = flow->contact_displacement(end)[0];
+  flow->add_force(end, Eigen::VectorXd::Constant(1, to));
+  EXPECT_NEAR(flow->contact_displacement(end)[0], expected, 1e-12 * u0);
+  EXPECT_NEAR(without_end - flow->step_compliance()(0, 0) * to, expected, 1e-12 * u0);
+}
+
+TEST(ModalFlow, KeepsTheStaticDeflectionOfOmittedModes) {
+  const LinearStructure bar = testing::jl14_case_1.structure();
+  const double step = 1e-2;  // long against every period: what remains at its end is static
+  const auto all = ModalFlow::make(bar, 150.0, 1e3 * step, 100), few = ModalFlow::make(bar, 150.0, 1e3 * step, 5);
+  ASSERT_TRUE(all && few);
+  EXPECT_EQ(few->modes(), 5);
+  const Eigen::VectorXd force = Eigen::VectorXd::Ones(1);
+  const auto deflection = [&](const ModalFlow& flow) {
+    Eigen::VectorXd state = flow.advance(Eigen::VectorXd::Zero(flow.states()), force);
+    const double predicted = flow.contact_displacement(state)[0];
+    return predicted - flow.step_compliance()(0, 0);
+  };
+  EXPECT_NEAR(deflection(*few), deflection(*all), 1e-6 * std::abs(deflection(*all)));
+}
+
+CondensedProblem oscillator_problem(double frequency) {
+  CondensedProblem problem(testing::fourier_pair(63, 256), testing::Oscillator{}.structure(), testing::cosine_load());
+  problem.set_frequency(frequency);
+  return problem;
+}
+
+TEST(Settling, WithoutContactArrivesAtTheResponseOfTheLoad) {
+  const CondensedProblem problem = oscillator_problem(25.0);
+  const SettledMotion motion = settle(problem, AnyContactLaw());
+  EXPECT_EQ(motion.attractor_periods, 1);
+  const Eigen::VectorXd samples = resample(motion.displacement, 256);
+  EXPECT_LE((samples - problem.contact_free_response()).norm(), 1e-5 * samples.norm());
+}
+
+TEST(Settling, AgainstAStopArrivesAtTheForcedResponse) {
+  CondensedProblem problem = oscillator_problem(27.0);
+  const LinearContact stop{2e4, 0.4e-3};
+  const SettledMotion motion = settle(problem, stop);
+  ASSERT_EQ(motion.attractor_periods, 1);
+  const PeriodicResponse response = forced_response(problem, stop, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_LE((resample(motion.displacement, 256) - response.displacement).norm(), 1e-3 * response.displacement.norm());
+  EXPECT_LE((resample(motion.force, 256) - response.contact_force).norm(), 1e-2 * response.contact_force.norm());
+}
+
+// The preloaded impact oscillator has ranges of frequency with motions of two and more periods.
+TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
+  testing::Oscillator one{.mass = 1.0, .damping = 0.1, .stiffness = 1.0, .load = 1.0};
+  CondensedProblem problem(testing::fourier_pair(31, 64), one.structure(), testing::cosine_load());
+  int subharmonic = 0;
+  for (double omega = 2.2; omega < 4.4; omega += 0.2) {
+    problem.set_frequency(omega / (2.0 * std::numbers::pi));
+    SettlingOptions options;
+    const SettledMotion motion = settle(problem, LinearContact{100.0, 0.0}, options);
+    EXPECT_GE(motion.attractor_periods, 0);
+    if (motion.attractor_periods > 1) ++subharmonic;
+  }
+  EXPECT_GE(subharmonic, 2);
+}
+
+TEST(Settling, ReportsWhatItCannotIntegrateAndStopsWhenAsked) {
+  const CondensedProblem problem = oscillator_problem(25.0);
+  SettlingOptions small;
+  small.max_size = 0;
+  EXPECT_EQ(settle(problem, AnyContactLaw(), small).attractor_periods, SettledMotion::not_integrated);
+  SettlingOptions stopped;
+  int periods = 0;
+  stopped.observer = [&](const Progress& progress) {
+    EXPECT_EQ(progress.phase, "settling");
+    return ++periods < 3;
+  };
+  EXPECT_TRUE(settle(problem, AnyContactLaw(), stopped).cancelled);
+  EXPECT_EQ(periods, 3);
+  SettlingOptions wrong;
+  wrong.steps = 0;
+  EXPECT_THROW(settle(problem, AnyContactLaw(), wrong), std::invalid_argument);
+}
+
+TEST(ResidualHomotopy, LeadsFromAnApproximateMotionToASolution) {
+  CondensedProblem problem = oscillator_problem(27.0);
+  ContactSystem system(problem, LinearContact{9e4, 0.4e-3});
+  Eigen::VectorXd u = 1.2 * problem.contact_free_response();
+  ASSERT_EQ(residual_homotopy(system, u, {}), HomotopyStatus::arrived);
+  EXPECT_LE(system.evaluate(u), 1e-6);
+  ResidualHomotopyOptions one;
+  one.max_points = 1;
+  Eigen::VectorXd start = 3.0 * problem.contact_free_response();
+  EXPECT_EQ(residual_homotopy(system, start, one), HomotopyStatus::effort_limit);
+  one.max_points = 0;
+  EXPECT_THROW(residual_homotopy(system, start, one), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
