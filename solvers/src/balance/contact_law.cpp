@@ -32,9 +32,9 @@ bool AnyContactLaw::is_rigid() const {
   return std::isfinite(at) && std::isinf(tangent(at));
 }
 
-// Newton on r(u) = u + c force(u) - v, which rises with slope 1 + c tangent, within the bracket that its signs
-// make; halves it where a step leaves it. A force that opposes the displacement keeps u between v and the
-// first point at which the force is zero, which doubling finds.
+// Newton on r(u) = u + c force(u) - v, which rises with slope 1 + c tangent, within the bracket that its
+// signs make; halves it where a step leaves it. A force that opposes the displacement keeps u between v and
+// the first point at which the force is zero, which doubling finds.
 ForceSlope AnyContactLaw::solve_resolvent(const Interface& law, double v, double flexibility) {
   constexpr int max_iterations = 200;
   constexpr double eps = std::numeric_limits<double>::epsilon();

@@ -27,7 +27,9 @@ void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::Vector
   active_ = (tangent.array() != 0.0).count();
   // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
   const bool decays = problem.regularization().size() == 0;
-  const Eigen::Index limit = !decays ? largest_dense : problem.contacts() == 1 ? crossover : crossover_of_several;
+  const Eigen::Index limit = !decays                   ? largest_dense
+                             : problem.contacts() == 1 ? crossover
+                                                       : crossover_of_several;
   const bool large = active_ > limit;
   const bool given_up = krylov_failed_ && active_ <= largest_dense;
   const bool krylov =

@@ -90,7 +90,8 @@ class ContactEquation {
   }
   bool goes_on(int iterations) {
     exhausted_ = system_.operations() - first_operations_ > options_.max_operations;
-    return !exhausted_ && solvers::goes_on(options_.observer, {"Newton", iterations, residual_, "relative residual"});
+    return !exhausted_ &&
+           solvers::goes_on(options_.observer, {"Newton", iterations, residual_, "relative residual"});
   }
 
   NewtonResult solve(Eigen::VectorXd& u) {

@@ -81,7 +81,8 @@ Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, 
   NewtonOptions newton_options = task.options.newton;
   newton_options.observer = task.options.observer;
   if (strategy != Strategy::newton)
-    newton_options.max_operations = std::min(newton_options.max_operations, task.options.max_fallback_operations);
+    newton_options.max_operations =
+        std::min(newton_options.max_operations, task.options.max_fallback_operations);
   candidate.newton = newton(system, candidate.unknown, newton_options);
   candidate.iterations += candidate.newton.iterations;
   if (candidate.converged()) candidate.strategy = strategy;
@@ -133,6 +134,7 @@ Candidate try_complementarity(const Task& task) {
   candidate.newton.residual = std::numeric_limits<double>::infinity();
   candidate.newton.status = found.status;
   if (!found.found) return candidate;
+  candidate.newton.status = SolveStatus::stalled;
   candidate.unknown = found.displacement;
   if (found.rounding <= largest_rounding)
     candidate = improve(task, system, std::move(candidate), found.strategy);

@@ -152,7 +152,8 @@ class Sweep {
     system_.evaluate(point.displacement);
     result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
     const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
-    SweepPoint measured{point.parameter, -infinity, 0.0, 0.0, system_.force().maxCoeff(), point.residual, point.grazing};
+    SweepPoint measured{point.parameter, -infinity,    0.0, 0.0, system_.force().maxCoeff(),
+                        point.residual,  point.grazing};
     for (int c = 0; c < problem_.contacts(); ++c) {
       const Eigen::VectorXd u = evaluator_(coefficients.col(c));
       measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());

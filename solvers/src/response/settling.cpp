@@ -17,8 +17,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Contact forces f at the end of a step with f_c = law_c(predicted_c - (D f)_c), D the compliance of the step:
-// Gauss-Seidel, each force by its resolvent for the flexibility D_cc.
+// Contact forces f at the end of a step with f_c = law_c(predicted_c - (D f)_c), D the compliance of the
+// step: Gauss-Seidel, each force by its resolvent for the flexibility D_cc.
 void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
                   const Eigen::VectorXd& predicted, Eigen::VectorXd& force) {
   constexpr int max_rounds = 200;
@@ -27,8 +27,7 @@ void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
     double change = 0.0;
     for (Eigen::Index c = 0; c < force.size(); ++c) {
       const double others = compliance.row(c).dot(force) - compliance(c, c) * force[c];
-      const double next =
-          laws[static_cast<int>(c)].resolvent(predicted[c] - others, compliance(c, c)).force;
+      const double next = laws[static_cast<int>(c)].resolvent(predicted[c] - others, compliance(c, c)).force;
       change = std::max(change, std::abs(next - force[c]));
       force[c] = next;
     }

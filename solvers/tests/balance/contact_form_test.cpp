@@ -37,7 +37,9 @@ struct TwoSided {
     return u > start ? stiffness * (u - start) : u < -start ? stiffness * (u + start) : 0.0;
   }
   double tangent(double u) const { return std::abs(u) >= start ? stiffness : 0.0; }
-  double potential(double u) const { return 0.5 * stiffness * std::pow(std::max(std::abs(u) - start, 0.0), 2); }
+  double potential(double u) const {
+    return 0.5 * stiffness * std::pow(std::max(std::abs(u) - start, 0.0), 2);
+  }
   double gap() const { return start; }
 };
 struct Cubic {
@@ -58,7 +60,8 @@ TEST(Resolvent, IsTheForceOfTheLawInSeriesWithASpring) {
         const ForceSlope found = laws[i].resolvent(v, flexibility);
         const double u = v - flexibility * found.force;
         // As far as rounding of u decides the force.
-        const double rounding = 1e-15 * (std::abs(v) + std::abs(u)) * (laws[i].tangent(u) + 1.0 / flexibility);
+        const double rounding =
+            1e-15 * (std::abs(v) + std::abs(u)) * (laws[i].tangent(u) + 1.0 / flexibility);
         EXPECT_NEAR(laws[i].force(u), found.force, 1e-9 * std::abs(found.force) + 10.0 * rounding);
         const double tangent = laws[i].tangent(u);
         EXPECT_NEAR(found.tangent, tangent / (1.0 + flexibility * tangent),
@@ -174,7 +177,8 @@ TEST(RigidContact, IsTheLimitOfStiffSprings) {
     const PeriodicResponse stiff =
         forced_response(problem, testing::LinearContact{stiffness, one.law.start}, options);
     ASSERT_TRUE(stiff.converged()) << stiffness;
-    EXPECT_LE((stiff.displacement - rigid.displacement).norm(), 1e13 / stiffness * 1e-3 * rigid.displacement.norm());
+    EXPECT_LE((stiff.displacement - rigid.displacement).norm(),
+              1e13 / stiffness * 1e-3 * rigid.displacement.norm());
   }
 }
 
@@ -197,9 +201,11 @@ TEST(RigidContact, IsSweptThroughBothTurningPoints) {
 
 TEST(ContactForm, RefusesWhatItCannotSolve) {
   CondensedProblem problem = bar_problem(testing::jl14_case_1, testing::fourier_pair(7, 16));
-  EXPECT_THROW(contact_regularization(problem, Rigid{1e-3}, ContactForm::displacement), std::invalid_argument);
+  EXPECT_THROW(contact_regularization(problem, Rigid{1e-3}, ContactForm::displacement),
+               std::invalid_argument);
   EXPECT_THROW(contact_regularization(problem, TwoSided{}, ContactForm::force), std::invalid_argument);
-  EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::automatic).size(), 0);
+  EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::automatic).size(),
+            0);
   EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::force).size(), 1);
   EXPECT_THROW(problem.set_regularization(Eigen::VectorXd::Ones(2)), std::invalid_argument);
   EXPECT_THROW(problem.set_regularization(-Eigen::VectorXd::Ones(1)), std::invalid_argument);
@@ -209,11 +215,14 @@ TEST(ContactForm, RefusesWhatItCannotSolve) {
 TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
   const double k = 1e5;
   const Eigen::Matrix3d stiffness{{2 * k, -k, 0}, {-k, 2 * k, -k}, {0, -k, k}};
-  LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(), 1e-4 * stiffness.sparseView(),
-                        stiffness.sparseView(), Eigen::Vector3d(0, 0, 50), {2}};
+  LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(),
+                        1e-4 * stiffness.sparseView(),
+                        stiffness.sparseView(),
+                        Eigen::Vector3d(0, 0, 50),
+                        {2}};
   CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
-  const std::vector<AnyContactLaw> laws{TwoSided{},     TwoSided{1e6, -1e-3}, TwoSided{1e4, 1e-3}, Cubic{},
-                                        Cubic{1e11, -1.0}, Cubic{1e11, 1e-3}};
+  const std::vector<AnyContactLaw> laws{TwoSided{}, TwoSided{1e6, -1e-3}, TwoSided{1e4, 1e-3},
+                                        Cubic{},    Cubic{1e11, -1.0},    Cubic{1e11, 1e-3}};
   int solved = 0;
   for (const AnyContactLaw& law : laws)
     for (const double frequency : {10.0, 20.0, 30.0}) {

@@ -191,7 +191,10 @@ TEST(ForcedResponse, IsCancelledByItsObserverInTheNewtonIterationAfterThePaths) 
 TEST(ForcedResponse, SaysWhenItsOperationsAreUsedUp) {
   CondensedProblem problem = stiff_haar_problem();
   ForcedResponseOptions options;
+  options.form = ContactForm::displacement;
   options.paths.max_operations = 1.0;
+  options.settling.max_size = 0;  // nothing but Newton's method and the paths
+  options.continuation.max_points = 1;
   EXPECT_EQ(forced_response(problem, testing::jl14_case_2.law, options).status, SolveStatus::effort_limit);
 }
 

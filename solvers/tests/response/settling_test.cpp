@@ -28,9 +28,11 @@ TEST(ModalFlow, IsExactForForcesLinearInTime) {
   const double u0 = 2e-3, v0 = 0.1;
   const double decay = 0.5 * c / m, natural = std::sqrt(k / m - decay * decay);
   const double a = u0 - offset, b = (v0 + rate / k + decay * a) / natural;
-  const double expected = offset - rate * step / k +
-                          std::exp(-decay * step) * (a * std::cos(natural * step) + b * std::sin(natural * step));
-  const Eigen::VectorXd start = flow->state(Eigen::VectorXd::Constant(1, u0), Eigen::VectorXd::Constant(1, v0));
+  const double expected =
+      offset - rate * step / k +
+      std::exp(-decay * step) * (a * std::cos(natural * step) + b * std::sin(natural * step));
+  const Eigen::VectorXd start =
+      flow->state(Eigen::VectorXd::Constant(1, u0), Eigen::VectorXd::Constant(1, v0));
   Eigen::VectorXd end = flow->advance(start, Eigen::VectorXd::Constant(1, from));
   const double without_end = flow->contact_displacement(end)[0];
   flow->add_force(end, Eigen::VectorXd::Constant(1, to));
@@ -41,7 +43,8 @@ TEST(ModalFlow, IsExactForForcesLinearInTime) {
 TEST(ModalFlow, KeepsTheStaticDeflectionOfOmittedModes) {
   const LinearStructure bar = testing::jl14_case_1.structure();
   const double step = 1e-2;  // long against every period: what remains at its end is static
-  const auto all = ModalFlow::make(bar, 150.0, 1e3 * step, 100), few = ModalFlow::make(bar, 150.0, 1e3 * step, 5);
+  const auto all = ModalFlow::make(bar, 150.0, 1e3 * step, 100),
+             few = ModalFlow::make(bar, 150.0, 1e3 * step, 5);
   ASSERT_TRUE(all && few);
   EXPECT_EQ(few->modes(), 5);
   const Eigen::VectorXd force = Eigen::VectorXd::Ones(1);
@@ -54,7 +57,8 @@ TEST(ModalFlow, KeepsTheStaticDeflectionOfOmittedModes) {
 }
 
 CondensedProblem oscillator_problem(double frequency) {
-  CondensedProblem problem(testing::fourier_pair(63, 256), testing::Oscillator{}.structure(), testing::cosine_load());
+  CondensedProblem problem(testing::fourier_pair(63, 256), testing::Oscillator{}.structure(),
+                           testing::cosine_load());
   problem.set_frequency(frequency);
   return problem;
 }
@@ -74,8 +78,10 @@ TEST(Settling, AgainstAStopArrivesAtTheForcedResponse) {
   ASSERT_EQ(motion.attractor_periods, 1);
   const PeriodicResponse response = forced_response(problem, stop, {});
   ASSERT_TRUE(response.converged());
-  EXPECT_LE((resample(motion.displacement, 256) - response.displacement).norm(), 1e-3 * response.displacement.norm());
-  EXPECT_LE((resample(motion.force, 256) - response.contact_force).norm(), 1e-2 * response.contact_force.norm());
+  EXPECT_LE((resample(motion.displacement, 256) - response.displacement).norm(),
+            1e-3 * response.displacement.norm());
+  EXPECT_LE((resample(motion.force, 256) - response.contact_force).norm(),
+            1e-2 * response.contact_force.norm());
 }
 
 // The preloaded impact oscillator has ranges of frequency with motions of two and more periods.
