@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "complementarity/josephy_newton.hpp"
 
@@ -149,24 +148,11 @@ Candidate try_complementarity(const Task& task) {
   return candidate;
 }
 
-/// The forms in the order in which they are tried: that of the options, and where it is left open the other.
-std::vector<Eigen::VectorXd> forms_of(const Task& task) {
-  const auto in = [&](ContactForm form) { return contact_regularization(task.problem, task.laws, form); };
-  const ContactForm asked = task.options.form;
-  std::vector<Eigen::VectorXd> forms{in(asked)};
-  if (asked != ContactForm::automatic || !task.laws.unilateral()) return forms;
-  if (forms.front().size() == 0)
-    forms.push_back(in(ContactForm::force));
-  else if (task.laws.have_finite_force())
-    forms.emplace_back();
-  return forms;
-}
-
 Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_periods) {
-  const std::vector<Eigen::VectorXd> forms = forms_of(task);
+  const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
   const Start first{guess.size() != 0 ? guess : task.problem.contact_free_response(), {}};
   Start start = first;
-  Candidate best = try_newton(task, forms.front(), start, Strategy::newton);
+  Candidate best = try_newton(task, form, start, Strategy::newton);
   if (best.ended() || !task.options.fallbacks) return best;
   if (task.laws.unilateral() && task.laws.have_finite_force() && task.options.form != ContactForm::force)
     best = better(std::move(best), try_complementarity(task));
@@ -181,14 +167,11 @@ Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_p
   if (settled)
     start = {resample(motion.displacement, task.problem.points(), motion.start),
              resample(motion.force, task.problem.points(), motion.start)};
-  const Strategy from = settled ? Strategy::settling : Strategy::newton;
-  for (std::size_t i = settled ? 0 : 1; i < forms.size() && !best.ended(); ++i)
-    best = better(std::move(best), try_newton(task, forms[i], start, from));
+  if (settled) best = better(std::move(best), try_newton(task, form, start, Strategy::settling));
+  if (best.ended()) return best;
   // A structure that does not settle to a motion of the load's period may have an unstable one.
   if (attractor_periods != 1) start = first;
-  for (std::size_t i = 0; i < forms.size() && !best.ended(); ++i)
-    best = better(std::move(best), try_continuation(task, forms[i], start));
-  return best;
+  return better(std::move(best), try_continuation(task, form, start));
 }
 
 PeriodicResponse response_of(const Task& task, Candidate candidate) {

@@ -14,7 +14,7 @@ struct ForcedResponseOptions {
   NewtonOptions newton;
   ContactForm form = ContactForm::automatic;
   /// Whether more than Newton's method from the start is tried: the complementarity problem of the contact
-  /// forces, the motion that the structure settles to, the other form, and continuation.
+  /// forces, the motion that the structure settles to, and continuation.
   bool fallbacks = true;
   double max_fallback_operations = 1e10;  ///< of each further Newton run
   SettlingOptions settling;              ///< its observer is not used
