@@ -64,6 +64,9 @@ void CondensedProblem::set_regularization(Eigen::VectorXd flexibility) {
   if (!flexibility.allFinite() || (flexibility.array() < 0.0).any())
     throw std::invalid_argument(
         "CondensedProblem::set_regularization: every flexibility must be at least 0 m/N and finite");
+  const bool same =
+      flexibility.size() == regularization_.size() && (flexibility.array() == regularization_.array()).all();
+  if (same) return;  // and the columns stay
   regularization_ = std::move(flexibility);
   if (frequency_ > 0.0) update_kernel();
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "complementarity/josephy_newton.hpp"
+#include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -53,6 +54,18 @@ Candidate better(Candidate before, Candidate next) {
   if (next.newton.status == SolveStatus::effort_limit) before.newton.status = next.newton.status;
   return before;
 }
+
+/// Leaves the problem in the displacement form, also where an exception is thrown.
+class DisplacementFormAtTheEnd {
+ public:
+  explicit DisplacementFormAtTheEnd(CondensedProblem& problem) : problem_(problem) {}
+  ~DisplacementFormAtTheEnd() { problem_.set_regularization({}); }
+  DisplacementFormAtTheEnd(const DisplacementFormAtTheEnd&) = delete;
+  DisplacementFormAtTheEnd& operator=(const DisplacementFormAtTheEnd&) = delete;
+
+ private:
+  CondensedProblem& problem_;
+};
 
 /// The problem, its laws and options, as all attempts see them.
 struct Task {
@@ -151,8 +164,7 @@ Candidate try_complementarity(const Task& task) {
 Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_periods) {
   const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
   const Start first{guess.size() != 0 ? guess : task.problem.contact_free_response(), {}};
-  Start start = first;
-  Candidate best = try_newton(task, form, start, Strategy::newton);
+  Candidate best = try_newton(task, form, first, Strategy::newton);
   if (best.ended() || !task.options.fallbacks) return best;
   if (task.laws.unilateral() && task.laws.have_finite_force() && task.options.form != ContactForm::force)
     best = better(std::move(best), try_complementarity(task));
@@ -163,15 +175,14 @@ Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_p
   attractor_periods = motion.attractor_periods;
   if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
   if (motion.cancelled) return best;
-  const bool settled = attractor_periods != SettledMotion::not_integrated;
-  if (settled)
-    start = {resample(motion.displacement, task.problem.points(), motion.start),
-             resample(motion.force, task.problem.points(), motion.start)};
-  if (settled) best = better(std::move(best), try_newton(task, form, start, Strategy::settling));
+  if (attractor_periods == SettledMotion::not_integrated)
+    return better(std::move(best), try_continuation(task, form, first));
+  const Start settled{resample(motion.displacement, task.problem.points(), motion.start),
+                      resample(motion.force, task.problem.points(), motion.start)};
+  best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
   if (best.ended()) return best;
   // A structure that does not settle to a motion of the load's period may have an unstable one.
-  if (attractor_periods != 1) start = first;
-  return better(std::move(best), try_continuation(task, form, start));
+  return better(std::move(best), try_continuation(task, form, attractor_periods == 1 ? settled : first));
 }
 
 PeriodicResponse response_of(const Task& task, Candidate candidate) {
@@ -204,6 +215,7 @@ void ForcedResponseOptions::validate() const {
   paths.validate();
   settling.validate();
   continuation.validate();
+  detail::require_positive("ForcedResponseOptions", "max_fallback_operations", max_fallback_operations);
 }
 
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
@@ -211,11 +223,11 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   options.validate();
   require_start(problem, guess);
   laws.require(problem.contacts());
+  const DisplacementFormAtTheEnd restored(problem);
   const Task task{problem, laws, options};
   int attractor_periods = SettledMotion::not_integrated;
   Candidate candidate = solve(task, guess, attractor_periods);
   PeriodicResponse response = response_of(task, std::move(candidate));
-  problem.set_regularization({});
   response.attractor_periods = attractor_periods;
   return response;
 }

@@ -101,14 +101,12 @@ class Settling {
     result.displacement = free_;
     result.force = Eigen::MatrixXd::Zero(free_.rows(), free_.cols());
     std::deque<Eigen::VectorXd> past{state_};
-    for (result.attractor_periods = 0; result.periods < options_.max_periods; ++result.periods) {
-      if (!state_.allFinite()) return result;
+    while (result.periods < options_.max_periods) {
       integrate_period(result);
-      const double scale = (state_ + free_state_).norm();
-      int repeats = 0;
-      for (std::size_t q = 1; q <= past.size() && repeats == 0; ++q)
-        if ((state_ - past[q - 1]).norm() <= options_.tolerance * scale) repeats = static_cast<int>(q);
-      const double change = (state_ - past.front()).norm() / scale;
+      ++result.periods;
+      if (!state_.allFinite()) return result;  // an undamped mode that is loaded at its own frequency
+      const double change = (state_ - past.front()).norm() / (state_ + free_state_).norm();
+      const int repeats = periods_to(past);
       past.push_front(state_);
       if (past.size() > static_cast<std::size_t>(options_.longest)) past.pop_back();
       constexpr int transient = 50;  // before a motion is taken for one of several periods
@@ -116,17 +114,24 @@ class Settling {
         result.attractor_periods = repeats;
         return result;
       }
-      const Progress progress{"settling", result.periods + 1, change, "relative change per period",
-                              double(result.periods + 1) / options_.max_periods};
-      if (!goes_on(options_.observer, progress)) {
-        result.cancelled = true;
-        return result;
-      }
+      const Progress progress{"settling", result.periods, change, "relative change per period",
+                              double(result.periods) / options_.max_periods};
+      result.cancelled = !goes_on(options_.observer, progress);
+      if (result.cancelled) return result;
     }
+    result.attractor_periods = 0;
     return result;
   }
 
  private:
+  // After how many periods the state repeats one of the past ones, the latest first; 0 for none.
+  int periods_to(const std::deque<Eigen::VectorXd>& past) const {
+    const double close = options_.tolerance * (state_ + free_state_).norm();
+    const auto found = std::find_if(past.begin(), past.end(),
+                                    [&](const auto& one) { return (state_ - one).norm() <= close; });
+    return found == past.end() ? 0 : 1 + static_cast<int>(found - past.begin());
+  }
+
   void integrate_period(SettledMotion& result) {
     const Eigen::MatrixXd& compliance = flow_.step_compliance();
     for (int k = 0; k < options_.steps; ++k) {

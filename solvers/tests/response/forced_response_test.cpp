@@ -200,7 +200,8 @@ TEST(ForcedResponse, SaysWhenItsOperationsAreUsedUp) {
 
 TEST(ForcedResponse, RefusesOptionsOutOfRange) {
   CondensedProblem problem = case_1(7, 32);
-  std::vector<ForcedResponseOptions> wrong(6);
+  std::vector<ForcedResponseOptions> wrong(7);
+  wrong[6].max_fallback_operations = 0.0;
   wrong[0].newton.max_iterations = -1;
   wrong[1].newton.tolerance = 0.0;
   wrong[2].newton.min_step = -1.0;

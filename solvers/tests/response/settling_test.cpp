@@ -104,6 +104,11 @@ TEST(Settling, ReportsWhatItCannotIntegrateAndStopsWhenAsked) {
   SettlingOptions small;
   small.max_size = 0;
   EXPECT_EQ(settle(problem, AnyContactLaw(), small).attractor_periods, SettledMotion::not_integrated);
+  testing::Oscillator undamped;
+  undamped.damping = 0.0;
+  CondensedProblem resonant(testing::fourier_pair(7, 32), undamped.structure(), testing::cosine_load());
+  resonant.set_frequency(25.0);
+  EXPECT_EQ(settle(resonant, AnyContactLaw()).attractor_periods, 0);  // it beats for ever
   SettlingOptions stopped;
   int periods = 0;
   stopped.observer = [&](const Progress& progress) {
