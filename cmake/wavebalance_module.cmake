@@ -43,24 +43,28 @@ endfunction()
 function(wavebalance_add_room room)
   cmake_parse_arguments(PARSE_ARGV 1 R "" "" "SOURCES;HEADERS")
   list(TRANSFORM R_SOURCES REPLACE "(.+)" "src/${room}/\\1.cpp")
+  set_source_files_properties(${R_SOURCES} PROPERTIES UNITY_GROUP ${room})
   list(TRANSFORM R_HEADERS REPLACE "(.+)" "${include}/${room}/\\1.hpp")
   set(sources ${sources} ${R_SOURCES} PARENT_SCOPE)
   set(headers ${headers} ${R_HEADERS} PARENT_SCOPE)
 endfunction()
 
-# wavebalance_precompile_headers(target): what nearly every source of a library parses. Eigen/Core alone takes longer
-# to parse than most sources take to compile.
+# wavebalance_precompile_headers(target): what nearly every source parses, compiled once for all modules. Eigen/Core alone
+# takes longer to parse than most sources take to compile.
 function(wavebalance_precompile_headers target)
-  target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <functional> <limits>
-    <memory> <stdexcept> <string> <vector>)
-  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>")  # lets ccache keep the objects
-endfunction()
-
-# wavebalance_reuse_headers(target from): the headers that the library `from` precompiles, for a library that is compiled
-# with the same options.
-function(wavebalance_reuse_headers target from)
-  target_precompile_headers(${target} REUSE_FROM ${from})
-  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>")
+  if(NOT TARGET wavebalance_headers)
+    find_package(Eigen3 3.4 CONFIG REQUIRED)
+    set(source ${PROJECT_BINARY_DIR}/headers.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "")
+    add_library(wavebalance_headers STATIC ${source})
+    target_compile_features(wavebalance_headers PRIVATE cxx_std_20)
+    target_link_libraries(wavebalance_headers PRIVATE Eigen3::Eigen)
+    target_compile_options(wavebalance_headers PRIVATE $<$<CONFIG:Release>:-O2>)
+    wavebalance_set_warnings(wavebalance_headers)
+    target_precompile_headers(wavebalance_headers PRIVATE <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath>
+      <functional> <limits> <memory> <stdexcept> <string> <vector>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM wavebalance_headers)
 endfunction()
 
 # wavebalance_set_hot(<sources>): loops that -O3 makes faster than the -O2 of all other sources.

@@ -19,7 +19,7 @@ function(wavebalance_set_test_options target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   # At -O1 gcc 12 sees bounds and initialisation less well than it warns about them.
   target_compile_options(${target} PRIVATE
-    "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 endfunction()
 
 # wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>]
@@ -33,6 +33,7 @@ function(wavebalance_add_test program)
   cmake_parse_arguments(PARSE_ARGV 1 T "" "CASES;LABEL" "SOURCES;LINK;PROPERTIES")
   if(NOT TARGET ${program})
     add_executable(${program})
+    set_target_properties(${program} PROPERTIES UNITY_BUILD OFF)  # sources of tests use the same names
     wavebalance_add_test_headers()
     wavebalance_set_test_options(${program})
     target_link_libraries(${program} PRIVATE GTest::gtest_main rapidcheck_gtest)
@@ -100,6 +101,7 @@ function(wavebalance_add_readme_test module)
   file(CONFIGURE OUTPUT ${source} CONTENT "${program}" @ONLY)
   add_executable(${module}_readme ${source})
   target_link_libraries(${module}_readme PRIVATE ${R_LINK})
+  target_compile_options(${module}_readme PRIVATE $<$<CONFIG:Release>:-O1>)
   add_test(NAME ${module}.readme_program_runs COMMAND ${module}_readme)
   set_tests_properties(${module}.readme_program_runs PROPERTIES LABELS unit)
 endfunction()

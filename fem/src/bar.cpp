@@ -9,7 +9,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-void require_positive(const char* member, double value) {
+void require_bar_positive(const char* member, double value) {
   detail::require_value(value > 0.0 && std::isfinite(value), "BarOptions", member, value,
                         "positive and finite");
 }
@@ -41,10 +41,10 @@ Sparse chain(int nodes, double near, double coupling) {
 }  // namespace
 
 void BarOptions::validate() const {
-  require_positive("youngs_modulus", youngs_modulus);
-  require_positive("density", density);
-  require_positive("area", area);
-  require_positive("length", length);
+  require_bar_positive("youngs_modulus", youngs_modulus);
+  require_bar_positive("density", density);
+  require_bar_positive("area", area);
+  require_bar_positive("length", length);
   detail::require_value(elements >= 1 && elements <= 500'000'000, "BarOptions", "elements", elements,
                         "in 1..500000000");
   detail::require_value(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping), "BarOptions",

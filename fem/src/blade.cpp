@@ -8,7 +8,7 @@
 namespace wavebalance::fem {
 namespace {
 
-void require_positive(const char* member, double value) {
+void require_blade_positive(const char* member, double value) {
   detail::require_value(value > 0.0 && std::isfinite(value), "BladeOptions", member, value,
                         "positive and finite");
 }
@@ -34,8 +34,8 @@ Eigen::Vector3d position(const BladeOptions& options, const Eigen::Vector3d& par
 void BladeOptions::validate() const {
   for (int end : {0, 1}) {
     const auto at = static_cast<std::size_t>(end);
-    require_positive("chord", chord[at]);
-    require_positive("thickness_ratio", thickness_ratio[at]);
+    require_blade_positive("chord", chord[at]);
+    require_blade_positive("thickness_ratio", thickness_ratio[at]);
     detail::require_value(std::isfinite(camber_ratio[at]), "BladeOptions", "camber_ratio", camber_ratio[at],
                           "finite");
     detail::require_value(std::isfinite(angle_degrees[at]), "BladeOptions", "angle_degrees",
@@ -43,7 +43,7 @@ void BladeOptions::validate() const {
   }
   detail::require_value(edge_thickness > 0.0 && edge_thickness <= 1.0, "BladeOptions", "edge_thickness",
                         edge_thickness, "in (0, 1]");
-  require_positive("length", length);
+  require_blade_positive("length", length);
   material.validate();
   detail::require_value(chord_elements >= 1, "BladeOptions", "chord_elements", chord_elements, "at least 1");
   detail::require_value(thickness_elements >= 1, "BladeOptions", "thickness_elements", thickness_elements,

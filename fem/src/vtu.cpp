@@ -123,7 +123,7 @@ std::string file_open_tag(const char* type) {
          "\" header_type=\"UInt64\">\n";
 }
 
-std::ofstream open(const std::filesystem::path& file) {
+std::ofstream open_output(const std::filesystem::path& file) {
   std::ofstream output(file, std::ios::binary);
   if (!output) throw std::runtime_error(file.string() + ": the file cannot be opened for writing");
   return output;
@@ -161,7 +161,7 @@ void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const Poin
 void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::span<const PointField> fields,
                VtuFormat format) {
   validate(mesh, fields);
-  std::ofstream output = open(file);
+  std::ofstream output = open_output(file);
   write_vtu(output, mesh, fields, format);
   close(output, file);
 }

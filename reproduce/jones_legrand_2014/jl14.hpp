@@ -13,6 +13,8 @@ namespace wavebalance::jl14 {
 using app::Series;
 using app::Table;
 
+inline constexpr double millimetres = 1e3;  ///< per metre
+
 /// "jones_legrand_2014", "JL14 Fig. 6", ...
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
 

@@ -13,8 +13,6 @@
 namespace wavebalance::jl14 {
 namespace {
 
-constexpr double millimetres = 1e3;
-
 /// The displacement of sweep points or turning points over the frequency.
 template <class Points>
 Series curve(const std::string& label, const Points& points) {

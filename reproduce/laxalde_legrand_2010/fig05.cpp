@@ -9,7 +9,7 @@
 namespace wavebalance::ll10 {
 namespace {
 
-constexpr int times = 128;
+constexpr int map_times = 128;
 
 app::HeatMap map_of(const Motion& motion, const Eigen::MatrixXd& values, double largest) {
   app::HeatMap map;
@@ -71,7 +71,7 @@ double spread_of_maxima(const Motion& motion) {
   double least = 1.0, largest = 0.0;
   for (Eigen::Index i = motion.position.size() / 4; i < motion.position.size(); ++i) {
     Eigen::Index place = 0;
-    motion.velocity.row(i).head(times / 2).maxCoeff(&place);
+    motion.velocity.row(i).head(map_times / 2).maxCoeff(&place);
     least = std::min(least, motion.time[place]);
     largest = std::max(largest, motion.time[place]);
   }
@@ -119,8 +119,9 @@ void claims(report::Artefact& artefact, const Motion& linear, const Motion& cont
 void fig05(report::Artefact& artefact) {
   const app::ModeStudy study(artefact.scene("rod.toml"));
   const auto& scene = study.scene();
-  const auto low = computed_motion(study, 0.7, times), high = computed_motion(study, 1.8, times);
-  const auto exact_low = exact_motion(scene, 0.7, times), exact_high = exact_motion(scene, 1.8, times);
+  const auto low = computed_motion(study, 0.7, map_times), high = computed_motion(study, 1.8, map_times);
+  const auto exact_low = exact_motion(scene, 0.7, map_times),
+             exact_high = exact_motion(scene, 1.8, map_times);
   app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 460;

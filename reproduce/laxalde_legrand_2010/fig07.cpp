@@ -124,7 +124,8 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study, cons
        edges && leading > 1.0 && trailing > 1.0});
 }
 
-void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve) {
+void claim_virial_identity(report::Artefact& artefact, const app::ModeStudy& study,
+                           const app::Backbone& curve) {
   const auto point = accepted_at(study, curve, 10.4);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   double identity = 0.0, residual = 0.0;
@@ -194,7 +195,7 @@ void fig07(report::Artefact& artefact) {
       "whose tip rotates more than it translates.");
   claim_listed(artefact, study, curve);
   claim_contact(artefact, study, curve);
-  claim_identity(artefact, study, curve);
+  claim_virial_identity(artefact, study, curve);
   notes(artefact, study, curve, published);
 }
 

@@ -10,7 +10,7 @@
 namespace wavebalance::ll10 {
 namespace {
 
-constexpr int times = 16;
+constexpr int shape_times = 16;
 constexpr double drawn_gap = 1e-3;  // m
 
 /// One mode motion, displacements over the gap.
@@ -24,7 +24,7 @@ double largest(const Eigen::Matrix3Xd& displacement) { return displacement.colwi
 
 void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape, bool half_period,
                double upper) {
-  const Eigen::Matrix3Xd& u = shape.frames[half_period ? times / 2 : 0];
+  const Eigen::Matrix3Xd& u = shape.frames[half_period ? shape_times / 2 : 0];
   auto& panel =
       figure.add_panel("energy " + report::number(shape.energy) + (half_period ? ", t = T/2" : ", t = 0"));
   auto& view = panel.surface.emplace();
@@ -50,7 +50,7 @@ void attach_series(report::Artefact& artefact, const fem::Blade& blade, const Sh
     std::ostringstream text;
     fem::write_vtu(text, blade.model.mesh, fields);
     artefact.attach(name, text.str(), false);
-    entries.push_back({static_cast<double>(frame) / times, name});
+    entries.push_back({static_cast<double>(frame) / shape_times, name});
   }
   std::ostringstream text;
   fem::write_pvd(text, entries);
@@ -60,11 +60,11 @@ void attach_series(report::Artefact& artefact, const fem::Blade& blade, const Sh
 Table shapes_table(const fem::Blade& blade, const std::vector<Shape>& shapes) {
   Table table({"energy_ratio", "time_fraction", "contact", "u_x_over_gap", "u_y_over_gap", "u_z_over_gap"});
   for (const Shape& shape : shapes)
-    for (const int frame : {0, times / 2})
+    for (const int frame : {0, shape_times / 2})
       for (std::size_t i = 0; i < blade.contact_nodes.size(); ++i) {
         const Eigen::Vector3d u = shape.frames[static_cast<std::size_t>(frame)].col(blade.contact_nodes[i]);
-        table.append_row({shape.energy, static_cast<double>(frame) / times, static_cast<double>(i + 1), u.x(),
-                          u.y(), u.z()});
+        table.append_row({shape.energy, static_cast<double>(frame) / shape_times, static_cast<double>(i + 1),
+                          u.x(), u.y(), u.z()});
       }
   return table;
 }
@@ -86,7 +86,7 @@ void claims(report::Artefact& artefact, const app::ModeStudy& study, const std::
     grows = grows && share > before_share && twist > before_twist;
     before_share = share;
     before_twist = twist;
-    const double like = likeness(shape.frames[0], shape.frames[times / 2]);
+    const double like = likeness(shape.frames[0], shape.frames[shape_times / 2]);
     least = std::min(least, like);
     const char* comma = shares.empty() ? "" : ", ";
     shares += comma + report::percent(share, 3);
@@ -117,7 +117,7 @@ void fig08(report::Artefact& artefact) {
   std::vector<Shape> shapes;
   for (const double energy : shape_energies) {
     const auto point = accepted_at(study, curve, energy);
-    Shape shape{energy, point, blade::motion(study, point, times)};
+    Shape shape{energy, point, blade::motion(study, point, shape_times)};
     for (auto& frame : shape.frames) frame /= study.scene().contact.gap;
     shapes.push_back(std::move(shape));
   }
@@ -126,7 +126,7 @@ void fig08(report::Artefact& artefact) {
   figure.panel_width = 350;
   figure.panel_height = 350;
   for (const Shape& shape : shapes) {
-    const double upper = std::max(largest(shape.frames[0]), largest(shape.frames[times / 2]));
+    const double upper = std::max(largest(shape.frames[0]), largest(shape.frames[shape_times / 2]));
     for (const bool half_period : {false, true})
       add_panel(figure, blade, shape, half_period, std::ceil(upper / 10.0) * 10.0);
   }

@@ -145,14 +145,15 @@ double complementarity(const Scene& scene, const solvers::Motion& contacts) {
 
 /// Steps follow the fastest mode of the structure: many periods of it take too many.
 bool is_slow(const Scene& scene) {
-  const auto& bar = scene.structure;
-  return scene.forcing.frequency * bar.length < 0.01 * std::sqrt(bar.youngs_modulus / bar.density);
+  const auto& structure = scene.structure;
+  return scene.forcing.frequency * structure.length <
+         0.01 * std::sqrt(structure.youngs_modulus / structure.density);
 }
 
 /// They also follow the contact: against a law far stiffer than the bar's elements they take too many.
 bool is_stiff(const Scene& scene, double displacement) {
-  const auto& bar = scene.structure;
-  const double element = bar.youngs_modulus * bar.area / bar.length * bar.elements;
+  const auto& structure = scene.structure;
+  const double element = structure.youngs_modulus * structure.area / structure.length * structure.elements;
   return !(app::make_law(scene.contact).tangent(std::max(displacement, scene.contact.gap)) <= 1e4 * element);
 }
 

@@ -24,7 +24,7 @@ using Matrix = std::vector<Vector>;
 Quad absolute(Quad value) { return value < 0 ? -value : value; }
 
 /// Gaussian elimination with row exchanges; a square system.
-Vector solve(Matrix matrix, Vector right) {
+Vector solve_dense(Matrix matrix, Vector right) {
   const std::size_t size = right.size();
   for (std::size_t column = 0; column < size; ++column) {
     std::size_t pivot = column;
@@ -85,7 +85,7 @@ Vector exact_filter(const Eigen::VectorXd& start) {
   const Matrix moments = moment_rows(p.size());
   for (int step = 0; step < 20; ++step) {
     const Equations at = equations(p, moments);
-    const Vector change = solve(at.jacobian, at.residual);
+    const Vector change = solve_dense(at.jacobian, at.residual);
     Quad largest = 0;
     for (std::size_t l = 0; l < p.size(); ++l) {
       p[l] -= change[l];
@@ -147,7 +147,7 @@ void compare_values(const Vector& p, FilterAccuracy& result) {
   const Matrix matrix = value_equations(p);
   Vector right(p.size() - 2, 0);
   right.back() = 1;
-  const Vector exact = solve(matrix, right);
+  const Vector exact = solve_dense(matrix, right);
   const Eigen::VectorXd values = wavelets::ScalingFunction::daubechies(result.coefficients).values(0, 0);
   Quad error = 0, largest = 0;
   for (std::size_t k = 0; k < exact.size(); ++k) {

@@ -7,10 +7,8 @@
 namespace wavebalance::wavelets {
 namespace {
 
-using Complex = std::complex<double>;
-
-Complex symbol(const Eigen::VectorXd& values, int first, double xi) {
-  Complex sum = 0.0;
+std::complex<double> symbol(const Eigen::VectorXd& values, int first, double xi) {
+  std::complex<double> sum = 0.0;
   for (Eigen::Index k = 0; k < values.size(); ++k)
     sum += values[k] * std::polar(1.0, -xi * double(first + k));
   return sum;
@@ -24,7 +22,7 @@ TwoScaleFilter two_scale_filter(const ScalingFunction& phi) {
   TwoScaleFilter result{2 - length / 2, Eigen::VectorXd::Zero(length)};  // phi is symmetric about 2
   for (int i = 0; i < points; ++i) {
     const double xi = 2.0 * std::numbers::pi * i / points;
-    const Complex value = symbol(phi.filter(), 0, xi) *
+    const std::complex<double> value = symbol(phi.filter(), 0, xi) *
                           symbol(phi.coefficients(), phi.first_coefficient(), 2.0 * xi) /
                           symbol(phi.coefficients(), phi.first_coefficient(), xi);
     for (int l = 0; l < length; ++l)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/summary_parts.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
 namespace wavebalance::app {
@@ -14,7 +15,6 @@ namespace {
 using solvers::ModePoint;
 using solvers::ModeStatus;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_penalty = 300.0;  // in units omega_1 = gap = 1
 constexpr int linear_points = 6;         // points of the branch below contact, energies 0, 0.2, ..
 

@@ -8,8 +8,6 @@
 namespace wavebalance::jl14 {
 namespace {
 
-constexpr double millimetres = 1e3;
-
 Eigen::VectorXd on_plateau(const Case& study, const Eigen::VectorXd& values, bool inside = true) {
   const Eigen::VectorXd force = shifted_by_half_a_period(study.reference().force());
   return select(shifted_by_half_a_period(values), (force.array() > 0.0) == inside);

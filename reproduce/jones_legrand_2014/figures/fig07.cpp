@@ -7,8 +7,6 @@
 namespace wavebalance::jl14 {
 namespace {
 
-constexpr double millimetres = 1e3;
-
 double haar_error(Case& study) {
   const auto response = study.solve(pair("haar_fourier"), 64);
   return app::relative_rms_error(response.displacement(), study.reference().displacement());

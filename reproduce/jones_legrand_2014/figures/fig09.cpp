@@ -27,7 +27,7 @@ void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference
        largest <= 2.0 / 64});
 }
 
-void claim_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference, const Values& forces) {
+void claim_force_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference, const Values& forces) {
   const auto excess = measured(forces, reference, &excess_variation);
   artefact.claim(
       {"section 5.3", "The effect of Gibbs phenomenon can be seen in the HBM and Galerkin B-spline cases.",
@@ -93,7 +93,7 @@ void fig09(report::Artefact& artefact) {
   artefact.caption(
       "64 functions at 150 Hz; dashed: time stepping. The force is eq. (5) of the predicted displacement.");
   claim_duration(artefact, reference, forces);
-  claim_ringing(artefact, reference, forces);
+  claim_force_ringing(artefact, reference, forces);
   const auto rms = measured(forces, reference, &app::relative_rms_error);
   claim_haar(artefact, study, rms);
   claim_accuracy(artefact, rms, measured(forces, reference, &relative_mean_error));

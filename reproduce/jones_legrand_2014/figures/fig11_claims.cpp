@@ -39,7 +39,7 @@ void claim_bspline(report::Artefact& artefact, const Convergence& errors) {
        order < 0.5});
 }
 
-void claim_daubechies(report::Artefact& artefact, const Convergence& errors) {
+void claim_daubechies_errors(report::Artefact& artefact, const Convergence& errors) {
   const auto e = errors.of(1, "daubechies6_daubechies6"), hbm = errors.of(1, "fourier_fourier");
   const std::string text = errors.text(1, "daubechies6_daubechies6");
   artefact.claim({"section 5.5", "The Galerkin DB6 case performs poorly using 16 trial functions",
@@ -75,7 +75,7 @@ void claim_haar(report::Artefact& artefact, const Convergence& errors) {
 void claim_errors(report::Artefact& artefact, const Convergence& errors) {
   claim_few_functions(artefact, errors);
   claim_bspline(artefact, errors);
-  claim_daubechies(artefact, errors);
+  claim_daubechies_errors(artefact, errors);
   claim_haar(artefact, errors);
 }
 

@@ -12,8 +12,6 @@ using app::Colour;
 
 namespace {
 
-constexpr double millimetres = 1e3;
-
 struct Study {
   int number;
   app::Scene scene;

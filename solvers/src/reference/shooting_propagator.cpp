@@ -10,7 +10,6 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-constexpr int nodes = StepTable::nodes;
 constexpr int finest_level = 30;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 using NodeVector = StepTable::NodeVector;
@@ -45,8 +44,8 @@ bool ContactPropagator::solve_nodes(const StepTable& step, NodeVector& displacem
   const NodeVector free = displacement;
   displacement += step.node_force.rowwise().sum() * begin_force;
   for (int i = 0; i < iterations; ++i) {
-    law_.evaluate({displacement.data(), nodes}, {attempt_.force.data(), nodes},
-                  {attempt_.tangent.data(), nodes});
+    law_.evaluate({displacement.data(), StepTable::nodes}, {attempt_.force.data(), StepTable::nodes},
+                  {attempt_.tangent.data(), StepTable::nodes});
     const NodeVector residual = displacement - free - step.node_force * attempt_.force;
     if (!residual.allFinite()) return false;
     if (residual.cwiseAbs().maxCoeff() <= 1e-15 * displacement.cwiseAbs().maxCoeff()) return true;
@@ -61,7 +60,8 @@ void ContactPropagator::attempt_step(const StepTable& step, double begin, double
   const int n = modes_.size();
   attempt_.accepted = false;
   NodeVector displacement = step.node_state * state;
-  for (int i = 0; i < nodes; ++i) displacement[i] += linear_contact(begin + length * StepTable::points()[i]);
+  for (int i = 0; i < StepTable::nodes; ++i)
+    displacement[i] += linear_contact(begin + length * StepTable::points()[i]);
   const double begin_force = law_.force(linear_contact(begin) + modes_.contact.dot(state.head(n)));
   if (!solve_nodes(step, displacement, begin_force)) return;
   attempt_.state.noalias() = step.end_force * attempt_.force;
@@ -79,7 +79,7 @@ void ContactPropagator::attempt_step(const StepTable& step, double begin, double
 void ContactPropagator::propagate_sensitivity(const StepTable& step, Eigen::MatrixXd& sensitivity) const {
   const int n = modes_.size();
   const bool contact = (attempt_.tangent.array() != 0.0).any();
-  Eigen::Matrix<double, nodes, Eigen::Dynamic> force;
+  Eigen::Matrix<double, StepTable::nodes, Eigen::Dynamic> force;
   if (contact) {
     const NodeMatrix jacobian = NodeMatrix::Identity() - step.node_force * attempt_.tangent.asDiagonal();
     force = attempt_.tangent.asDiagonal() * jacobian.partialPivLu().solve(step.node_state * sensitivity);

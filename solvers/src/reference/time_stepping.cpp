@@ -20,7 +20,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double first_step = 1e-6;  // periods
 
 Eigen::VectorXd initial_state(const FirstOrderSystem& system, const TimeSteppingOptions& options) {
@@ -194,7 +193,7 @@ class PeriodRecorder {
     const Instant &a = step.begin(), &b = step.end();
     const double h = b.time - a.time;
     const QuinticWeights w((time_of(sample) - a.time) / h);
-    const double slope = two_pi * h, curvature = two_pi * h * h;
+    const double slope = 2.0 * std::numbers::pi * h, curvature = slope * h;
     states_.col(sample).head(n) =
         w.value[0] * a.state.head(n) + w.value[1] * b.state.head(n) +
         slope * (w.slope[0] * a.state.tail(n) + w.slope[1] * b.state.tail(n)) +
