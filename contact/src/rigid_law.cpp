@@ -7,15 +7,15 @@
 namespace wavebalance::contact {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 RigidLaw::RigidLaw(double gap) : gap_(gap) { detail::require_finite("RigidLaw", "gap", gap); }
 
-double RigidLaw::force(double displacement) const { return displacement > gap_ ? infinity : 0.0; }
-double RigidLaw::tangent(double displacement) const { return displacement >= gap_ ? infinity : 0.0; }
-double RigidLaw::potential(double displacement) const { return displacement > gap_ ? infinity : 0.0; }
+double RigidLaw::force(double displacement) const { return displacement > gap_ ? unbounded : 0.0; }
+double RigidLaw::tangent(double displacement) const { return displacement >= gap_ ? unbounded : 0.0; }
+double RigidLaw::potential(double displacement) const { return displacement > gap_ ? unbounded : 0.0; }
 
 ForceAndTangent RigidLaw::resolvent(double v, double flexibility) const {
   if (v < gap_) return {};

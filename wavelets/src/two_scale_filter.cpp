@@ -23,8 +23,8 @@ TwoScaleFilter two_scale_filter(const ScalingFunction& phi) {
   for (int i = 0; i < points; ++i) {
     const double xi = 2.0 * std::numbers::pi * i / points;
     const std::complex<double> value = symbol(phi.filter(), 0, xi) *
-                          symbol(phi.coefficients(), phi.first_coefficient(), 2.0 * xi) /
-                          symbol(phi.coefficients(), phi.first_coefficient(), xi);
+                                       symbol(phi.coefficients(), phi.first_coefficient(), 2.0 * xi) /
+                                       symbol(phi.coefficients(), phi.first_coefficient(), xi);
     for (int l = 0; l < length; ++l)
       result.values[l] += (value * std::polar(1.0 / points, xi * double(result.first + l))).real();
   }

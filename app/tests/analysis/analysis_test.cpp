@@ -8,11 +8,10 @@
 #include <cmath>
 #include <complex>
 
-#include "analysis/record_figure.hpp"
+#include "support/bar_scene.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
-#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
@@ -20,10 +19,6 @@ namespace {
 
 using namespace wavebalance::app;
 namespace solvers = wavebalance::solvers;
-
-Scene scene_of(const std::vector<std::string>& overrides = {}) {
-  return parse_scene(bar_scene, "case.toml", overrides);
-}
 
 TEST(MakeStructure, LoadAndContactAreAtTheTip) {
   const auto structure = make_structure(scene_of());
@@ -287,9 +282,6 @@ TEST(Analyse, ObserverIsToldOfPeriods) {
   EXPECT_EQ(last, 1.0);
 }
 
-const std::vector<std::string> sweep_overrides{"time.functions=31", "analysis.type=frequency_sweep",
-                                               "analysis.frequency_from=100", "analysis.frequency_to=110"};
-
 TEST(Analyse, SweepThatItsObserverStopsHoldsThePointsSoFar) {
   int points = 0;
   const Record record = analyse(scene_of(sweep_overrides), [&](const Progress& progress) {
@@ -335,97 +327,6 @@ TEST(Analyse, SweepSaysAtWhichFrequencyItIsLargest) {
   const auto peak = std::max_element(largest.begin(), largest.end()) - largest.begin();
   EXPECT_EQ(value_of<double>(record.summary, "frequency_at_max_displacement_Hz"),
             frequencies[static_cast<std::size_t>(peak)]);
-}
-
-Sweep sweep_with_a_wild_point(solvers::SweepStatus status) {
-  Sweep sweep;
-  for (int i = 0; i < 200; ++i) {
-    solvers::SweepPoint point;
-    point.frequency = 100.0 + i;
-    point.max_displacement = i == 150 ? 4.5 : 1e-3;
-    point.rms_displacement = 5e-4;
-    sweep.curve.points.push_back(point);
-  }
-  sweep.curve.status = status;
-  return sweep;
-}
-
-TEST(SweepFigure, OneWildPointOfACurveThatDidNotEndWellDoesNotSetTheAxis) {
-  const Figure figure =
-      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
-  const Panel& panel = figure.panels[0];
-  EXPECT_EQ(panel.y.label, "Displacement (mm)");
-  ASSERT_TRUE(panel.y.upper);
-  EXPECT_NEAR(*panel.y.upper, 1.1, 1e-12);
-  const Figure whole =
-      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::reached_end));
-  EXPECT_FALSE(whole.panels[0].y.upper);
-}
-
-TEST(SweepFigure, OfManyPointsShowsThePeaksAndTheEnds) {
-  Sweep sweep;
-  for (int i = 0; i < 1'000'000; ++i) {
-    solvers::SweepPoint point;
-    point.frequency = 100.0 + i;
-    point.max_displacement = i == 123'456 ? 3.0 : i == 654'321 ? -1.0 : 2.0;
-    point.rms_displacement = 1.0;
-    sweep.curve.points.push_back(point);
-  }
-  sweep.curve.status = solvers::SweepStatus::reached_end;
-  const Series drawn = sweep_figure(scene_of(sweep_overrides), sweep).panels[0].series[0];
-  EXPECT_LE(drawn.x.size(), 8192u);
-  EXPECT_EQ(drawn.x.front(), 100.0);
-  EXPECT_EQ(drawn.x.back(), 1'000'099.0);
-  EXPECT_TRUE(std::is_sorted(drawn.x.begin(), drawn.x.end()));
-  const auto highest = std::max_element(drawn.y.begin(), drawn.y.end()) - drawn.y.begin();
-  EXPECT_EQ(drawn.x[static_cast<std::size_t>(highest)], 100.0 + 123'456);
-  EXPECT_EQ(*std::min_element(drawn.y.begin(), drawn.y.end()), -1.0);
-}
-
-TEST(SweepFigure, ShowsTheStatusAsItIsWritten) {
-  const Figure figure =
-      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
-  EXPECT_NE(figure.title.find("point\\_limit"), std::string::npos) << figure.title;
-}
-
-TEST(SweepFigure, LegendIsOutsideAndTheGapIsNamed) {
-  const Figure figure =
-      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::reached_end));
-  EXPECT_EQ(figure.panels[0].legend, Legend::below_panel);
-  ASSERT_EQ(figure.panels[0].segments.size(), 1u);
-  EXPECT_EQ(figure.panels[0].segments[0].label, "gap");
-  EXPECT_NE(render(figure, PictureFormat::svg).find(">gap<"), std::string::npos);
-}
-
-TEST(EnergyNorm, IsTheOscillatorsEnergyWithoutContact) {
-  // An undamped oscillator far below resonance: u = F/(k - m w^2) cos wt, E = (k cos^2 + m w^2 sin^2) u_max^2
-  // / 2.
-  const Scene scene =
-      parse_scene(with(with(with(with(bar_scene, "\"exponential\"", "\"none\""), "constant = 1e8", ""),
-                            "exponent = 50.0", ""),
-                       "gap = 1e-3", ""),
-                  "case.toml", {{"structure.elements=1", "structure.stiffness_damping=0"}});
-  const auto& bar = scene.structure;
-  const double k = bar.youngs_modulus * bar.area / bar.length;
-  const double m = bar.density * bar.area * bar.length / 3.0;
-  const double w = 2.0 * std::acos(-1.0) * scene.forcing.frequency;
-  const double peak = scene.forcing.amplitude / (k - m * w * w);
-  const double a = k * peak * peak / 2, b = m * w * w * peak * peak / 2;
-  const auto response =
-      weighted_residual_response(scene, {.structure_points = 1024, .guess = {}, .observer = {}});
-  EXPECT_NEAR(energy_norm(scene, response.structure), std::sqrt((3 * a * a + 2 * a * b + 3 * b * b) / 8),
-              1e-9 * a);
-}
-
-TEST(EnergyNorm, NeedsTheFullHistory) {
-  const Scene scene = scene_of();
-  EXPECT_THROW(energy_norm(scene, weighted_residual_response(scene).structure), std::invalid_argument);
-}
-
-TEST(RelativeRmsError, IsRelativeToTheReference) {
-  const Eigen::VectorXd reference = Eigen::VectorXd::LinSpaced(10, 1.0, 2.0);
-  EXPECT_DOUBLE_EQ(relative_rms_error(1.5 * reference, reference), 0.5);
-  EXPECT_THROW(relative_rms_error(reference.head(3), reference), std::invalid_argument);
 }
 
 TEST(EstimateCost, GrowsWithEachSizeByItsShare) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 /// A scene of which every test changes one thing. The number at the end of a line is that line's.
 inline const std::string bar_scene = R"([structure]
@@ -56,3 +57,8 @@ inline std::string with(std::string text, const std::string& from, const std::st
   const auto place = text.find(from);
   return place == std::string::npos ? "no such text: " + from : text.replace(place, from.size(), to);
 }
+
+// Of bar_scene: a frequency sweep.
+inline const std::vector<std::string> sweep_overrides{"time.functions=31", "analysis.type=frequency_sweep",
+                                                      "analysis.frequency_from=100",
+                                                      "analysis.frequency_to=110"};

@@ -12,12 +12,13 @@ namespace wavebalance::solvers {
 ///
 /// y = (sigma q, dq/dt) the state of its modes q, in which the norm of y is that of the energy: sigma is the
 /// natural angular frequency or, if that is larger, the load's. E, B0 and B1 are integrals of the matrix
-/// exponential [C. F. Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m modes.
+/// exponential [C. F. Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m
+/// modes.
 class ModalFlow {
  public:
   /// step in s, frequency in Hz (> 0). The lowest `max_modes` modes are taken; the others follow their static
-  /// deflection. A degree of freedom without mass is given 1e-9 of the mean mass. Nothing when the modes are not
-  /// found: mass neither positive definite nor zero on its diagonal. O(n^3).
+  /// deflection. A degree of freedom without mass is given 1e-9 of the mean mass. Nothing when the modes are
+  /// not found: mass neither positive definite nor zero on its diagonal. O(n^3).
   static std::optional<ModalFlow> make(const LinearStructure& structure, double frequency, double step,
                                        int max_modes);
 

@@ -6,27 +6,15 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "support/condensation_cases.hpp"
 #include "support/small_problems.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
-
-// The same structure with its degrees of freedom in another order, which is not tridiagonal any more.
-LinearStructure shuffled(const LinearStructure& structure, std::mt19937& generator) {
-  Eigen::PermutationMatrix<Eigen::Dynamic> order(structure.size());
-  order.setIdentity();
-  auto& indices = order.indices();
-  std::shuffle(indices.data(), indices.data() + indices.size(), generator);
-  LinearStructure out = structure;
-  out.mass = structure.mass.twistedBy(order);
-  out.damping = structure.damping.twistedBy(order);
-  out.stiffness = structure.stiffness.twistedBy(order);
-  out.load = order * structure.load;
-  for (int& dof : out.contact_dofs) dof = indices[dof];
-  return out;
-}
+using testing::all_methods;
+using testing::shuffled;
 
 Eigen::MatrixXcd dense(const LinearStructure& s, const ImpedanceCoefficients& factors) {
   return factors[0] * Eigen::MatrixXcd(s.mass.cast<Complex>()) +
@@ -56,9 +44,6 @@ void expect_equal(const CondensedPoint& a, const CondensedPoint& b, double toler
   EXPECT_LE((a.compliance_slope - b.compliance_slope).norm(), tolerance * b.compliance_slope.norm());
   EXPECT_LE((a.load_response_slope - b.load_response_slope).norm(), tolerance * b.load_response_slope.norm());
 }
-
-constexpr CondensationMethod all_methods[] = {CondensationMethod::tridiagonal, CondensationMethod::modal,
-                                              CondensationMethod::dense, CondensationMethod::sparse};
 
 // M, C, K times 2^entries and the factors times 2^(total - entries), seen in the old units.
 struct Rescaled {
@@ -292,166 +277,6 @@ TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
       EXPECT_NO_THROW(condensation.dynamic_compliance({at * 1.0001, 0.0, 1.0}, {1.0, 0.0, 0.0})) << size;
     }
   }
-}
-
-using LongComplex = std::complex<long double>;
-using LongMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
-
-// Z^-1 S^T and Z^-1 load at the contacts by an elimination in long double.
-LongMatrix by_long_double(const LinearStructure& s, const ImpedanceCoefficients& factors) {
-  const auto precise = [](const auto& matrix) {
-    return LongMatrix(Eigen::MatrixXd(matrix).cast<LongComplex>());
-  };
-  const LongMatrix stiffness = LongComplex(factors[0]) * precise(s.mass) +
-                               LongComplex(factors[1]) * precise(s.damping) +
-                               LongComplex(factors[2]) * precise(s.stiffness);
-  LongMatrix right = LongMatrix::Zero(s.size(), s.contacts() + 1);
-  for (int c = 0; c < s.contacts(); ++c) right(s.contact_dofs[std::size_t(c)], c) = 1.0L;
-  right.col(s.contacts()) = s.load.cast<LongComplex>();
-  return LongMatrix(stiffness.partialPivLu().solve(right))(s.contact_dofs, Eigen::all);
-}
-
-// Equal oscillators of 10 kN/m and 1 kg; each is coupled to the next by a spring of that share. The load acts
-// on `loaded`, an obstacle on the first and the fourth. The frequency is near those of all of them.
-LinearStructure weakly_coupled(int size, double share, int loaded, bool ring) {
-  LinearStructure s;
-  Eigen::MatrixXd stiffness = 1e4 * Eigen::MatrixXd::Identity(size, size);
-  for (int i = 0; i + (ring ? 0 : 1) < size; ++i) {
-    const int next = (i + 1) % size;
-    const double spring = 1e4 * share * (1.0 + 0.3 * std::sin(double(i)));
-    stiffness(i, i) += spring;
-    stiffness(next, next) += spring;
-    stiffness(i, next) -= spring;
-    stiffness(next, i) -= spring;
-  }
-  s.stiffness = stiffness.sparseView();
-  s.mass = Eigen::MatrixXd::Identity(size, size).sparseView();
-  s.damping = 0.02 * s.mass + 1e-4 * s.stiffness;
-  s.load = Eigen::VectorXd::Unit(size, loaded);
-  s.contact_dofs = {0};
-  return s;
-}
-
-ImpedanceCoefficients at_harmonic(int k, double omega = 80.0) {
-  return {-(k * omega) * (k * omega), Complex(0.0, k * omega), 1.0};
-}
-
-StiffnessSpectrum spectrum_of(int size, double omega = 80.0) {
-  StiffnessSpectrum factors;
-  for (std::size_t d = 0; d < 3; ++d)
-    factors[d] =
-        Eigen::VectorXcd::NullaryExpr(size, [&](Eigen::Index k) { return at_harmonic(int(k), omega)[d]; });
-  return factors;
-}
-
-// The errors of one harmonic, and whether they are within those that the method states.
-struct TrueErrors {
-  double response = 0.0, stated = 0.0;
-
-  TrueErrors(const LinearStructure& structure, Condensation& condensation,
-             const ImpedanceCoefficients& factors) {
-    const CondensedPoint point = condensation.dynamic_compliance(factors, {0.0, 0.0, 0.0});
-    const LongMatrix exact = by_long_double(structure, factors);
-    const int count = structure.contacts();
-    for (int c = 0; c < count; ++c) {
-      const double size = double(std::abs(exact(c, count)));
-      const double error = double(std::abs(exact(c, count) - LongComplex(point.load_response[c])));
-      EXPECT_LE(error, point.load_response_error[c]) << "load, contact " << c;
-      response = std::max(response, error / size);
-      stated = std::max(stated, point.load_response_error[c] / size);
-      for (int d = 0; d < count; ++d)
-        EXPECT_LE(double(std::abs(exact(c, d) - LongComplex(point.compliance(c, d)))),
-                  std::sqrt(point.compliance_error[c] * point.compliance_error[d]))
-            << c << ", " << d;
-    }
-  }
-};
-
-// The response decays by 1e-4 from one oscillator to the next: the modal terms are as large as that of the
-// load.
-TEST(Condensation, ModalSumLosesTheDigitsOfAResponseFarFromTheLoadAndEliminationsKeepThem) {
-  for (const bool ring : {false, true}) {
-    const LinearStructure chain = weakly_coupled(10, 1e-4, 5, ring);
-    for (const CondensationMethod method : all_methods) {
-      if (ring && method == CondensationMethod::tridiagonal) continue;
-      Condensation condensation(chain, method);
-      const TrueErrors errors(chain, condensation, at_harmonic(1));
-      if (method == CondensationMethod::modal) {
-        EXPECT_GT(errors.response, 1e-2);
-      } else {
-        EXPECT_LT(errors.response, 1e-13);
-        EXPECT_LT(errors.stated, 1e-11);
-      }
-    }
-  }
-}
-
-TEST(Condensation, StatesAtLeastTheErrorThatItMakes) {
-  std::mt19937 generator(11);
-  for (const double share : {1e-1, 1e-2, 1e-3, 1e-4})
-    for (const int loaded : {0, 2, 5, 9}) {
-      LinearStructure chain = weakly_coupled(10, share, loaded, false);
-      chain.contact_dofs = {0, 3};
-      const LinearStructure other = shuffled(chain, generator);
-      for (const CondensationMethod method : all_methods)
-        for (const int k : {0, 1, 2, 30}) {
-          const LinearStructure& taken = method == CondensationMethod::tridiagonal ? chain : other;
-          Condensation condensation(taken, method);
-          TrueErrors(taken, condensation, at_harmonic(k));
-        }
-    }
-}
-
-// Rows before the contact at a natural frequency of their own: pivots of the recursion lose up to eight
-// digits.
-TEST(Condensation, RecursionOfABarStatesAtLeastTheErrorThatItMakes) {
-  LinearStructure bar = testing::jl14_bar(25, 1e-7);
-  for (const double omega : {2.0, 5.0, 1e3, 8e3, 1e4, 3e4}) {
-    Condensation condensation(bar);
-    const StiffnessSpectrum factors = spectrum_of(40, omega);
-    CondensedSpectrum result;
-    condensation.condense(factors, factors, result);
-    for (int k = 0; k < 40; ++k) {
-      const LongMatrix exact = by_long_double(bar, at_harmonic(k, omega));
-      EXPECT_LE(double(std::abs(exact(0, 0) - LongComplex(result.compliance(k, 0)))),
-                result.compliance_error(k, 0));
-      EXPECT_LE(double(std::abs(exact(0, 1) - LongComplex(result.load_response(k, 0)))),
-                result.load_response_error(k, 0));
-    }
-    EXPECT_LT(condensation.rounding().compliance, 1e-8);
-  }
-}
-
-TEST(Condensation, ReplacesTheModalSumWhereItLosesTheContactFreeResponse) {
-  const LinearStructure near = weakly_coupled(10, 1e-4, 1, true), far = weakly_coupled(10, 1e-4, 5, true);
-  const StiffnessSpectrum factors = spectrum_of(8);
-  const Eigen::VectorXcd cosine = Eigen::VectorXcd::Unit(8, 1);
-  CondensedSpectrum result;
-  Condensation kept(near), replaced(far), forced(far, CondensationMethod::modal);
-  kept.condense(factors, factors, result, cosine);
-  EXPECT_EQ(kept.method(), CondensationMethod::modal);
-  EXPECT_LE(kept.rounding().load_response, 1e-8);
-  forced.condense(factors, factors, result, cosine);
-  EXPECT_EQ(forced.method(), CondensationMethod::modal);
-  EXPECT_GT(forced.rounding().load_response, 1e-3);
-  EXPECT_LT(forced.rounding().compliance, 1e-10);
-  EXPECT_EQ(replaced.method(), CondensationMethod::modal);
-  replaced.condense(factors, factors, result, cosine);
-  EXPECT_EQ(replaced.method(), CondensationMethod::dense);
-  EXPECT_LE(replaced.rounding().load_response, 1e-11);
-  const LongMatrix exact = by_long_double(far, at_harmonic(1));
-  EXPECT_LE(double(std::abs(exact(0, 1) - LongComplex(result.load_response(1, 0)))),
-            1e-13 * double(std::abs(exact(0, 1))));
-}
-
-// The modal sum also takes the coupling of the damping off its diagonal as zero, up to 1e-8.
-TEST(Condensation, ErrorsOfTheModalSumHoldTheDampingThatItLeavesOut) {
-  LinearStructure chain = weakly_coupled(6, 1e-3, 0, true);
-  chain.contact_dofs = {2};
-  chain.damping.coeffRef(0, 0) *= 1.0 + 1e-9;
-  Condensation modal(chain, CondensationMethod::modal);
-  const TrueErrors errors(chain, modal, at_harmonic(1, 100.0));
-  EXPECT_GT(errors.stated, 1e-10);
 }
 
 TEST(Condensation, RefusesMatricesThatDoNotFit) {

@@ -41,8 +41,8 @@ class ExponentialLaw {
     return displacement <= gap_ ? 0.0 : potential_in_contact(displacement);
   }
 
-  /// f = force(v - flexibility f) and its slope by v, flexibility > 0, m/N: the spring in series with a linear
-  /// one. By a Newton iteration from above, which converges monotonically as the force is convex.
+  /// f = force(v - flexibility f) and its slope by v, flexibility > 0, m/N: the spring in series with a
+  /// linear one. By a Newton iteration from above, which converges monotonically as the force is convex.
   ForceAndTangent resolvent(double v, double flexibility) const;
 
   /// Force and tangent at the cost of one exponential.

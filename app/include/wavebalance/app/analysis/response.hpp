@@ -44,7 +44,7 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
   int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
-  std::string strategy;  ///< solvers::Strategy that found it; empty for time stepping and shooting
+  std::string strategy;        ///< solvers::Strategy that found it; empty for time stepping and shooting
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();

@@ -23,9 +23,8 @@ enum class LinearSolver {
 /// m, contact-major):
 ///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = diag(f_c'(u)).
 /// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an
-/// LU of their number and one product with K. In the force form of the problem u stands for its unknown v, and
-/// the laws are their resolvents. Many of them are solved for by GMRES, which forms no matrix
-/// over them.
+/// LU of their number and one product with K. In the force form of the problem u stands for its unknown v,
+/// and the laws are their resolvents. Many of them are solved for by GMRES, which forms no matrix over them.
 class ContactSystem {
  public:
   /// Throws std::invalid_argument when there are neither one law nor one for each contact.
@@ -55,7 +54,8 @@ class ContactSystem {
   double relative_residual() const { return relative_residual_; }
 
   /// Adds a motion to the contact-free response in the residual, m, samples() values; empty for none. A curve
-  /// of states leads from an approximate motion, which solves the system with its residual added, to a solution.
+  /// of states leads from an approximate motion, which solves the system with its residual added, to a
+  /// solution.
   void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }
 
   /// Overrides the tangent of a sample: the side of the kink from which J is taken there.

@@ -17,20 +17,20 @@ struct ForcedResponseOptions {
   /// forces, the motion that the structure settles to, and continuation.
   bool fallbacks = true;
   double max_fallback_operations = 1e10;  ///< of each further Newton run
-  SettlingOptions settling;              ///< its observer is not used
-  ResidualHomotopyOptions continuation;  ///< its observer is not used
+  SettlingOptions settling;               ///< its observer is not used
+  ResidualHomotopyOptions continuation;   ///< its observer is not used
   ComplementarityOptions paths;
-  Observer observer;                     ///< called in all phases; NewtonOptions::observer is not used here
+  Observer observer;  ///< called in all phases; NewtonOptions::observer is not used here
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
 };
 
 /// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one for
-/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The problem is
-/// left in the displacement form, whatever the form of the response. If it
-/// does not converge, the status gives the reason. Throws std::invalid_argument for a guess or a list of laws
-/// of another length, for a problem without frequency and for options out of range.
+/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The
+/// problem is left in the displacement form, whatever the form of the response. If it does not converge, the
+/// status gives the reason. Throws std::invalid_argument for a guess or a list of laws of another length, for
+/// a problem without frequency and for options out of range.
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {});
 

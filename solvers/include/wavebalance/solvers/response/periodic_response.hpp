@@ -12,17 +12,17 @@ namespace wavebalance::solvers {
 /// the start of another solve. contact_motion() makes them a Motion at any points.
 struct PeriodicResponse {
   SolveStatus status = SolveStatus::iteration_limit;
-  double frequency = 0.0;                ///< Hz
-  double residual = 0.0;                 ///< ||R|| / (||u0|| + ||K f||)
-  int iterations = 0;                    ///< Newton iterations and pivots of all attempts
-  Strategy strategy = Strategy::none;    ///< what found it
+  double frequency = 0.0;              ///< Hz
+  double residual = 0.0;               ///< ||R|| / (||u0|| + ||K f||)
+  int iterations = 0;                  ///< Newton iterations and pivots of all attempts
+  Strategy strategy = Strategy::none;  ///< what found it
   /// SettledMotion::attractor_periods where the structure was settled; -1 where it was not.
   int attractor_periods = -1;
   std::vector<double> residual_history;  ///< residuals of the last Newton run
   double condition = 0.0;                ///< NewtonResult::condition of that run
   Eigen::VectorXd displacement;          ///< m, samples() values, contact-major
   Eigen::VectorXd contact_force;         ///< N, samples() values
-  Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
+  Eigen::MatrixXcd coefficients;         ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
   /// 1 / epsilon of each contact (m/N) in the force form; empty in the displacement form.
   Eigen::VectorXd regularization;
   Eigen::VectorXd unknown;                ///< m, samples() values: displacement, or v of the force form

@@ -9,13 +9,13 @@ namespace wavebalance::solvers {
 
 /// How a motion is integrated from rest until it repeats.
 struct SettlingOptions {
-  int steps = 1024;        ///< per period of the load
-  int max_periods = 600;   ///< of the load
-  int longest = 16;        ///< periods of the load after which a motion may repeat
-  double tolerance = 1e-6; ///< of the state after its period, in the energy norm, relative
-  int max_modes = 120;     ///< of the structure; the others deflect statically
-  int max_size = 400;      ///< degrees of freedom up to which the modes are computed
-  Observer observer;       ///< called once per period
+  int steps = 1024;         ///< per period of the load
+  int max_periods = 600;    ///< of the load
+  int longest = 16;         ///< periods of the load after which a motion may repeat
+  double tolerance = 1e-6;  ///< of the state after its period, in the energy norm, relative
+  int max_modes = 120;      ///< of the structure; the others deflect statically
+  int max_size = 400;       ///< degrees of freedom up to which the modes are computed
+  Observer observer;        ///< called once per period
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -27,9 +27,9 @@ struct SettledMotion {
   /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for
   /// subharmonic ones, 0 for none within the options' limits, -1 when nothing could be integrated.
   int attractor_periods = not_integrated;
-  int periods = 0;               ///< integrated
-  bool cancelled = false;        ///< the observer asked to stop
-  double start = 0.0;            ///< periods after t = 0 at which the load is largest and the columns begin
+  int periods = 0;         ///< integrated
+  bool cancelled = false;  ///< the observer asked to stop
+  double start = 0.0;      ///< periods after t = 0 at which the load is largest and the columns begin
   /// C x steps, m and N: of the last period.
   Eigen::MatrixXd displacement, force;
 };
@@ -42,8 +42,8 @@ struct SettledMotion {
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options = {});
 
-/// A row per contact of values at uniform steps of the period from `start` (periods) on, interpolated linearly
-/// at `points` points from t = 0 on: the samples of a problem, contact-major.
+/// A row per contact of values at uniform steps of the period from `start` (periods) on, interpolated
+/// linearly at `points` points from t = 0 on: the samples of a problem, contact-major.
 Eigen::VectorXd resample(const Eigen::MatrixXd& by_contact, int points, double start = 0.0);
 
 }  // namespace wavebalance::solvers

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/record_figure.hpp"
+#include "support/bar_scene.hpp"
+#include "support/scene_texts.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+namespace solvers = wavebalance::solvers;
+
+Sweep sweep_with_a_wild_point(solvers::SweepStatus status) {
+  Sweep sweep;
+  for (int i = 0; i < 200; ++i) {
+    solvers::SweepPoint point;
+    point.frequency = 100.0 + i;
+    point.max_displacement = i == 150 ? 4.5 : 1e-3;
+    point.rms_displacement = 5e-4;
+    sweep.curve.points.push_back(point);
+  }
+  sweep.curve.status = status;
+  return sweep;
+}
+
+TEST(SweepFigure, OneWildPointOfACurveThatDidNotEndWellDoesNotSetTheAxis) {
+  const Figure figure =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
+  const Panel& panel = figure.panels[0];
+  EXPECT_EQ(panel.y.label, "Displacement (mm)");
+  ASSERT_TRUE(panel.y.upper);
+  EXPECT_NEAR(*panel.y.upper, 1.1, 1e-12);
+  const Figure whole =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::reached_end));
+  EXPECT_FALSE(whole.panels[0].y.upper);
+}
+
+TEST(SweepFigure, OfManyPointsShowsThePeaksAndTheEnds) {
+  Sweep sweep;
+  for (int i = 0; i < 1'000'000; ++i) {
+    solvers::SweepPoint point;
+    point.frequency = 100.0 + i;
+    point.max_displacement = i == 123'456 ? 3.0 : i == 654'321 ? -1.0 : 2.0;
+    point.rms_displacement = 1.0;
+    sweep.curve.points.push_back(point);
+  }
+  sweep.curve.status = solvers::SweepStatus::reached_end;
+  const Series drawn = sweep_figure(scene_of(sweep_overrides), sweep).panels[0].series[0];
+  EXPECT_LE(drawn.x.size(), 8192u);
+  EXPECT_EQ(drawn.x.front(), 100.0);
+  EXPECT_EQ(drawn.x.back(), 1'000'099.0);
+  EXPECT_TRUE(std::is_sorted(drawn.x.begin(), drawn.x.end()));
+  const auto highest = std::max_element(drawn.y.begin(), drawn.y.end()) - drawn.y.begin();
+  EXPECT_EQ(drawn.x[static_cast<std::size_t>(highest)], 100.0 + 123'456);
+  EXPECT_EQ(*std::min_element(drawn.y.begin(), drawn.y.end()), -1.0);
+}
+
+TEST(SweepFigure, ShowsTheStatusAsItIsWritten) {
+  const Figure figure =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::point_limit));
+  EXPECT_NE(figure.title.find("point\\_limit"), std::string::npos) << figure.title;
+}
+
+TEST(SweepFigure, LegendIsOutsideAndTheGapIsNamed) {
+  const Figure figure =
+      sweep_figure(scene_of(sweep_overrides), sweep_with_a_wild_point(solvers::SweepStatus::reached_end));
+  EXPECT_EQ(figure.panels[0].legend, Legend::below_panel);
+  ASSERT_EQ(figure.panels[0].segments.size(), 1u);
+  EXPECT_EQ(figure.panels[0].segments[0].label, "gap");
+  EXPECT_NE(render(figure, PictureFormat::svg).find(">gap<"), std::string::npos);
+}
+
+}  // namespace
