@@ -10,8 +10,9 @@
 #include "stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/response/rigid_response.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
@@ -141,12 +142,12 @@ void rigid_levels(const Study& study, const std::string& basis, double gap, app:
   Rows rows(table, study, basis, "uniform");
   for (int functions = 2 * coarsest; functions <= study.sizes.finest / 2; functions *= 2) {
     const Clock clock;
-    auto problem = app::make_problem(study.scene(basis, functions, functions));
-    const auto rigid = solvers::rigid_response(problem, gap, {});
+    auto problem = app::make_problem(study.scene(basis, functions, 4 * functions));
+    const auto rigid = solvers::forced_response(problem, contact::RigidLaw(gap), {});
     solvers::TrialEvaluator evaluate(app::make_basis(basis, functions), study.sizes.points, 0);
-    const Eigen::VectorXcd coefficients = rigid.response.coefficients;
-    rows.add(static_cast<std::size_t>(functions), rigid.response.converged(), evaluate(coefficients), missing,
-             rigid.response.iterations, clock.milliseconds());
+    const Eigen::VectorXcd coefficients = rigid.coefficients;
+    rows.add(static_cast<std::size_t>(functions), rigid.converged(), evaluate(coefficients), missing,
+             rigid.iterations, clock.milliseconds());
   }
 }
 

@@ -34,7 +34,7 @@ SizeSeries penalty_sizes(bool quick) {
 }
 
 SizeSeries rigid_sizes(bool quick) {
-  if (quick) return {{4, 16}, {1}, 0.2};
+  if (quick) return {{4, 16}, {4}, 0.2};
   return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 0.2};
 }
 

@@ -6,7 +6,6 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/rigid_response.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 namespace wavebalance::bench {
@@ -28,11 +27,6 @@ solvers::Observer deadline(double max_seconds) {
 solvers::PeriodicResponse solve(const app::Scene& scene, solvers::CondensedProblem& problem,
                                 double max_seconds) {
   problem.set_frequency(scene.forcing.frequency);
-  if (scene.contact.law == app::ContactLawType::rigid) {
-    solvers::RigidResponseOptions options;
-    options.observer = deadline(max_seconds);
-    return solvers::rigid_response(problem, scene.contact.gap, options).response;
-  }
   solvers::ForcedResponseOptions options;
   options.observer = deadline(max_seconds);
   return solvers::forced_response(problem, app::make_law(scene.contact), options);

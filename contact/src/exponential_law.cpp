@@ -31,7 +31,10 @@ ExponentialLaw::ExponentialLaw(double constant, double exponent, double gap)
 }
 
 ForceAndTangent ExponentialLaw::in_contact(double displacement) const {
-  const double argument = exponent_ * (displacement - gap_);
+  return at_argument(exponent_ * (displacement - gap_));
+}
+
+ForceAndTangent ExponentialLaw::at_argument(double argument) const {
   if (argument > linear_beyond) {
     const double edge = constant_ * std::expm1(linear_beyond);
     const double slope = edge + constant_;  // per unit of the argument
@@ -49,14 +52,16 @@ ForceAndTangent ExponentialLaw::resolvent(double v, double flexibility) const {
   constexpr int max_iterations = 100;
   double x = std::min(y / (1.0 + b), std::log1p(y / b));
   for (int i = 0; i < max_iterations && x > 0.0; ++i) {
-    const ForceAndTangent at = in_contact(gap_ + x / exponent_);
+    const ForceAndTangent at = at_argument(x);
     const double rise = 1.0 + flexibility * at.tangent;
     const double step = (x - y + exponent_ * flexibility * at.force) / rise;
     x = std::max(x - step, 0.0);
     if (!(step > 1e-15 * x)) break;
   }
-  const double tangent = in_contact(gap_ + x / exponent_).tangent;
-  return {detail::saturate((v - gap_ - x / exponent_) / flexibility), 1.0 / (1.0 / tangent + flexibility)};
+  // The softer of law and spring says the force without cancellation.
+  const double spring = detail::saturate((v - gap_ - x / exponent_) / flexibility);
+  const ForceAndTangent law = at_argument(x);
+  return {2.0 * x > y ? law.force : spring, 1.0 / (1.0 / law.tangent + flexibility)};
 }
 
 double ExponentialLaw::potential_in_contact(double displacement) const {

@@ -209,7 +209,7 @@ void notes(report::Artefact& artefact, const Study& study) {
     turns += (turns.empty() ? "" : ", ") + report::number(turn.frequency, 5) + " Hz";
   artefact.note(fmt::format(
       "The curve by arc length ({}, {} points) turns at {}. It takes an odd number of functions: an even "
-      "one, as wavelets have, leaves its Nyquist coefficient undamped, whose resonances no curve passes; "
+      "one, as wavelets have, keeps here its Nyquist coefficient undamped, whose resonances no curve passes; "
       "steps do.",
       to_string(study.traced.curve.status), study.traced.curve.points.size(),
       turns.empty() ? "no frequency" : turns));

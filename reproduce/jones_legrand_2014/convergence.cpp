@@ -134,7 +134,7 @@ void note_nyquist_resonances(report::Artefact& artefact) {
           where = one.label + " with " + std::to_string(functions) + " functions";
         }
     artefact.note(fmt::format(
-        "At {}: the Nyquist coefficient of an even number of functions is undamped in the Galerkin pairs; of "
+        "At {}: the Nyquist coefficient of an even number of functions is undamped in every pair; of "
         "its resonances the nearest to the forcing is that of {}, at {} Hz.",
         study.frequency_text(), where, report::number(nearest, 6)));
   }

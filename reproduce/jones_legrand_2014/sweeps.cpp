@@ -83,8 +83,8 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
     if (!listed.empty()) text += (text.empty() ? "" : "; ") + pair.label + listed + " Hz";
   }
   artefact.note(fmt::format(
-      "An even number of functions leaves the coefficient of the Nyquist function without damping in some "
-      "pairs; the contact force excites it near frequencies that mean nothing to the bar: {}. A kink of a "
+      "An even number of functions leaves the coefficient of the Nyquist function without damping in every "
+      "pair; the contact force excites it near frequencies that mean nothing to the bar: {}. A kink of a "
       "curve near one of them is such a resonance; steps of a few Hz pass them, steps of 1 Hz may follow "
       "them away. Fourier:Fourier with 63 functions (31 full harmonics) has none: turning points {}.",
       text, turning_points_text(full)));

@@ -12,6 +12,7 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/time/motion_evaluator.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
@@ -87,7 +88,7 @@ void measure_motion(const Scene& scene, const app::Response& response, Residuals
   const Eigen::VectorXd noise =
       deviations * std::numeric_limits<double>::epsilon() * u.cwiseAbs().maxCoeff() * projected_noise(pair);
   double worst = 0.0, scale = 0.0, rounding = 0.0;
-  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+  for (int k = 0; k < pair.solved_size(); ++k) {
     const std::array<Eigen::VectorXcd, 3> terms{structure.mass * (pair.symbol(2)[k] * f * f * a.col(k)),
                                                 structure.damping * (pair.symbol(1)[k] * f * a.col(k)),
                                                 structure.stiffness * (pair.symbol(0)[k] * a.col(k))};
@@ -122,7 +123,7 @@ double law_violation(const Scene& scene, const solvers::Motion& contacts) {
   return largest > 0.0 ? worst / largest : worst;
 }
 
-double complementarity(const Scene& scene, const solvers::Motion& contacts) {
+double law_or_obstacle_violation(const Scene& scene, const solvers::Motion& contacts) {
   if (scene.contact.law != ContactLawType::rigid) return law_violation(scene, contacts);
   const Eigen::ArrayXXd force = contacts.force.array();
   Eigen::ArrayXXd opening = -contacts.displacement.array();
@@ -130,7 +131,7 @@ double complementarity(const Scene& scene, const solvers::Motion& contacts) {
     opening.row(contact) += scene.contact.gap_of(contact);
   const double largest = force.abs().maxCoeff();
   double span = contacts.displacement.cwiseAbs().maxCoeff();
-  // On the obstacle to rounding or to the solver's promise, which is relative to the response without
+  // On the obstacle to rounding or to the solver's residual, which is relative to the response without
   // contact.
   Scene free = scene;
   free.contact = {};
@@ -141,6 +142,30 @@ double complementarity(const Scene& scene, const solvers::Motion& contacts) {
   if (largest > 0.0 && span > 0.0)
     worst = std::max(worst, ((force / largest) * (opening / span)).abs().maxCoeff());
   return worst;
+}
+
+/// In the force form the law holds at w = v - f / epsilon, and v - u is f / epsilon for all weighting
+/// functions.
+double complementarity(const Scene& scene, const app::Response& response) {
+  if (response.regularization.size() == 0) return law_or_obstacle_violation(scene, response.contacts);
+  const solvers::TimePair pair = app::make_pair(scene.time);
+  const Eigen::MatrixXcd unknown = response.unknown_coefficients.transpose(),
+                         motion = coefficients(pair, response.contacts.displacement);
+  const Eigen::MatrixXcd yielded =
+      response.regularization.asDiagonal() * projected(pair, response.contacts.force);
+  double worst = 0.0, scale = 0.0;
+  for (int k = 0; k < pair.solved_size(); ++k) {
+    const auto symbol = pair.symbol(0)[k];
+    worst =
+        std::max(worst, (symbol * (unknown.col(k) - motion.col(k)) - yielded.col(k)).cwiseAbs().maxCoeff());
+    scale = std::max(scale,
+                     (std::abs(symbol) * (unknown.col(k).cwiseAbs() + motion.col(k).cwiseAbs())).maxCoeff());
+  }
+  solvers::Motion held = response.contacts;
+  solvers::MotionEvaluator evaluate(pair.trial(), static_cast<int>(held.points()));
+  held.displacement = evaluate(response.unknown_coefficients, scene.forcing.frequency).displacement -
+                      response.regularization.asDiagonal() * held.force;
+  return std::max(scale > 0.0 ? worst / scale : 0.0, law_or_obstacle_violation(scene, held));
 }
 
 /// Steps follow the fastest mode of the structure: many periods of it take too many.
@@ -269,7 +294,7 @@ app::Response solve(Scene scene) {
 Residuals residuals(const Scene& scene, const app::Response& response, int stepped_elements) {
   Residuals result;
   measure_motion(scene, response, result);
-  result.complementarity = complementarity(scene, response.contacts);
+  result.complementarity = complementarity(scene, response);
   if (can_be_stepped(scene, response, stepped_elements))
     result.periodicity = periodicity(scene, response.structure);
   return result;

@@ -21,7 +21,8 @@ struct Residuals {
   /// With a law: the distance of the force from the forces that the law gives within a billionth of the
   /// motion about the displacement, over the largest force. With a rigid obstacle: the largest of negative
   /// force over the largest force, of penetration over the largest displacement with or without the obstacle,
-  /// and of their product.
+  /// and of their product. In the force form both hold at w = v - f / epsilon; that v - u is f / epsilon for
+  /// all weighting functions, relative to the motion, counts too.
   double complementarity = std::numeric_limits<double>::quiet_NaN();
   /// Relative change of displacement and velocity, in the energy norm, over one period of time stepping from
   /// the response at t = 0. It shows the error of the time basis, amplified by the multipliers of the motion.

@@ -140,6 +140,8 @@ void draw_contact(Draw& draw, Scene& scene, double displacement, double stiffnes
   contact.law = draw.one_of(std::vector<ContactLawType>{ContactLawType::none, ContactLawType::exponential,
                                                         ContactLawType::linear, ContactLawType::rigid});
   if (contact.law == ContactLawType::none) return;
+  if (contact.law == ContactLawType::rigid && scene.structure.elements == 1)
+    contact.law = ContactLawType::linear;  // there is no neighbour to take the tip's mass
   contact.gap = displacement * draw.uniform(-0.5, 1.5);
   if (draw.chance(0.1)) contact.gap = draw.one_of(std::vector<double>{0.0, 1e-300, -1e-300, 1e30});
   const double penalty = stiffness * draw.magnitude(-3.0, 8.0);

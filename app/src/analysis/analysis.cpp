@@ -15,14 +15,9 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
-#include "wavebalance/solvers/response/rigid_response.hpp"
-#include "wavebalance/solvers/response/stepped_sweep.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-constexpr const char* solved_alone =
-    "rigid contact: every frequency is solved alone, so branches of the response may be missing";
 
 solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
@@ -31,6 +26,7 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   options.to = analysis.frequency_to;
   options.output_points = analysis.output_points;
   options.max_points = analysis.max_points;
+  options.start.form = scene.contact.form;
   auto& arc = options.arc_length;
   arc.parameter_scale = std::abs(options.to - options.from) / 20.0;
   arc.initial_step = analysis.first_step / arc.parameter_scale;
@@ -70,11 +66,11 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back("strategy", response.strategy);
   if (response.attractor_periods >= 0)
     record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
+  if (!response.form.empty()) record.summary.emplace_back("form", response.form);
   if (response.rigid) {
     record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
     record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);
     record.summary.emplace_back("complementarity", response.rigid->product);
-    record.summary.emplace_back("spring_stiffness_N_per_m", response.rigid->stiffness);
   }
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
@@ -118,9 +114,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.converged = sweep.converged();
   record.interrupted = sweep.interrupted();
   record.status = sweep.status();
-  const bool rigid = scene.contact.law == ContactLawType::rigid;
   record.warnings = model.warnings;
-  if (rigid) record.warnings.emplace_back(solved_alone);
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
@@ -131,18 +125,17 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("min_displacement_m", missing);
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
+  const bool force_form = sweep.curve.form == solvers::ContactForm::force;
   record.summary.emplace_back("max_contact_force_N", points == 0 ? missing
-                                                     : rigid     ? sweep.max_force
-                                                                 : force_at(scene.contact, highest));
+                                                     : force_form
+                                                         ? largest(sweep.curve, &solvers::SweepPoint::max_force)
+                                                         : force_at(scene.contact, highest));
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
   append_turning_points(record.summary, sweep.curve);
   append_discretisation(record.summary, scene.time);
-  if (rigid) {
-    record.summary.emplace_back("max_penetration_m", sweep.max_penetration);
-    record.summary.emplace_back("unsolved_frequencies", std::int64_t{sweep.unsolved});
-  }
+  record.summary.emplace_back("form", std::string(to_string(sweep.curve.form)));
   append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   append_structure(record.summary, model);
   record.sweep = sweep_table(sweep.curve);
@@ -159,79 +152,12 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
   return sweep;
 }
 
-/// The response at one frequency of a rigid sweep.
-struct RigidPoint {
-  solvers::SweepPoint point;
-  bool converged = false;
-  double condition = 0.0;
-  double rounding_error = 0.0;
-  double max_penetration = 0.0;  // m
-  double max_force = 0.0;        // N
-};
-
-RigidPoint rigid_point(solvers::CondensedProblem& problem, const StructureModel& model, int output_points,
-                       const solvers::RigidResponseOptions& options) {
-  const auto found = solvers::rigid_response(problem, model.gaps, options);
-  const solvers::Motion motion = solvers::contact_motion(problem, found.response, {}, output_points);
-  const Eigen::MatrixXd& u = motion.displacement;
-  RigidPoint result;
-  result.converged = found.response.converged();
-  result.condition = std::max(problem.condensation().condition(), found.response.condition);
-  result.rounding_error = problem.rounding_error(found.response.contact_force);
-  result.max_penetration = found.complementarity.max_penetration;
-  result.max_force = motion.force.maxCoeff();
-  result.point.frequency = problem.frequency();
-  result.point.max_displacement = u.maxCoeff();
-  result.point.rms_displacement = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
-  result.point.max_abs_displacement = u.cwiseAbs().maxCoeff();
-  result.point.residual = std::max(found.response.residual, found.complementarity.product);
-  return result;
-}
-
-/// Adds a point to its sweep; `found` is empty where a system was singular.
-void note(Sweep& sweep, const std::optional<RigidPoint>& found) {
-  const double condition = found ? found->condition : std::numeric_limits<double>::infinity();
-  sweep.curve.condition = std::max(sweep.curve.condition, condition);
-  if (!found || !found->converged) {
-    ++sweep.unsolved;
-    return;
-  }
-  sweep.max_penetration = std::max(sweep.max_penetration, found->max_penetration);
-  sweep.max_force = std::max(sweep.max_force, found->max_force);
-  sweep.curve.rounding_error = std::max(sweep.curve.rounding_error, found->rounding_error);
-  sweep.curve.points.push_back(found->point);
-}
-
-Sweep rigid_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  const Analysis& analysis = scene.analysis;
-  const auto frequencies = solvers::uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
-                                                        analysis.largest_step, analysis.max_points);
-  solvers::RigidResponseOptions options;
-  options.observer = observer;
-  const auto solve = [&](solvers::CondensedProblem& problem) {
-    return rigid_point(problem, model, analysis.output_points, options);
-  };
-  solvers::CondensedProblem problem = make_problem(scene, model);
-  auto found = solvers::stepped_sweep(problem, frequencies, solve, observer);
-  Sweep sweep;
-  const bool interrupted = found.size() < frequencies.size();
-  if (interrupted && found.back() && !found.back()->converged) found.pop_back();  // it was cut off
-  for (const auto& point : found) note(sweep, point);
-  const bool to_the_end = std::abs(frequencies.back() - analysis.frequency_to) < 0.5 * analysis.largest_step;
-  sweep.curve.status = interrupted  ? solvers::SweepStatus::cancelled
-                       : to_the_end ? solvers::SweepStatus::reached_end
-                                    : solvers::SweepStatus::point_limit;
-  return sweep;
-}
-
 }  // namespace
 
 std::string Sweep::status() const {
   if (interrupted()) return "interrupted";
   if (curve.rounding_error > largest_rounding_error) return inaccurate_status(curve.rounding_error);
-  if (unsolved == 0) return std::string(to_string(curve.status));
-  return "no response at " + std::to_string(unsolved) + " of " +
-         std::to_string(curve.points.size() + static_cast<std::size_t>(unsolved)) + " frequencies";
+  return std::string(to_string(curve.status));
 }
 
 Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
@@ -240,8 +166,7 @@ Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
 
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
-  const bool rigid = scene.contact.law == ContactLawType::rigid;
-  Sweep sweep = rigid ? rigid_sweep(scene, model, observer) : arc_length_sweep(scene, model, observer);
+  Sweep sweep = arc_length_sweep(scene, model, observer);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sweep;
 }

@@ -105,14 +105,22 @@ std::string chosen_text(const Time& time) {
                      pair, number_text(time.tolerance));
 }
 
+/// What becomes of the Nyquist coefficient; empty for an odd number of functions.
+std::string nyquist_text(const Time& time) {
+  if (time.functions % 2 != 0) return "";
+  return time.nyquist == NyquistCoefficient::drop ? " (Nyquist coefficient dropped)"
+                                                  : " (Nyquist coefficient kept)";
+}
+
 std::string time_lines(const Time& time) {
   if (time.tolerance > 0.0) return chosen_text(time);
   const auto products = effective_inner_products(time);
   const auto pair = pair_admissibility(time);
   return fmt::format(
-      "time       {}:{}, {} functions, {} quadrature points, {} form, {} inner products{}\npair       {}\n",
-      time.trial, time.weight, time.functions, time.quadrature_points, name_of(time.formulation),
-      name_of(products), products == time.inner_products ? "" : " (connection coefficients)",
+      "time       {}:{}, {} functions{}, {} quadrature points, {} form, {} inner products{}\npair       {}\n",
+      time.trial, time.weight, time.functions, nyquist_text(time), time.quadrature_points,
+      name_of(time.formulation), name_of(products),
+      products == time.inner_products ? "" : " (connection coefficients)",
       pair.admissible ? "admissible" : "NOT admissible: " + pair.reason);
 }
 

@@ -1,25 +1,44 @@
 #include "wavebalance/app/analysis/nyquist_resonances.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::app {
+namespace {
+
+/// The positive roots of a f^2 + b f + c = 0, a not zero.
+std::vector<double> positive_roots(double a, double b, double c) {
+  const double discriminant = b * b - 4.0 * a * c;
+  if (!(discriminant >= 0.0)) return {};
+  const double sum = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));  // without cancellation
+  std::vector<double> roots{sum / a};
+  if (sum != 0.0) roots.push_back(c / sum);
+  std::erase_if(roots, [](double root) { return !(root > 0.0); });
+  return roots;
+}
+
+}  // namespace
 
 std::vector<double> nyquist_resonances(const Scene& scene, double from, double to) {
-  if (scene.time.functions % 2 != 0) return {};
+  if (scene.time.functions % 2 != 0 || scene.time.nyquist == NyquistCoefficient::drop) return {};
   const solvers::TimePair pair = make_pair(scene.time);
-  const auto nyquist = [&](int derivative) { return pair.symbol(derivative)[pair.functions() / 2]; };
-  const auto ratio = nyquist(2) / nyquist(0);
-  const double scale = std::sqrt(std::abs(ratio));
-  const bool undamped = std::abs(nyquist(1) / nyquist(0)) < 1e-9 * scale;
-  if (!undamped || !(ratio.real() < 0.0) || std::abs(ratio.imag()) > 1e-9 * std::abs(ratio)) return {};
+  const auto nyquist = [&](int derivative) { return pair.symbol(derivative)[pair.functions() / 2].real(); };
+  if (nyquist(2) == 0.0) return {};
   const solvers::LinearStructure structure = make_structure(scene);
+  const Eigen::VectorXd masses = structure.mass.diagonal();
+  const int count = static_cast<int>((masses.array() != 0.0).count());
+  const auto modes = fem::eigenmodes(structure.stiffness, structure.mass, count);
   std::vector<double> frequencies;
-  const int modes = structure.size() - (scene.structure.massless_tip ? 1 : 0);
-  for (const double omega : fem::eigenmodes(structure.stiffness, structure.mass, modes).omega)
-    if (omega / scale >= from && omega / scale <= to) frequencies.push_back(omega / scale);
+  for (int mode = 0; mode < count; ++mode) {
+    const Eigen::VectorXd shape = modes.shapes.col(mode);
+    const double damping = shape.dot(structure.damping * shape), omega = modes.omega[mode];
+    for (const double root : positive_roots(nyquist(2), nyquist(1) * damping, nyquist(0) * omega * omega))
+      if (root >= from && root <= to) frequencies.push_back(root);
+  }
+  std::sort(frequencies.begin(), frequencies.end());
   return frequencies;
 }
 

@@ -188,13 +188,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   panel.x.label = "Frequency (Hz)";
   panel.y.label = "Displacement (" + scale.prefix + "m)";
   panel.legend = Legend::below_panel;
-  // With rigid contact neighbours may lie on different branches: no line joins them.
-  const bool rigid = scene.contact.law == ContactLawType::rigid;
-  if (rigid) panel.x.label += ", each solved alone: branches may be missing";
-  const auto style = rigid ? SeriesStyle::points : SeriesStyle::line;
   for (const auto& [label, column] :
        {std::pair{"largest", "max_displacement_m"}, {"rms", "rms_displacement_m"}})
-    panel.add(thinned({label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor), style}));
+    panel.add(thinned({label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor)}));
   if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
     panel.mark_y(scale.factor * scene.contact.gap, "gap");
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;

@@ -15,8 +15,8 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/complementarity.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
-#include "wavebalance/solvers/response/rigid_response.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -38,25 +38,14 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
     result.structure = solvers::structure_motion(problem, found.contact_force, options.structure_points);
 }
 
-void note_solution(Response& result, solvers::CondensedProblem& problem,
-                   const solvers::PeriodicResponse& found) {
-  result.converged = found.converged();
-  result.status = to_string(found.status);
-  result.residual = found.residual;
-  result.iterations = found.iterations;
-  result.strategy = to_string(found.strategy);
-  result.attractor_periods = found.attractor_periods;
-  result.condition = std::max(problem.condensation().condition(), found.condition);
-  result.rounding_error = problem.rounding_error(found.contact_force);
-}
-
 void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
                const ResponseOptions& options, Response& result) {
   solvers::ForcedResponseOptions solver;
   solver.observer = options.observer;
+  solver.form = scene.contact.form;
   auto& [problem, laws] = composed;
   const auto found = solvers::forced_response(problem, laws, solver, options.guess);
-  note_solution(result, problem, found);
+  note_solution(result, problem, found, scene, model);
   note_motion(problem, found, laws, scene, model, options, result);
 }
 
@@ -65,19 +54,6 @@ void solve_refined(const Scene& scene, const StructureModel& model, const Respon
   const solvers::ContactLaws laws = make_laws(scene);
   auto found = solve_to_tolerance(scene, model, laws, options, result);
   note_motion(*found.problem, found.response, laws, scene, model, options, result);
-}
-
-void solve_rigid(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
-                 const ResponseOptions& options, Response& result) {
-  solvers::CondensedProblem& problem = composed.problem;
-  solvers::RigidResponseOptions solver;
-  solver.observer = options.observer;
-  const auto found = solvers::rigid_response(problem, model.gaps, solver);
-  note_solution(result, problem, found.response);
-  const auto& contact = found.complementarity;
-  result.rigid = {contact.max_penetration, contact.min_force, contact.product, found.stiffness};
-  result.residual = std::max(found.response.residual, contact.product);
-  note_motion(problem, found.response, composed.laws, scene, model, options, result);
 }
 
 /// A converged response without accurate digits is none.
@@ -99,6 +75,27 @@ bool wants_structure(const Scene& scene, const ResponseOptions& options) {
 }
 
 }  // namespace
+
+void note_solution(Response& result, solvers::CondensedProblem& problem,
+                   const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model) {
+  result.converged = found.converged();
+  result.status = to_string(found.status);
+  result.residual = found.residual;
+  result.iterations = found.iterations;
+  result.strategy = to_string(found.strategy);
+  result.attractor_periods = found.attractor_periods;
+  const bool force_form = found.regularization.size() > 0;
+  result.form = to_string(force_form ? solvers::ContactForm::force : solvers::ContactForm::displacement);
+  if (force_form) {
+    result.unknown_coefficients = found.unknown_coefficients;
+    result.regularization = found.regularization;
+  }
+  result.condition = std::max(problem.condensation().condition(), found.condition);
+  result.rounding_error = found.rounding_error;
+  if (scene.contact.law != ContactLawType::rigid) return;
+  const auto held = solvers::complementarity(found.displacement, found.contact_force, model.gaps);
+  result.rigid = {held.max_penetration, held.min_force, held.product};
+}
 
 std::string inaccurate_status(double rounding_error) {
   return fmt::format(
@@ -130,8 +127,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
       solve_refined(scene, model, options, result);
     } else {
       ComposedProblem composed = compose_problem(scene, model);
-      const bool rigid = scene.contact.law == ContactLawType::rigid;
-      (rigid ? solve_rigid : solve_law)(scene, model, composed, options, result);
+      solve_law(scene, model, composed, options, result);
     }
   } catch (const solvers::SingularSystem& error) {
     result.converged = false;  // also when only the field of the whole structure cannot be had

@@ -27,6 +27,7 @@ void append_discretisation(Summary& summary, const Time& time) {
   summary.emplace_back("inner_products", name_of(effective_inner_products(time)));
   summary.emplace_back("functions", std::int64_t{time.functions});
   summary.emplace_back("quadrature_points", std::int64_t{time.quadrature_points});
+  if (time.functions % 2 == 0) summary.emplace_back("nyquist", name_of(time.nyquist));
 }
 
 void append_structure(Summary& summary, const StructureModel& model) {
@@ -34,6 +35,8 @@ void append_structure(Summary& summary, const StructureModel& model) {
   summary.emplace_back("degrees_of_freedom", std::int64_t{model.unknowns});
   summary.emplace_back("reduced_degrees_of_freedom", std::int64_t{model.size()});
   summary.emplace_back("reduction_seconds", model.reduction_seconds);
+  if (std::isfinite(model.frequency_change))
+    summary.emplace_back("contact_mass_frequency_change", model.frequency_change);
 }
 
 void append_condition(Record& record, double condition, double rounding_error) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
@@ -22,6 +23,7 @@ solvers::RefinementOptions refinement_options(const Scene& scene, const Response
   const bool wavelets = is_wavelet(scene.time.trial) || is_wavelet(scene.time.weight);
   if (wavelets) refinement.first_functions = 16;
   if (wavelets) refinement.first_points = 32;
+  refinement.solver.form = scene.contact.form;
   refinement.observer = options.observer;
   return refinement;
 }
@@ -39,12 +41,10 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
     return make_problem(sized, model);
   };
   auto found = solvers::response_to_tolerance(make, laws, refinement_options(chosen, options));
+  note_solution(result, *found.problem, found.response, scene, model);
   result.converged = found.converged();
   result.status = to_string(found.status);
-  result.residual = found.response.residual;
-  result.strategy = to_string(found.response.strategy);
-  result.condition = std::max(found.problem->condensation().condition(), found.response.condition);
-  result.rounding_error = found.problem->rounding_error(found.response.contact_force);
+  result.iterations = 0;
   result.unknowns = model.contacts() * found.levels.back().functions;
   for (const auto& level : found.levels) result.iterations += level.iterations;
   result.refinement =

@@ -8,6 +8,7 @@
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/no_contact.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 #include "wavebalance/wavelets/connection.hpp"
@@ -29,7 +30,7 @@ wavelets::PeriodicBasis wavelet_basis(const std::string& name, int functions) {
 bool is_haar(const std::string& basis) { return basis == "haar" || basis == "daubechies2"; }
 
 /// Opposite a Haar function, whose Fourier coefficient at the Nyquist harmonic is imaginary, only the sine
-/// remains.
+/// remains. Without effect where the Nyquist coefficient is dropped.
 solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string& other, const Time& time) {
   const bool blind = is_haar(other) && effective_inner_products(time) == InnerProducts::exact;
   if (name == "fourier" && blind) return spectral::FourierBasis(time.functions, spectral::Nyquist::sine);
@@ -47,6 +48,7 @@ PairParts pair_parts(const Time& time) {
   options.formulation = time.formulation;
   options.inner_products = effective_inner_products(time);
   options.quadrature_points = time.quadrature_points;
+  options.nyquist = time.nyquist;
   if (!is_wavelet(time.trial) || !is_wavelet(time.weight))
     return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
             std::move(options)};
@@ -72,7 +74,7 @@ solvers::AnyContactLaw make_law(const Contact& contact, int index) {
     case ContactLawType::linear:
       return contact::LinearLaw(contact.stiffness, gap);
     case ContactLawType::rigid:
-      throw std::invalid_argument("make_law: rigid contact has no force as a function of the displacement");
+      return contact::RigidLaw(gap);
     case ContactLawType::none:
       break;
   }
@@ -130,8 +132,7 @@ solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::Mo
 }
 
 ComposedProblem compose_problem(const Scene& scene, const StructureModel& model) {
-  const bool rigid = scene.contact.law == ContactLawType::rigid;
-  return {make_problem(scene, model), rigid ? solvers::ContactLaws() : make_laws(scene)};
+  return {make_problem(scene, model), make_laws(scene)};
 }
 
 solvers::CondensedProblem make_problem(const Scene& scene) { return make_problem(scene, make_model(scene)); }

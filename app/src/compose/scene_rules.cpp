@@ -47,11 +47,6 @@ void check_tolerance(const Document& document, const Scene& scene) {
   if (time.trial.empty() != time.weight.empty())
     fail_rule(document, {"time.trial", "time.weight"},
               "beside time.tolerance expected both time.trial and time.weight, or none of them");
-  if (scene.contact.law == ContactLawType::rigid)
-    fail_rule(
-        document, {"time.tolerance"},
-        "not with contact.law = \"rigid\", whose force does not converge at its points; expected trial, "
-        "weight and functions");
   if (time.trial.empty()) return;
   time.functions = 16;  // no matter how many: exponents and derivatives decide
   time.quadrature_points = 4 * time.functions;
@@ -121,6 +116,17 @@ void check_mode(const Document& document, const Scene& scene) {
 
 void check_rigid(const Document& document, const Scene& scene) {
   if (scene.contact.law != ContactLawType::rigid) return;
+  const bool balanced = scene.analysis.type == AnalysisType::forced_response ||
+                        scene.analysis.type == AnalysisType::frequency_sweep;
+  if (balanced && scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)
+    fail_rule(
+        document, {"contact.mass"},
+        "not with contact.law = \"rigid\": a continuum of motions satisfies a rigid obstacle and a contact "
+        "with mass without a law of impact; expected \"redistribute\", or a stiff \"linear\" law");
+  if (balanced && scene.contact.form == ContactForm::displacement)
+    fail_rule(document, {"contact.form"},
+              "not with contact.law = \"rigid\", whose force is no function of the displacement; expected "
+              "\"automatic\" or \"force\"");
   if (scene.analysis.type == AnalysisType::time_stepping)
     fail_rule(
         document, {"contact.law", "analysis.type"},

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "compose/massless_contacts.hpp"
 #include "compose/structure_files.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
@@ -36,7 +37,10 @@ StructureModel bar_model(const Scene& scene) {
                                      .elements = bar.elements,
                                      .stiffness_damping = bar.stiffness_damping,
                                      .lumped_fraction = bar.lumped_mass_fraction});
-  if (bar.massless_tip) move_tip_mass(matrices.mass);
+  const bool massless = bar.massless_tip || redistributes_mass(scene);
+  if (massless && bar.elements < 2)
+    throw std::invalid_argument("structure.elements is 1; a tip without mass needs 2 or more");
+  if (massless) move_tip_mass(matrices.mass);
   StructureModel model;
   model.structure.mass = std::move(matrices.mass);
   model.structure.damping = std::move(matrices.damping);
@@ -183,6 +187,20 @@ StructureModel model_of_type(const Scene& scene) {
   return bar_model(scene);
 }
 
+/// The structure before the mass of its contacts is redistributed.
+solvers::LinearStructure structure_with_mass(const Scene& scene, const StructureModel& model) {
+  if (scene.structure.type != StructureType::bar) return model.structure;
+  Scene kept = scene;
+  kept.contact.mass = ContactMass::keep;
+  return bar_model(kept).structure;
+}
+
+/// Modes beside contacts without mass: those kept by a reduction, or as many as the contacts leave.
+int massless_modes(const Structure& structure, const solvers::LinearStructure& model) {
+  const int most = model.size() - model.contacts();
+  return structure.kept_modes > 0 ? std::min(structure.kept_modes, most) : most;
+}
+
 }  // namespace
 
 Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) const {
@@ -198,6 +216,12 @@ StructureModel make_model(const Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   StructureModel model = model_of_type(scene);
   add_modal_damping(model.structure, scene.structure.modal_damping);
+  if (redistributes_mass(scene)) {
+    const solvers::LinearStructure with_mass = structure_with_mass(scene, model);
+    if (scene.structure.type != StructureType::bar)
+      make_contacts_massless(model, massless_modes(scene.structure, model.structure));
+    model.frequency_change = frequency_change(with_mass, model.structure);
+  }
   const int contacts = model.contacts();
   if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
     throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +

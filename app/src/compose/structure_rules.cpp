@@ -80,9 +80,10 @@ void fail_rule(const Document& document, std::initializer_list<std::string_view>
 
 void check_structure_rules(const Document& document, Scene& scene) {
   const Structure& structure = scene.structure;
-  if (structure.massless_tip && structure.elements < 2)
+  const bool massless = structure.massless_tip || redistributes_mass(scene);
+  if (structure.type == StructureType::bar && massless && structure.elements < 2)
     fail_rule(document, {"structure.elements"},
-              "expected 2 or more with massless_tip, whose mass goes to a neighbour");
+              "expected 2 or more with massless_tip or rigid contact: the tip's mass goes to a neighbour");
   check_damping(document, scene);
   if (structure.type == StructureType::blade) check_blade(document, structure);
   if (structure.type == StructureType::matrices) check_files(document, scene);

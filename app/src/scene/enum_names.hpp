@@ -40,6 +40,16 @@ inline constexpr std::array<NamedValue<ContactLawType>, 4> enum_names<ContactLaw
      {ContactLawType::linear, "linear"},
      {ContactLawType::rigid, "rigid"}}};
 template <>
+inline constexpr std::array<NamedValue<ContactForm>, 3> enum_names<ContactForm>{
+    {{ContactForm::automatic, "automatic"},
+     {ContactForm::displacement, "displacement"},
+     {ContactForm::force, "force"}}};
+template <>
+inline constexpr std::array<NamedValue<ContactMass>, 3> enum_names<ContactMass>{
+    {{ContactMass::automatic, "automatic"},
+     {ContactMass::keep, "keep"},
+     {ContactMass::redistribute, "redistribute"}}};
+template <>
 inline constexpr std::array<NamedValue<Formulation>, 3> enum_names<Formulation>{
     {{Formulation::strong, "strong"},
      {Formulation::weak, "weak"},
@@ -47,6 +57,9 @@ inline constexpr std::array<NamedValue<Formulation>, 3> enum_names<Formulation>{
 template <>
 inline constexpr std::array<NamedValue<InnerProducts>, 2> enum_names<InnerProducts>{
     {{InnerProducts::quadrature, "quadrature"}, {InnerProducts::exact, "exact"}}};
+template <>
+inline constexpr std::array<NamedValue<NyquistCoefficient>, 2> enum_names<NyquistCoefficient>{
+    {{NyquistCoefficient::drop, "drop"}, {NyquistCoefficient::keep, "keep"}}};
 template <>
 inline constexpr std::array<NamedValue<ModeFormulation>, 2> enum_names<ModeFormulation>{
     {{ModeFormulation::consistent, "consistent"}, {ModeFormulation::published, "published"}}};

@@ -14,11 +14,20 @@ std::string name_of(TipPlace value) { return enum_name(value); }
 std::string name_of(ContactLawType value) { return enum_name(value); }
 std::string name_of(Formulation value) { return enum_name(value); }
 std::string name_of(InnerProducts value) { return enum_name(value); }
+std::string name_of(NyquistCoefficient value) { return enum_name(value); }
 std::string name_of(ModeFormulation value) { return enum_name(value); }
 std::string name_of(AnalysisType value) { return enum_name(value); }
 
 double Contact::gap_of(int contact) const {
   return gaps.empty() ? gap : gaps.at(static_cast<std::size_t>(contact));
+}
+
+bool redistributes_mass(const Scene& scene) {
+  const AnalysisType type = scene.analysis.type;
+  if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep) return false;
+  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  return scene.contact.mass == ContactMass::redistribute ||
+         (scene.contact.mass == ContactMass::automatic && rigid && !scene.structure.massless_tip);
 }
 
 int daubechies_coefficients(const std::string& basis) {

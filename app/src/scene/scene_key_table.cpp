@@ -210,6 +210,15 @@ void add_contact(std::vector<SceneKey>& keys) {
           "displacement towards the obstacle at which contact starts; a list has one for each degree of "
           "freedom in contact",
           single_or_list(get_gap, set_gap), only_with(law_is({"exponential", "linear", "rigid"})));
+  const Condition balanced = analysis_is({"forced_response", "frequency_sweep"});
+  contact(
+      &Contact::form, "form", "",
+      "unknown in which contact is solved: the displacement, or for stiff and rigid laws the contact force",
+      optional, only_with(balanced));
+  contact(&Contact::mass, "mass", "",
+          "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
+          "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law",
+          optional, only_with(balanced));
 }
 
 void add_forcing(std::vector<SceneKey>& keys) {
@@ -259,6 +268,12 @@ void add_time(std::vector<SceneKey>& keys) {
        "inner products of trial and weight functions: sums over the quadrature points (Daubechies Galerkin "
        "pairs: connection coefficients) or exact",
        optional);
+  time(
+      &Time::nyquist, "nyquist", "",
+      "the alternating coefficient of an even number of functions, which no damping acts on: drop takes it out "
+      "of trial and weight space, keep leaves it there with resonances of its own; without effect for an odd "
+      "number",
+      optional);
 }
 
 void add_analysis(std::vector<SceneKey>& keys) {

@@ -13,31 +13,31 @@ namespace {
 
 struct StrategyCase {
   std::string strategy;
-  std::string stiffness, gap;  // N/m and m, of both stops of the chain of masses
+  std::string scene;  // below reproduce/scenes
+  std::vector<std::string> overrides;
 };
 
-void PrintTo(const StrategyCase& one, std::ostream* out) {
-  *out << one.strategy << ": " << one.stiffness << " N/m, " << one.gap << " m";
-}
+void PrintTo(const StrategyCase& one, std::ostream* out) { *out << one.strategy << ": " << one.scene; }
 
 class StrategyOf : public ::testing::TestWithParam<StrategyCase> {};
 
-TEST_P(StrategyOf, TheChainIsTheOneThatItsStopsNeed) {
-  const auto& [strategy, stiffness, gap] = GetParam();
-  const std::vector<std::string> overrides{"contact.stiffness=" + stiffness, "contact.gap=" + gap};
-  const Response response =
-      weighted_residual_response(load_scene(WAVEBALANCE_SCENES "/extremes/chain.toml", overrides));
+TEST_P(StrategyOf, TheSceneIsTheFirstThatSolvesIt) {
+  const auto& [strategy, scene, overrides] = GetParam();
+  const Response response = weighted_residual_response(load_scene(WAVEBALANCE_SCENES "/" + scene, overrides));
   EXPECT_TRUE(response.converged) << response.status;
   EXPECT_EQ(response.strategy, strategy);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stops, StrategyOf,
-                         ::testing::Values(StrategyCase{"soft_obstacle", "1e7", "1e-4"},
-                                           StrategyCase{"long_segments", "1e7", "-1e-4"},
-                                           StrategyCase{"small_factors", "1e9", "-1e-4"},
-                                           StrategyCase{"fixed_factor", "1e7", "0"},
-                                           StrategyCase{"stiff_obstacle", "1e9", "1e-4"}),
-                         [](const auto& one) { return one.param.strategy; });
+const std::string chain = "extremes/chain.toml", rigid_bar = "jones_legrand_2014/case1_rigid.toml";
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, StrategyOf,
+    ::testing::Values(StrategyCase{"newton", chain, {"contact.stiffness=1e5"}},
+                      StrategyCase{"gap_continuation", chain, {}},
+                      StrategyCase{"settling", rigid_bar, {"time.trial=haar", "time.weight=bspline"}},
+                      StrategyCase{
+                          "residual_homotopy", rigid_bar, {"time.trial=haar", "time.weight=fourier"}}),
+    [](const auto& one) { return one.param.strategy; });
 
 }  // namespace
 }  // namespace wavebalance::app

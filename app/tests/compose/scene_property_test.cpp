@@ -71,7 +71,8 @@ Time any_time() {
           functions,
           Formulation::distributional,
           functions << *rc::gen::inRange(0, 5),
-          one_of({InnerProducts::quadrature, InnerProducts::exact})};
+          one_of({InnerProducts::quadrature, InnerProducts::exact}),
+          one_of({NyquistCoefficient::drop, NyquistCoefficient::keep})};
 }
 
 Analysis any_analysis() {
@@ -112,7 +113,9 @@ Scene any_scene() {
     return scene;
   }
   if (scene.structure.elements > 1) scene.structure.massless_tip = *rc::gen::arbitrary<bool>();
-  if (*rc::gen::arbitrary<bool>()) scene.contact = {.law = ContactLawType::rigid, .gap = positive()};
+  scene.contact.form = *rc::gen::elementOf(std::vector{ContactForm::automatic, ContactForm::force});
+  if (scene.structure.elements > 1 && *rc::gen::arbitrary<bool>())
+    scene.contact = {.law = ContactLawType::rigid, .gap = positive()};
   return scene;
 }
 

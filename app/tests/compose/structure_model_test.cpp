@@ -154,7 +154,8 @@ TEST(BladeModel, ForceActsAtTheNamedPlaceOfTheTip) {
                              "[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 8\n";
   const auto load_of = [&](const std::string& place, const std::string& direction) {
     return make_model(parse_scene(forced, "blade.toml",
-                                  std::vector<std::string>{"forcing.place=" + place,
+                                  std::vector<std::string>{"contact.law=linear", "contact.stiffness=1e6",
+                                                           "forcing.place=" + place,
                                                            "forcing.direction=" + direction}))
         .structure.load;
   };
@@ -227,24 +228,21 @@ TEST(Contacts, TwoOfAChainMoveAsTimeSteppingSays) {
   EXPECT_EQ(found.displacement().transpose(), found.contacts.displacement.row(found.contact));
 }
 
-TEST(Contacts, RigidOnesHoldAtEveryPoint) {
+// One mode is left beside the two contacts, and the load drives it at its resonance.
+TEST(Contacts, RigidOnesHoldUpToTheErrorOfTheFunctions) {
   const TemporaryFolder folder;
   const std::string rigid = with(with(chain_scene, "\"linear\"", "\"rigid\""), "stiffness = 1e7", "# ");
-  const Record record =
-      analyse(chain(folder, damped({"time.functions=16", "time.quadrature_points=64"}), rigid));
-  EXPECT_TRUE(record.converged) << record.status;
-  const auto contacts = record.contacts.texts("contact");
-  const auto displacements = record.contacts.numbers("displacement_m"),
-             forces = record.contacts.numbers("contact_force_N");
-  double largest[2] = {0.0, 0.0};
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    largest[contacts[i] == "1" ? 0 : 1] = std::max(largest[contacts[i] == "1" ? 0 : 1], displacements[i]);
-  EXPECT_LE(value_of<double>(record.summary, "max_penetration_m"), 1e-6 * 1e-4);
-  EXPECT_GE(value_of<double>(record.summary, "min_contact_force_N"), 0.0);
-  // Between the quadrature points eight harmonics overshoot: by (pi 8/64)^2/2 of what they move.
-  EXPECT_LT(largest[0], 5e-5 * 1.08);
-  EXPECT_LT(largest[1], 1e-4 * 1.08);
-  EXPECT_GT(*std::max_element(forces.begin(), forces.end()), 0.0);
+  for (const int functions : {15, 31, 63}) {
+    const Record record = analyse(chain(folder,
+                                        damped({"time.functions=" + std::to_string(functions),
+                                                "time.quadrature_points=" + std::to_string(8 * functions)}),
+                                        rigid));
+    EXPECT_TRUE(record.converged) << record.status;
+    EXPECT_GE(value_of<double>(record.summary, "min_contact_force_N"), 0.0);
+    EXPECT_LT(value_of<double>(record.summary, "max_penetration_m"), 0.5 * 5e-5) << functions;
+    const auto forces = record.contacts.numbers("contact_force_N");
+    EXPECT_GT(*std::max_element(forces.begin(), forces.end()), 0.0);
+  }
 }
 
 TEST(Contacts, ObstaclesOnEitherSideAreMirrorImages) {

@@ -102,17 +102,16 @@ void rigid_plateau(report::Artefact& artefact) {
     for (const auto& response : study.rigid)
       worst = std::max(worst, response.displacement().maxCoeff() / study.scene.contact.gap - 1.0);
     artefact.note(fmt::format(
-        "Case {}: the exponential law lets the tip {} of the gap beyond it, the rigid obstacle between the "
-        "quadrature points up to {}, at them less than 1e-4 %.",
+        "Case {}: the exponential law lets the tip {} of the gap beyond it, the rigid obstacle up to {}: the "
+        "discretisation error of 64 functions.",
         number, report::percent(study.penalty.displacement().maxCoeff() / study.scene.contact.gap - 1.0, 2),
         report::percent(worst, 2)));
   }
   artefact.data(table, "without unit");
   artefact.picture(figure);
   artefact.caption(
-      "The paper's next step, rigid (Signorini) contact as complementarity, with the six pairs (64 "
-      "functions, 64 points, the tip's mass moved to its neighbour) beside the exponential law of the paper. "
-      "The force is known at the points and drawn as held between them.");
+      "The paper's next step, rigid (Signorini) contact, with the six pairs (64 functions, 512 points, the "
+      "tip's mass moved to its neighbour) beside the exponential law of the paper.");
 }
 
 }  // namespace wavebalance::jl14

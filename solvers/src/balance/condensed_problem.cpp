@@ -36,6 +36,20 @@ CondensedProblem::CondensedProblem(CondensedProblem&&) noexcept = default;
 CondensedProblem& CondensedProblem::operator=(CondensedProblem&&) noexcept = default;
 CondensedProblem::~CondensedProblem() = default;
 
+// Zeros for a dropped Nyquist coefficient, which is not condensed.
+void CondensedProblem::append_dropped() {
+  if (!pair_.drops_nyquist()) return;
+  for (Eigen::MatrixXcd* spectrum : {&condensed_.compliance, &condensed_.load_response,
+                                     &condensed_.compliance_slope, &condensed_.load_response_slope}) {
+    spectrum->conservativeResize(pair_.spectrum_size(), Eigen::NoChange);
+    spectrum->bottomRows(1).setZero();
+  }
+  for (Eigen::MatrixXd* errors : {&condensed_.compliance_error, &condensed_.load_response_error}) {
+    errors->conservativeResize(pair_.spectrum_size(), Eigen::NoChange);
+    errors->bottomRows(1).setZero();
+  }
+}
+
 ImpedanceCoefficients CondensedProblem::factors(int k) const {
   return {factors_[0][k], factors_[1][k], factors_[2][k]};
 }
@@ -45,10 +59,12 @@ void CondensedProblem::set_frequency(double frequency_hz) {
     throw std::invalid_argument("CondensedProblem: frequency is " + std::to_string(frequency_hz) +
                                 " Hz; it must be positive and finite");
   frequency_ = frequency_hz;
-  factors_ = {pair_.symbol(2) * (frequency_ * frequency_), pair_.symbol(1) * frequency_, pair_.symbol(0)};
-  derivatives_ = {pair_.symbol(2) * (2.0 * frequency_), pair_.symbol(1),
-                  Eigen::VectorXcd::Zero(pair_.spectrum_size())};
-  condensation_.condense(factors_, derivatives_, condensed_, load_);
+  const int solved = pair_.solved_size();
+  const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
+  factors_ = {symbol(2) * (frequency_ * frequency_), symbol(1) * frequency_, symbol(0)};
+  derivatives_ = {symbol(2) * (2.0 * frequency_), symbol(1), Eigen::VectorXcd::Zero(solved)};
+  condensation_.condense(factors_, derivatives_, condensed_, load_.head(solved));
+  append_dropped();
   condensed_.load_response.array().colwise() *= load_.array();
   condensed_.load_response_slope.array().colwise() *= load_.array();
   slope_is_current_ = false;
@@ -76,14 +92,25 @@ void CondensedProblem::update_kernel() {
   columns_are_current_.assign(columns_are_current_.size(), false);
   kernel_ = condensed_.compliance;
   for (int c = 0; c < regularization_.size(); ++c)
-    kernel_.col(c + contacts() * c) -= regularization_[c] * factors_[2].cwiseInverse();
+    kernel_.col(c + contacts() * c).head(pair_.solved_size()) -=
+        regularization_[c] * factors_[2].cwiseInverse();
 }
 
-// A constant has the spectrum over translates k = 0 alone, on which time derivatives vanish.
+// The median of three harmonics leaves out one at a resonance, and the static one of a structure that is
+// nearly free to move.
 Eigen::VectorXd CondensedProblem::contact_compliance() const {
   Eigen::VectorXd compliance(contacts());
-  for (int c = 0; c < contacts(); ++c)
-    compliance[c] = std::abs(condensed_.compliance(0, c + contacts() * c) * factors_[2][0]);
+  for (int c = 0; c < contacts(); ++c) {
+    const auto at = [&](int k) {
+      return std::abs(condensed_.compliance(k, c + contacts() * c) * factors_[2][k]);
+    };
+    double a = at(0);
+    if (pair_.solved_size() > 2) {
+      const double b = at(1), d = at(2);
+      a = std::max(std::min(a, b), std::min(std::max(a, b), d));
+    }
+    compliance[c] = a;
+  }
   return compliance;
 }
 
@@ -220,11 +247,31 @@ double CondensedProblem::rounding_error(const Eigen::VectorXd& force) {
   return relative_to(std::max(motion, safe_norm(condensed_.load_response)), safe_norm(errors));
 }
 
+Eigen::VectorXd CondensedProblem::rounding_motion(const Eigen::VectorXd& force) {
+  project(force);
+  const auto phase = [](std::complex<double> value) {
+    return value == 0.0 ? std::complex<double>(0.0) : value / std::abs(value);
+  };
+  const Eigen::MatrixXd spread = condensed_.compliance_error.cwiseSqrt();
+  Eigen::MatrixXcd errors(spread.rows(), contacts());
+  for (Eigen::Index k = 0; k < errors.rows(); ++k)
+    for (int c = 0; c < contacts(); ++c) {
+      errors(k, c) =
+          std::abs(load_[k]) * condensed_.load_response_error(k, c) * phase(condensed_.load_response(k, c));
+      for (int d = 0; d < contacts(); ++d)
+        errors(k, c) -= phase(condensed_.compliance(k, c + contacts() * d)) * spread(k, c) * spread(k, d) *
+                        work_->translates[static_cast<std::size_t>(d)][k];
+    }
+  Eigen::VectorXd motion;
+  synthesize(errors, motion);
+  return motion;
+}
+
 Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& force) {
   project(force);
-  Eigen::MatrixXcd spectra(condensation_.size(), pair_.spectrum_size());
+  Eigen::MatrixXcd spectra = Eigen::MatrixXcd::Zero(condensation_.size(), pair_.spectrum_size());
   Eigen::VectorXcd forces(contacts());
-  for (int k = 0; k < pair_.spectrum_size(); ++k) {
+  for (int k = 0; k < pair_.solved_size(); ++k) {
     for (int c = 0; c < contacts(); ++c) forces[c] = work_->translates[static_cast<std::size_t>(c)][k];
     spectra.col(k) = condensation_.recover(factors(k), load_[k], forces);
   }

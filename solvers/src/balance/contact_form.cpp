@@ -1,13 +1,33 @@
 #include "wavebalance/solvers/balance/contact_form.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace wavebalance::solvers {
 namespace {
 
-// epsilon over the stiffness of the contact. The answers of 10 to 30 differ by less than the discretisation
-// error; 30 takes the fewest Newton steps on fine grids, and 100 fails at grazing corners.
+// epsilon over the stiffness of the contact, the inverse of contact_compliance(). The answers of 10 to 30
+// differ by less than the discretisation error; 30 takes the fewest Newton steps on fine grids, and 100 fails
+// at grazing corners.
 constexpr double relative_epsilon = 30.0;
+// Stiffness of a law over that of its contact beyond which the force form is taken first.
+constexpr double stiff = 1e4;
+
+// Slope of a law where a spring as flexible as the structure would push it by the contact-free response.
+double working_stiffness(const AnyContactLaw& law, const Eigen::VectorXd& free, double flexibility) {
+  if (!std::isfinite(law.gap())) return 0.0;
+  const double reach = free.cwiseAbs().maxCoeff();
+  const double v = law.gap() + std::max(free.maxCoeff() - law.gap(), 0.1 * reach);
+  const double slope = law.resolvent(v, flexibility).tangent;
+  const double remainder = 1.0 - slope * flexibility;
+  return remainder > 0.0 ? slope / remainder : std::numeric_limits<double>::infinity();
+}
+
+Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
+  return problem.contact_free_response().segment(contact * problem.points(), problem.points());
+}
 
 }  // namespace
 
@@ -31,11 +51,17 @@ Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const Co
     throw std::invalid_argument(
         "contact_regularization: a rigid law has no force at a displacement; take the force form");
   }
-  if (form == ContactForm::force && !laws.unilateral())
+  if (!laws.unilateral()) {
+    if (form == ContactForm::automatic && !rigid) return {};
     throw std::invalid_argument(
         "contact_regularization: a law acts below its gap; it is solved in the displacement form");
-  if (form == ContactForm::automatic && !rigid) return {};
-  return problem.contact_compliance() / relative_epsilon;
+  }
+  const Eigen::VectorXd compliance = problem.contact_compliance();
+  bool needed = form == ContactForm::force || rigid;
+  for (int c = 0; c < problem.contacts() && !needed; ++c)
+    needed = compliance[c] * working_stiffness(laws[c], free_of(problem, c), compliance[c]) > stiff;
+  if (!needed) return {};
+  return compliance / relative_epsilon;
 }
 
 }  // namespace wavebalance::solvers

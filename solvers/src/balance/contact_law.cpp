@@ -40,7 +40,7 @@ ForceSlope AnyContactLaw::solve_resolvent(const Interface& law, double v, double
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const auto at = [&](double u) {
     const double tangent = law.tangent(u);
-    return ForceSlope{law.force(u), tangent / (1.0 + flexibility * tangent)};
+    return ForceSlope{law.force(u), tangent != 0.0 ? 1.0 / (1.0 / tangent + flexibility) : 0.0};
   };
   const double first = flexibility * law.force(v);
   if (first == 0.0) return at(v);
@@ -68,8 +68,10 @@ ForceSlope AnyContactLaw::solve_resolvent(const Interface& law, double v, double
     u = next;
     if (step <= eps * std::abs(u)) break;
   }
-  // The spring says the force without the cancellation of a steep law.
-  return {(v - u) / flexibility, at(u).tangent};
+  // The softer of law and spring says the force without cancellation.
+  const ForceSlope law_at = at(u);
+  const bool soft = std::abs(v - u) < 0.5 * std::abs(v - law.gap());
+  return {soft ? law_at.force : (v - u) / flexibility, law_at.tangent};
 }
 
 bool AnyContactLaw::vanishes_below_gap(const Interface& law) {

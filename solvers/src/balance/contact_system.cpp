@@ -8,6 +8,17 @@
 
 namespace wavebalance::solvers {
 
+namespace {
+
+// A power of two that brings numbers whose products leave the range of double precision to the order of 1.
+double border_scale(const Eigen::VectorXd& values) {
+  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 1.0;
+  const bool extreme = std::isfinite(largest) && largest > 0.0 && (largest < 1e-100 || largest > 1e100);
+  return extreme ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;
+}
+
+}  // namespace
+
 ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
     : problem_(&problem),
       laws_(std::move(laws)),
@@ -67,12 +78,17 @@ double ContactSystem::operations() const { return products_ + jacobian_->operati
 double ContactSystem::condition() { return jacobian_->condition(*problem_); }
 
 bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
-  return jacobian_->factorize_bordered(*problem_, tangent_, b, c, d);
+  column_scale_ = border_scale(b);
+  row_scale_ = border_scale(c);
+  return jacobian_->factorize_bordered(*problem_, tangent_, column_scale_ * b, row_scale_ * c,
+                                       column_scale_ * d * row_scale_);
 }
 
 bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                                    double reduction) {
-  return jacobian_->solve_bordered(*problem_, r, s, reduction, x, y);
+  const bool solved = jacobian_->solve_bordered(*problem_, r, row_scale_ * s, reduction, x, y);
+  y *= column_scale_;
+  return solved;
 }
 
 int ContactSystem::determinant_sign() const { return jacobian_->determinant_sign(); }

@@ -36,10 +36,17 @@ void ArcLengthOptions::validate() const {
 }
 
 ArcLength::ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options)
-    : system_(system), parameter_(parameter), options_(options), step_(options.initial_step) {}
+    : system_(system), parameter_(parameter), options_(options), step_(options.initial_step) {
+  constexpr int few_samples = 512;
+  const CondensedProblem& problem = system.problem();
+  const bool undamped = problem.pair().functions() % 2 == 0 && !problem.pair().drops_nyquist();
+  const bool automatic = options_.grazing_events == GrazingEvents::automatic;
+  events_first_ = options_.grazing_events == GrazingEvents::all ||
+                  (automatic && !undamped && problem.samples() <= few_samples);
+}
 
 Eigen::VectorXd ArcLength::scaled(const Eigen::VectorXd& tangent) const {
-  return tangent / (double(tangent.size()) * options_.displacement_scale * options_.displacement_scale);
+  return tangent / options_.displacement_scale / (double(tangent.size()) * options_.displacement_scale);
 }
 
 double ArcLength::inner(const CurvePoint& a, const CurvePoint& b) const {
@@ -166,10 +173,9 @@ void ArcLength::accept(CurvePoint&& candidate, const ActiveMask& sides) {
 }
 
 ArcLength::Status ArcLength::advance() {
-  const bool far =
-      !orientation_unknown_ && piecewise_arc_length_ <= 0.0 && options_.grazing_events != GrazingEvents::all;
-  if (far && step_far()) return Status::advanced;
-  if (!step_in_piece()) return Status::no_point;
+  const bool far = !orientation_unknown_ && options_.grazing_events != GrazingEvents::all;
+  if (far && !events_first_ && piecewise_arc_length_ <= 0.0 && step_far()) return Status::advanced;
+  if (!step_in_piece()) return far && events_first_ && step_far() ? Status::advanced : Status::no_point;
   const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
   piecewise_arc_length_ = turned ? reversal_step_ : piecewise_arc_length_ - last_step_;
   return Status::advanced;

@@ -113,7 +113,9 @@ bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& event) {
   if (!system_.factorize_bordered(slope_, row, 0.0)) return false;
   const int sign = system_.determinant_sign() * (inwards ? 1 : -1);
   row.setZero();
-  if (!system_.solve_bordered(row, inwards ? 1.0 : -1.0, event.displacement_tangent, event.parameter_tangent))
+  const double push = std::ldexp(1.0, std::ilogb(options_.displacement_scale));
+  if (!system_.solve_bordered(row, inwards ? push : -push, event.displacement_tangent,
+                              event.parameter_tangent))
     return false;
   if (!event.displacement_tangent.allFinite() || !std::isfinite(event.parameter_tangent)) return false;
   event.orientation = sign == 0 ? point_.orientation : sign;

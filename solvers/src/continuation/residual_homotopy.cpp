@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "linalg/option_checks.hpp"
+#include "linalg/safe_norm.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -25,7 +26,7 @@ HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualH
   system.evaluate(u);
   const ResidualParameter parameter(system.residual());
   ArcLengthOptions arc;
-  arc.displacement_scale = std::max(u.norm() / std::sqrt(double(u.size())), system.laws().largest_gap());
+  arc.displacement_scale = std::max(safe_norm(u) / std::sqrt(double(u.size())), system.laws().largest_gap());
   arc.parameter_scale = 1.0;
   arc.initial_step = 0.1;
   arc.max_step = 0.5;

@@ -104,11 +104,14 @@ double point_compliance(CondensedProblem& problem, int contact) {
 
 double missed_contacts(CondensedProblem& problem, const PeriodicResponse& response, const ContactLaws& laws) {
   const int points = problem.points();
+  const bool force_form = response.regularization.size() > 0;
+  const ContactLaws of_unknown = force_form ? laws.resolvents(response.regularization) : laws;
   Eigen::VectorXd pulses = Eigen::VectorXd::Zero(problem.samples()), motion;
   for (int contact = 0; contact < problem.contacts(); ++contact) {
-    const Eigen::VectorXd u = response.displacement.segment(contact * points, points);
-    if (missed_force(u, laws[contact], 0.0) > 0.0)
-      pulses[contact * points] = missed_force(u, laws[contact], point_compliance(problem, contact));
+    const Eigen::VectorXd u = response.unknown.segment(contact * points, points);
+    const AnyContactLaw& law = of_unknown[contact];
+    if (missed_force(u, law, 0.0) > 0.0)
+      pulses[contact * points] = missed_force(u, law, point_compliance(problem, contact));
   }
   if (pulses.isZero(0.0)) return 0.0;
   problem.apply(pulses, motion);

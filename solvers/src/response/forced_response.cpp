@@ -5,22 +5,13 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "complementarity/josephy_newton.hpp"
 #include "linalg/option_checks.hpp"
+#include "linalg/safe_norm.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-void require_start(const CondensedProblem& problem, const Eigen::VectorXd& guess) {
-  if (problem.frequency() == 0.0)
-    throw std::invalid_argument(
-        "forced_response: the problem has no frequency yet; call set_frequency first");
-  if (guess.size() != 0 && guess.size() != problem.samples())
-    throw std::invalid_argument("forced_response: guess has " + std::to_string(guess.size()) +
-                                " samples; it must be empty or have the problem's " +
-                                std::to_string(problem.samples()));
-}
 
 /// A motion to start from, samples() values each.
 struct Start {
@@ -28,12 +19,22 @@ struct Start {
   Eigen::VectorXd force;         // N; empty where none is known
 };
 
+void require_start(const CondensedProblem& problem, const Start& guess) {
+  if (problem.frequency() == 0.0)
+    throw std::invalid_argument(
+        "forced_response: the problem has no frequency yet; call set_frequency first");
+  for (const Eigen::VectorXd* samples : {&guess.displacement, &guess.force})
+    if (samples->size() != 0 && samples->size() != problem.samples())
+      throw std::invalid_argument("forced_response: guess has " + std::to_string(samples->size()) +
+                                  " samples; it must be empty or have the problem's " +
+                                  std::to_string(problem.samples()));
+}
+
 /// What Newton's method ended with in one form.
 struct Candidate {
   NewtonResult newton;
   Eigen::VectorXd regularization;  // of its form, see CondensedProblem::set_regularization
   Eigen::VectorXd unknown;         // m, samples() values
-  Eigen::VectorXd force;           // N; empty where it is the law's force at the unknown
   Strategy strategy = Strategy::none;
   int iterations = 0;  // of all attempts so far
 
@@ -110,65 +111,73 @@ Candidate try_newton(const Task& task, const Eigen::VectorXd& regularization, co
   return improve(task, system, std::move(candidate), strategy);
 }
 
-Candidate try_continuation(const Task& task, const Eigen::VectorXd& regularization, const Start& start) {
-  ContactSystem system = task.system(regularization);
+Candidate no_solution() {
   Candidate candidate;
-  candidate.regularization = regularization;
-  candidate.unknown = unknown_of(start, regularization);
+  candidate.newton.status = SolveStatus::stalled;
   candidate.newton.residual = std::numeric_limits<double>::infinity();
+  return candidate;
+}
+
+/// Follows a residual homotopy from `unknown`.
+Candidate try_homotopy(const Task& task, ContactSystem& system, const Eigen::VectorXd& regularization,
+                       Eigen::VectorXd unknown, Strategy strategy) {
+  Candidate candidate = no_solution();
+  candidate.regularization = regularization;
+  candidate.unknown = std::move(unknown);
   ResidualHomotopyOptions homotopy = task.options.continuation;
   homotopy.observer = task.options.observer;
   switch (residual_homotopy(system, candidate.unknown, homotopy)) {
     case HomotopyStatus::arrived:
-      return improve(task, system, std::move(candidate), Strategy::continuation);
+      return improve(task, system, std::move(candidate), strategy);
     case HomotopyStatus::cancelled:
       candidate.newton.status = SolveStatus::cancelled;
       break;
     case HomotopyStatus::effort_limit:
     case HomotopyStatus::lost:
-      candidate.newton.status = SolveStatus::stalled;
       break;
   }
   return candidate;
 }
 
-/// The solution by the complementarity problem of the contact forces, improved by Newton's method where
-/// displacements resolve the law.
-Candidate try_complementarity(const Task& task) {
-  // Largest accepted mismatch between force law and displacement, relative to the motion.
-  constexpr double largest_defect = 1e-9;
-  // If rounding of u changes the force by more than this (relative), Newton cannot converge and is not tried.
-  constexpr double largest_rounding = 1e-9;
-  ContactSystem system = task.system({});
-  LawForce found = josephy_newton(system, task.options.paths, task.options.observer);
-  Candidate candidate;
-  candidate.iterations = found.pivots;
-  candidate.newton.residual = std::numeric_limits<double>::infinity();
-  candidate.newton.status = found.status;
-  if (!found.found) return candidate;
-  candidate.newton.status = SolveStatus::stalled;
-  candidate.unknown = found.displacement;
-  if (found.rounding <= largest_rounding)
-    candidate = improve(task, system, std::move(candidate), found.strategy);
-  if (candidate.ended() || found.defect > largest_defect) return candidate;
-  candidate.newton.status = SolveStatus::converged;
-  candidate.newton.residual = found.defect;
-  candidate.newton.residual_history.push_back(found.defect);
-  candidate.newton.condition = found.condition;
-  candidate.unknown = std::move(found.displacement);
-  candidate.force = std::move(found.force);
-  candidate.strategy = found.strategy;
-  return candidate;
+/// Lowers the obstacles onto the contact-free motion, from the height at which the first touches: at a height
+/// h more than their gaps, u - h solves the balance with the residual -h.
+Candidate try_gap(const Task& task, const Eigen::VectorXd& regularization) {
+  constexpr double above = 1.01;  // at the kink where a contact just touches no tangent is known
+  const Eigen::VectorXd& free = task.problem.contact_free_response();
+  const Eigen::VectorXd gaps = task.laws.gaps(task.problem.contacts());
+  double height = 0.0;
+  for (int c = 0; c < task.problem.contacts(); ++c)
+    height =
+        std::max(height, free.segment(c * task.problem.points(), task.problem.points()).maxCoeff() - gaps[c]);
+  ContactSystem system = task.system(regularization);
+  return try_homotopy(task, system, regularization, free.array() - above * height,
+                      Strategy::gap_continuation);
 }
 
-Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_periods) {
+/// The forms in which obstacles are lowered: that of the options and, where it is left open, the force form.
+std::vector<Eigen::VectorXd> forms_of(const Task& task) {
+  std::vector<Eigen::VectorXd> forms{contact_regularization(task.problem, task.laws, task.options.form)};
+  if (task.options.form == ContactForm::automatic && forms.front().size() == 0)
+    forms.push_back(contact_regularization(task.problem, task.laws, ContactForm::force));
+  return forms;
+}
+
+Candidate try_residual(const Task& task, const Eigen::VectorXd& regularization, const Start& start) {
+  ContactSystem system = task.system(regularization);
+  return try_homotopy(task, system, regularization, unknown_of(start, regularization),
+                      Strategy::residual_homotopy);
+}
+
+Candidate solve(const Task& task, const Start& first, int& attractor_periods) {
   const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
-  const Start first{guess.size() != 0 ? guess : task.problem.contact_free_response(), {}};
   Candidate best = try_newton(task, form, first, Strategy::newton);
   if (best.ended() || !task.options.fallbacks) return best;
-  if (task.laws.unilateral() && task.laws.have_finite_force() && task.options.form != ContactForm::force)
-    best = better(std::move(best), try_complementarity(task));
-  if (best.ended()) return best;
+  if (task.laws.unilateral()) {
+    for (const Eigen::VectorXd& tried : forms_of(task)) {
+      best = better(std::move(best), try_gap(task, tried));
+      if (best.ended()) return best;
+    }
+  }
   SettlingOptions settling = task.options.settling;
   settling.observer = task.options.observer;
   const SettledMotion motion = settle(task.problem, task.laws, settling);
@@ -176,13 +185,23 @@ Candidate solve(const Task& task, const Eigen::VectorXd& guess, int& attractor_p
   if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
   if (motion.cancelled) return best;
   if (attractor_periods == SettledMotion::not_integrated)
-    return better(std::move(best), try_continuation(task, form, first));
+    return better(std::move(best), try_residual(task, form, first));
   const Start settled{resample(motion.displacement, task.problem.points(), motion.start),
                       resample(motion.force, task.problem.points(), motion.start)};
   best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
   if (best.ended()) return best;
   // A structure that does not settle to a motion of the load's period may have an unstable one.
-  return better(std::move(best), try_continuation(task, form, attractor_periods == 1 ? settled : first));
+  return better(std::move(best), try_residual(task, form, attractor_periods == 1 ? settled : first));
+}
+
+/// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.
+double rounding_error_of(CondensedProblem& problem, ContactSystem& system, const PeriodicResponse& response) {
+  constexpr double negligible = 1e-6;
+  const double at_these_forces = problem.rounding_error(response.contact_force);
+  if (!response.converged() || !(at_these_forces > negligible) || !system.factorize()) return at_these_forces;
+  Eigen::VectorXd change;
+  if (!system.solve(problem.rounding_motion(response.contact_force), change)) return at_these_forces;
+  return relative_to(safe_norm(response.unknown), safe_norm(change));
 }
 
 PeriodicResponse response_of(const Task& task, Candidate candidate) {
@@ -190,18 +209,18 @@ PeriodicResponse response_of(const Task& task, Candidate candidate) {
   PeriodicResponse response;
   system.evaluate(candidate.unknown);
   response.frequency = task.problem.frequency();
-  response.force_by_balance = candidate.force.size() != 0;
-  response.contact_force = response.force_by_balance ? std::move(candidate.force) : system.force();
+  response.contact_force = system.force();
   response.status = candidate.newton.status;
   response.residual = candidate.newton.residual;
   response.residual_history = std::move(candidate.newton.residual_history);
   response.condition = candidate.newton.condition;
   response.iterations = candidate.iterations;
   response.strategy = candidate.strategy;
+  response.unknown = std::move(candidate.unknown);
+  response.rounding_error = rounding_error_of(task.problem, system, response);
   response.coefficients = task.problem.coefficients(response.contact_force);
   response.unknown_coefficients = task.problem.unknown_coefficients(response.contact_force);
   response.regularization = std::move(candidate.regularization);
-  response.unknown = std::move(candidate.unknown);
   response.displacement = response.regularization.size() == 0
                               ? response.unknown
                               : task.problem.displacement(response.contact_force);
@@ -210,23 +229,41 @@ PeriodicResponse response_of(const Task& task, Candidate candidate) {
 
 }  // namespace
 
+std::string_view to_string(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::none:
+      return "none";
+    case Strategy::newton:
+      return "newton";
+    case Strategy::gap_continuation:
+      return "gap_continuation";
+    case Strategy::settling:
+      return "settling";
+    case Strategy::residual_homotopy:
+      return "residual_homotopy";
+  }
+  return "unknown";
+}
+
 void ForcedResponseOptions::validate() const {
   newton.validate();
-  paths.validate();
   settling.validate();
   continuation.validate();
   detail::require_positive("ForcedResponseOptions", "max_fallback_operations", max_fallback_operations);
 }
 
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
-                                 const ForcedResponseOptions& options, const Eigen::VectorXd& guess) {
+                                 const ForcedResponseOptions& options, const Eigen::VectorXd& guess,
+                                 const Eigen::VectorXd& guess_force) {
   options.validate();
-  require_start(problem, guess);
+  Start start{guess, guess_force};
+  require_start(problem, start);
+  if (guess.size() == 0) start = {problem.contact_free_response(), {}};
   laws.require(problem.contacts());
   const DisplacementFormAtTheEnd restored(problem);
   const Task task{problem, laws, options};
   int attractor_periods = SettledMotion::not_integrated;
-  Candidate candidate = solve(task, guess, attractor_periods);
+  Candidate candidate = solve(task, start, attractor_periods);
   PeriodicResponse response = response_of(task, std::move(candidate));
   response.attractor_periods = attractor_periods;
   return response;

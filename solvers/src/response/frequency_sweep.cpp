@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "continuation/milestones.hpp"
 #include "linalg/option_checks.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
@@ -17,6 +19,8 @@ std::string_view to_string(SweepStatus status) {
       return "returned";
     case SweepStatus::no_start:
       return "no_start";
+    case SweepStatus::closed:
+      return "closed";
     case SweepStatus::lost:
       return "lost";
     case SweepStatus::unbounded:
@@ -91,11 +95,55 @@ class Sweep {
     problem_.set_regularization(first.regularization);
     system_ = ContactSystem(problem_, laws_);  // in the form of the first point
     result_.form = first.regularization.size() > 0 ? ContactForm::force : ContactForm::displacement;
+    follow_until_open(first.unknown, scaled_options(first));
+  }
+
+  // Follows the curve from the first point. Where it returns to a milestone, it is followed again from the
+  // milestone before, each time with shorter steps.
+  void follow_until_open(const Eigen::VectorXd& first, ArcLengthOptions arc) {
     const FrequencyParameter parameter;
-    ArcLength curve(system_, parameter, scaled_options(first));
-    const double direction = options_.to > options_.from ? 1.0 : -1.0;
-    if (curve.start(first.unknown, options_.from, direction) != ArcLength::Status::advanced) return;
-    result_.status = record(curve.point()) ? follow(curve, direction) : SweepStatus::cancelled;
+    Milestones milestones(arc);
+    CurvePoint from;
+    from.displacement = first;
+    from.parameter = options_.from;
+    from.parameter_tangent = options_.to - options_.from;
+    turns_at_point_.clear();
+    while (true) {
+      ArcLength curve(system_, parameter, arc);
+      const double direction = from.parameter_tangent > 0.0 ? 1.0 : -1.0;
+      if (curve.start(from.displacement, from.parameter, direction) != ArcLength::Status::advanced) return;
+      if (result_.points.empty() && !record(curve.point())) {
+        result_.status = SweepStatus::cancelled;
+        return;
+      }
+      result_.status = follow(curve, milestones);
+      if (result_.status != SweepStatus::closed || !shorten(arc)) return;
+      const std::size_t before = returned_to_ > 0 ? returned_to_ - 1 : 0;
+      milestones.resume(before);
+      from = milestones[before].point;
+      forget_points_after(milestones[before].count);
+    }
+  }
+
+  // Shorter steps than the last; false when there are none.
+  bool shorten(ArcLengthOptions& arc) const {
+    constexpr double shortest = 0.25;  // of the largest step at first
+    if (arc.grazing_events == GrazingEvents::all) return false;
+    if (arc.max_step <= shortest * options_.arc_length.max_step * step_share_) {
+      arc.grazing_events = GrazingEvents::all;
+    } else {
+      arc.max_step *= 0.5;
+      arc.min_step = std::min(arc.min_step, 0.1 * arc.max_step);
+      arc.initial_step = std::min(arc.initial_step, arc.max_step);
+    }
+    return true;
+  }
+
+  void forget_points_after(int count) {
+    const auto size = static_cast<std::size_t>(count);
+    result_.turning_points.resize(turns_at_point_[size - 1]);
+    result_.points.resize(size);
+    turns_at_point_.resize(size);
   }
 
   ArcLengthOptions scaled_options(const PeriodicResponse& first) const {
@@ -108,8 +156,10 @@ class Sweep {
     return arc;
   }
 
-  SweepStatus follow(ArcLength& curve, double direction) {
+  SweepStatus follow(ArcLength& curve, Milestones& milestones) {
+    const double direction = options_.to > options_.from ? 1.0 : -1.0;
     while (static_cast<int>(result_.points.size()) < options_.max_points) {
+      milestones.pass(curve.point(), static_cast<int>(result_.points.size()));
       if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
       note_turning_point(curve);
       const double ahead = direction * (curve.point().parameter - options_.to);
@@ -120,7 +170,12 @@ class Sweep {
         if (curve.locate([end](const CurvePoint& p) { return p.parameter - end; }, last)) record(last);
         return ahead >= 0.0 ? SweepStatus::reached_end : SweepStatus::returned;
       }
+      const std::optional<std::size_t> milestone = milestones.returned(curve);
       if (!record(curve.point())) return SweepStatus::cancelled;
+      if (milestone) {
+        returned_to_ = *milestone;
+        return SweepStatus::closed;
+      }
       if (has_grown_past_bounds()) return SweepStatus::unbounded;
     }
     return SweepStatus::point_limit;
@@ -165,6 +220,7 @@ class Sweep {
 
   bool record(const CurvePoint& point) {
     result_.points.push_back(measure(point));
+    turns_at_point_.push_back(result_.turning_points.size());
     const double done = (point.parameter - options_.from) / (options_.to - options_.from);
     const int count = static_cast<int>(result_.points.size());
     return goes_on(options_.observer,
@@ -178,7 +234,9 @@ class Sweep {
   TrialEvaluator evaluator_;
   FrequencySweep result_;
   double largest_free_ = 0.0;
-  double step_share_ = 1.0;  // factor on the largest step
+  double step_share_ = 1.0;                  // factor on the largest step
+  std::vector<std::size_t> turns_at_point_;  // number of turning points up to each point
+  std::size_t returned_to_ = 0;              // the milestone that a closed curve came back to
 };
 
 }  // namespace

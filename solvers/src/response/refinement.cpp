@@ -8,6 +8,7 @@
 
 #include "linalg/option_checks.hpp"
 #include "response/error_estimate.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -106,9 +107,8 @@ class Refinement {
             std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0};
   }
 
-  /// Displacement of the last response at `points` points, contact-major.
-  Eigen::VectorXd prolonged(int points) const {
-    const Eigen::MatrixXcd& coefficients = result_.response.coefficients;
+  /// The motion of these coefficients of the last response at `points` points, contact-major.
+  Eigen::VectorXd prolonged(const Eigen::MatrixXcd& coefficients, int points) const {
     TrialEvaluator at_points(result_.problem->pair().trial(), points, 0);
     Eigen::VectorXd u(points * coefficients.cols());
     for (Eigen::Index contact = 0; contact < coefficients.cols(); ++contact)
@@ -151,6 +151,21 @@ class Refinement {
            (size_.points > 2 * solved_->points || size_.functions > 2 * solved_->functions + 1);
   }
 
+  /// Newton in the force form from the last response, whose force follows its unknown.
+  PeriodicResponse from_previous_force(CondensedProblem& problem, const Eigen::VectorXd& smooth,
+                                       RefinementLevel& level) const {
+    const PeriodicResponse& before = result_.response;
+    const Eigen::VectorXd force =
+        laws_.resolvents(before.regularization)
+            .force(by_contact(prolonged(before.unknown_coefficients, problem.points()), problem.contacts()))
+            .reshaped<Eigen::RowMajor>();
+    ForcedResponseOptions solver = options_.solver;
+    solver.fallbacks = false;
+    PeriodicResponse response = forced_response(problem, laws_, solver, smooth, force);
+    level.iterations = response.iterations;
+    return response;
+  }
+
   /// Newton from the last response with the better of its two prolongations, then with the other one.
   PeriodicResponse from_previous(CondensedProblem& problem, const Eigen::VectorXd& smooth,
                                  RefinementLevel& level) const {
@@ -174,8 +189,10 @@ class Refinement {
       level.restarted = solved_.has_value();
       return from_contact_free(problem, level, true);
     }
-    const Eigen::VectorXd before = prolonged(problem.points());
-    PeriodicResponse warm = from_previous(problem, before, level);
+    const Eigen::VectorXd before = prolonged(result_.response.coefficients, problem.points());
+    const bool force_form = result_.response.regularization.size() > 0;
+    PeriodicResponse warm =
+        force_form ? from_previous_force(problem, before, level) : from_previous(problem, before, level);
     const auto moved = [&](const PeriodicResponse& response) {
       return response.converged() ? (response.displacement - before).norm() / before.norm()
                                   : std::numeric_limits<double>::infinity();

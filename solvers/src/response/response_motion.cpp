@@ -10,9 +10,7 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
                       const ContactLaws& laws, int points) {
   MotionEvaluator evaluate(problem.pair().trial(), points);
   Motion motion = evaluate(response.coefficients, response.frequency);
-  if (response.force_by_balance)
-    motion.force = nearest_samples(by_contact(response.contact_force, problem.contacts()), points);
-  else if (response.regularization.size() > 0)
+  if (response.regularization.size() > 0)
     motion.force = laws.resolvents(response.regularization)
                        .force(evaluate(response.unknown_coefficients, response.frequency).displacement);
   else

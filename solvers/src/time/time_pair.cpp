@@ -84,7 +84,8 @@ void TimePair::require_sizes() const {
 }
 
 int TimePair::shift_period() const {
-  const bool filter = trial_.band_limited() && weight_.band_limited() && functions_ % 2 == 1;
+  const bool full_harmonics = functions_ % 2 == 1 || drops_nyquist();
+  const bool filter = trial_.band_limited() && weight_.band_limited() && full_harmonics;
   return filter ? 1 : points_ / std::gcd(points_, functions_);
 }
 

@@ -135,7 +135,9 @@ RC_GTEST_PROP(ForcedResponseProperty, ShiftedLoadShiftsTheResponse, ()) {
   first.set_frequency(0.04);
   second.set_frequency(0.04);
   const testing::ExponentialLaw law{0.5, 0.3, 0.5 * first.contact_free_response().maxCoeff()};
-  const PeriodicResponse response = forced_response(first, law, {});
+  ForcedResponseOptions options;
+  options.form = ContactForm::displacement;  // that of the system below
+  const PeriodicResponse response = forced_response(first, law, options);
   RC_PRE(response.converged());
   RC_ASSERT(response.contact_force.maxCoeff() > 0.0);
   ContactSystem system(second, law);

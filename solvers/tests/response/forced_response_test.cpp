@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/held_motion.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -90,7 +91,8 @@ TEST(ForcedResponse, TheForceOfAConvergedMotionIsThatOfItsLaw) {
     const Eigen::VectorXd& free = problem.contact_free_response();
     const Eigen::VectorXd motion = free - product;
     EXPECT_LE((motion - response.displacement).norm(), 1e-4 * (free.norm() + product.norm())) << stiffening;
-    const Eigen::VectorXd law_force = motion.unaryExpr([&](double u) { return law.force(u); });
+    const Eigen::VectorXd held = testing::held_motion(problem, response);
+    const Eigen::VectorXd law_force = held.unaryExpr([&](double u) { return law.force(u); });
     // Newton's bound of 1e-6 is on the force times the share that it has in the motion.
     const double share = product.norm() / (response.displacement.norm() + free.norm());
     EXPECT_LE((law_force - response.contact_force).cwiseAbs().maxCoeff(),
@@ -136,7 +138,7 @@ CondensedProblem stiff_haar_problem() {
   return problem;
 }
 
-TEST(ForcedResponse, ComplementarityFindsWhatNewtonDoesNot) {
+TEST(ForcedResponse, ContinuationInTheGapFindsWhatNewtonDoesNot) {
   CondensedProblem problem = stiff_haar_problem();
   ForcedResponseOptions options;
   options.fallbacks = false;
@@ -145,27 +147,27 @@ TEST(ForcedResponse, ComplementarityFindsWhatNewtonDoesNot) {
   EXPECT_EQ(plain.strategy, Strategy::none);
   const PeriodicResponse found = forced_response(problem, testing::jl14_case_2.law, {});
   EXPECT_TRUE(found.converged());
-  EXPECT_EQ(found.strategy, Strategy::soft_obstacle);
+  EXPECT_EQ(found.strategy, Strategy::gap_continuation);
 }
 
 TEST(ForcedResponse, TellsItsObserverWhatTheValuesAre) {
   CondensedProblem problem = stiff_haar_problem();
-  int newton = 0, paths = 0;
+  int newton = 0, continuation = 0;
   ForcedResponseOptions options;
   options.observer = [&](const Progress& progress) {
     const bool newton_step = progress.phase == "Newton";
-    EXPECT_EQ(progress.measure, newton_step ? "relative residual" : "height over the first");
+    EXPECT_EQ(progress.measure, newton_step ? "relative residual" : "share of the residual");
     EXPECT_GE(progress.value, 0.0);
-    return ++(newton_step ? newton : paths) > 0;
+    return ++(newton_step ? newton : continuation) > 0;
   };
   ASSERT_TRUE(forced_response(problem, testing::jl14_case_2.law, options).converged());
   EXPECT_GT(newton, 3);
-  EXPECT_GT(paths, 3);
+  EXPECT_GT(continuation, 3);
 }
 
-TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndOnThePaths) {
+TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndInContinuation) {
   CondensedProblem problem = stiff_haar_problem();
-  for (const std::string_view phase : {"Newton", "lowering the obstacle"}) {
+  for (const std::string_view phase : {"Newton", "continuation"}) {
     int steps = 0;
     ForcedResponseOptions options;
     options.observer = [&](const Progress& progress) { return progress.phase != phase || ++steps < 3; };
@@ -175,39 +177,24 @@ TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndOnThePaths) {
   }
 }
 
-// The paths have a solution by then, but the observer cancels the solve.
-TEST(ForcedResponse, IsCancelledByItsObserverInTheNewtonIterationAfterThePaths) {
-  CondensedProblem problem = stiff_haar_problem();
-  bool on_paths = false;
-  ForcedResponseOptions options;
-  options.newton.tolerance = 1e-17;  // not met by what the paths find
-  options.observer = [&](const Progress& progress) {
-    if (progress.phase != "Newton") return on_paths = true;
-    return !on_paths;
-  };
-  EXPECT_EQ(forced_response(problem, testing::jl14_case_2.law, options).status, SolveStatus::cancelled);
-}
-
 TEST(ForcedResponse, SaysWhenItsOperationsAreUsedUp) {
   CondensedProblem problem = stiff_haar_problem();
   ForcedResponseOptions options;
-  options.form = ContactForm::displacement;
-  options.paths.max_operations = 1.0;
-  options.settling.max_size = 0;  // nothing but Newton's method and the paths
+  options.newton.max_operations = 1.0;
   options.continuation.max_points = 1;
+  options.settling.max_size = 0;  // no settling
   EXPECT_EQ(forced_response(problem, testing::jl14_case_2.law, options).status, SolveStatus::effort_limit);
 }
 
 TEST(ForcedResponse, RefusesOptionsOutOfRange) {
   CondensedProblem problem = case_1(7, 32);
-  std::vector<ForcedResponseOptions> wrong(7);
-  wrong[6].max_fallback_operations = 0.0;
+  std::vector<ForcedResponseOptions> wrong(6);
+  wrong[5].max_fallback_operations = 0.0;
   wrong[0].newton.max_iterations = -1;
   wrong[1].newton.tolerance = 0.0;
   wrong[2].newton.min_step = -1.0;
-  wrong[3].paths.max_operations = 0.0;
-  wrong[4].paths.max_random_operations = std::nan("");
-  wrong[5].paths.max_random_paths = -1;
+  wrong[3].continuation.max_operations = 0.0;
+  wrong[4].continuation.max_points = 0;
   for (const ForcedResponseOptions& options : wrong)
     EXPECT_THROW(forced_response(problem, Stop{}, options), std::invalid_argument);
 }

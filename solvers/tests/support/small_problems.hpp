@@ -14,22 +14,25 @@ namespace wavebalance::solvers::testing {
 
 inline TimePair make_pair(AnyTimeBasis trial, AnyTimeBasis weight, int points,
                           Formulation formulation = Formulation::distributional,
-                          InnerProducts products = InnerProducts::quadrature) {
+                          InnerProducts products = InnerProducts::quadrature,
+                          NyquistCoefficient nyquist = NyquistCoefficient::keep) {
   TimePairOptions options;
   options.formulation = formulation;
   options.inner_products = products;
   options.quadrature_points = points;
+  options.nyquist = nyquist;
   return TimePair(std::move(trial), std::move(weight), options);
 }
 
-inline TimePair fourier_pair(int functions, int points) {
+inline TimePair fourier_pair(int functions, int points,
+                             NyquistCoefficient nyquist = NyquistCoefficient::keep) {
   const spectral::FourierBasis basis(functions);
-  return make_pair(basis, basis, points);
+  return make_pair(basis, basis, points, Formulation::distributional, InnerProducts::quadrature, nyquist);
 }
 
 /// One pair of each kind that the solvers treat differently: a filter on the samples (odd M Fourier, points a
 /// multiple of M or not), one Nyquist function, piecewise constant trial functions, two that are not
-/// band-limited.
+/// band-limited, and two without their Nyquist coefficient.
 inline std::vector<TimePair> pair_kinds(int functions = 8, int points = 32) {
   const spectral::FourierBasis fourier(functions);
   return {fourier_pair(functions - 1, points),
@@ -37,9 +40,12 @@ inline std::vector<TimePair> pair_kinds(int functions = 8, int points = 32) {
           fourier_pair(functions, points),
           make_pair(HaarBasis{functions}, fourier, points),
           make_pair(HaarBasis{functions}, CubicBasis{functions}, points),
-          make_pair(CubicBasis{functions}, CubicBasis{functions}, points)};
+          make_pair(CubicBasis{functions}, CubicBasis{functions}, points),
+          fourier_pair(functions, points, NyquistCoefficient::drop),
+          make_pair(HaarBasis{functions}, CubicBasis{functions}, points, Formulation::distributional,
+                    InnerProducts::quadrature, NyquistCoefficient::drop)};
 }
-constexpr int pair_kind_count = 6;
+constexpr int pair_kind_count = 8;
 
 /// M u'' + C u' + K u = load cos - e f_c of unit size: random chain, natural frequencies around 0.1 to 0.5
 /// Hz.

@@ -56,6 +56,7 @@ class ExponentialLaw {
 
  private:
   ForceAndTangent in_contact(double displacement) const;
+  ForceAndTangent at_argument(double argument) const;  // exponent (displacement - gap)
   double potential_in_contact(double displacement) const;
 
   double constant_;

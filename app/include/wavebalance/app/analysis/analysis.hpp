@@ -15,12 +15,9 @@ namespace wavebalance::app {
 struct Sweep {
   solvers::FrequencySweep curve;
   double wall_seconds = 0.0;
-  int unsolved = 0;              ///< with rigid contact: frequencies without a response, missing in the curve
-  double max_penetration = 0.0;  ///< m, with rigid contact: at the quadrature points of the whole curve
-  double max_force = 0.0;        ///< N, with rigid contact
 
   bool converged() const {
-    return curve.status == solvers::SweepStatus::reached_end && unsolved == 0 &&
+    return curve.status == solvers::SweepStatus::reached_end &&
            curve.rounding_error <= largest_rounding_error;
   }
   /// The observer stopped it; the curve holds the points so far.
@@ -31,11 +28,6 @@ struct Sweep {
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
 /// length as a change of displacement by the gap. analysis.first_step and analysis.largest_step are in Hz.
-///
-/// With rigid contact each sample that opens or closes gives a kink of the curve, too many for arc length.
-/// The response is then solved at uniform frequencies, at most analysis.largest_step apart. All points
-/// satisfy complementarity. Where several responses exist, another one may be found from one frequency to the
-/// next.
 Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// The same for the scene's structure composed before.
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});

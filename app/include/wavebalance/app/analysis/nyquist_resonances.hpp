@@ -6,11 +6,17 @@
 namespace wavebalance::app {
 
 /// Forcing frequencies in [from, to], Hz, at which the discretisation in time has a resonance of its own.
-/// With an even number M of functions the symbol of the first derivative vanishes at k = M/2 for the Fourier
-/// and for all Galerkin pairs: the alternating coefficient is not damped, and its dynamic stiffness
-/// lambda_2 f^2 M + lambda_0 K is singular where -lambda_2 f^2 / lambda_0 meets the square of a natural
-/// frequency (rad/s). Contact excites it slightly; a response near such a frequency is an artefact. Empty for
-/// odd M and for pairs that damp this coefficient. O(n^3), n degrees of freedom.
+/// With an even number M of functions the symbols of all derivatives are real at k = M/2, for every pair of
+/// real bases. In Galerkin pairs and with Fourier functions on both sides that of the first derivative
+/// vanishes. In the others (Haar:Fourier, Daubechies 6:Fourier) it does not, since a basis that is not
+/// symmetric about its translates shifts the alternating function against that of the other basis; but being
+/// real it adds the damping matrix to the stiffness, which moves the resonance and does not limit it. The
+/// dynamic stiffness of the alternating coefficient is singular where
+///   lambda_2 f^2 + lambda_1 f c + lambda_0 omega^2 = 0
+/// for a mode of natural frequency omega (rad/s) and modal damping c (kg/s over the modal mass of 1 kg; what
+/// damping couples modes is left out). Contact excites the coefficient slightly; a response near such a
+/// frequency is an artefact. Empty for odd M and where the scene drops the coefficient. Ascending. O(n^3), n
+/// degrees of freedom.
 std::vector<double> nyquist_resonances(const Scene& scene, double from, double to);
 
 }  // namespace wavebalance::app

@@ -21,7 +21,6 @@ struct RigidContact {
   double max_penetration = 0.0;  ///< m, at the quadrature points, where contact is enforced; negative: none
   double min_force = 0.0;        ///< N, at the quadrature points
   double product = 0.0;  ///< largest force times distance, over the largest of each, at the quadrature points
-  double stiffness = 0.0;  ///< N/m, of the spring in place of the obstacle; infinity: exactly rigid
 };
 
 /// How a scene with time.tolerance was resolved.
@@ -45,10 +44,15 @@ struct Response {
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
   int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
   std::string strategy;        ///< solvers::Strategy that found it; empty for time stepping and shooting
+  std::string form;            ///< solvers::ContactForm in which it was solved; empty for references
+  /// The unknown of the force form, solvers::PeriodicResponse::unknown_coefficients, and its 1 / epsilon of
+  /// each contact (m/N); empty in the displacement form.
+  Eigen::MatrixXcd unknown_coefficients;
+  Eigen::VectorXd regularization;
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();
-  /// solvers::CondensedProblem::rounding_error(); NaN as above. Above largest_rounding_error the response has
+  /// solvers::PeriodicResponse::rounding_error; NaN as above. Above largest_rounding_error the response has
   /// not converged, and the status says `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
@@ -80,9 +84,8 @@ struct ResponseOptions {
 /// singular system is reported by `converged` and `status`; then `contacts` hold the last iterate. Throws
 /// solvers::InadmissiblePair and std::invalid_argument for scenes that a loader would have rejected.
 ///
-/// With rigid contact it has converged when u <= gap, force >= 0 and their product 0 hold at every quadrature
-/// point to 1e-6 of the contact-free response; ResponseOptions::guess is not used then. The contact force is
-/// known at these points only: `contacts` hold that of the nearest one.
+/// A stiff or rigid law is solved in the force form: its force is then the resolvent of the law, which holds
+/// u <= gap of a rigid obstacle up to the discretisation error. Response::rigid reports that error.
 ///
 /// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
 /// converged when the estimated error meets the tolerance.

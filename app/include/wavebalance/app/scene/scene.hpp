@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "wavebalance/fem/solid.hpp"
+#include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
 
 namespace wavebalance::app {
 
 using fem::SolidElement;
+using solvers::ContactForm;
 using solvers::Formulation;
 using solvers::InnerProducts;
 using solvers::ModeFormulation;
+using solvers::NyquistCoefficient;
 
 /// Kinds of structure, structure.type.
 enum class StructureType { bar, blade, matrices };
@@ -23,6 +26,9 @@ enum class Direction { x, y, z };
 enum class TipPlace { leading_edge, mid_chord, trailing_edge };
 /// Contact laws, contact.law.
 enum class ContactLawType { none, exponential, linear, rigid };
+/// What becomes of the mass at the contacts, contact.mass: it stays, or the rest of the structure takes it.
+/// `automatic` redistributes it where the law is rigid.
+enum class ContactMass { automatic, keep, redistribute };
 /// Analyses, analysis.type.
 enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
 
@@ -93,10 +99,12 @@ struct Structure {
 /// zero for u < gap. Rigid contact has no such function: u <= gap, force >= 0, product 0.
 struct Contact {
   ContactLawType law = ContactLawType::none;
-  double constant = 0.0;          ///< N, > 0, a_c of the exponential law [JL14, eq. (5)]
-  double exponent = 0.0;          ///< 1/m, > 0, alpha of the exponential law
-  double stiffness = 0.0;         ///< N/m, > 0, slope of the linear law
-  double gap = 0.0;               ///< m, displacement at which contact starts
+  double constant = 0.0;                      ///< N, > 0, a_c of the exponential law [JL14, eq. (5)]
+  double exponent = 0.0;                      ///< 1/m, > 0, alpha of the exponential law
+  double stiffness = 0.0;                     ///< N/m, > 0, slope of the linear law
+  ContactForm form = ContactForm::automatic;  ///< the unknown that is solved for
+  ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom
+  double gap = 0.0;                           ///< m, displacement at which contact starts
   std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
 
   /// The gap of one contact, from 0.
@@ -127,6 +135,7 @@ struct Time {
   Formulation formulation = Formulation::distributional;
   int quadrature_points = 0;  ///< uniform points of one period, >= functions
   InnerProducts inner_products = InnerProducts::quadrature;
+  NyquistCoefficient nyquist = NyquistCoefficient::drop;  ///< of an even number of functions
   double tolerance = 0.0;  ///< > 0: relative rms error of the tip displacement to be met; 0: none
 
   bool operator==(const Time&) const = default;
@@ -182,8 +191,12 @@ std::string name_of(Direction value);
 std::string name_of(ContactLawType value);
 std::string name_of(Formulation value);
 std::string name_of(InnerProducts value);
+std::string name_of(NyquistCoefficient value);
 std::string name_of(ModeFormulation value);
 std::string name_of(AnalysisType value);
+
+/// Whether the mass of the contacts is redistributed: in responses and sweeps, as contact.mass says.
+bool redistributes_mass(const Scene& scene);
 
 /// Number of coefficients of the Daubechies basis called `basis` ("daubechies6" gives 6), 0 for any other
 /// basis. Throws std::invalid_argument if `basis` names no basis.

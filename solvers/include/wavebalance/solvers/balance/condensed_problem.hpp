@@ -19,6 +19,9 @@ namespace wavebalance::solvers {
 /// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
 /// columns onto each other.
 ///
+/// A Nyquist coefficient that the pair drops is never condensed: its compliance, load response and, in the
+/// force form, its part of P are zero.
+///
 /// In the force form the unknown is v = u + E lambda / epsilon, with lambda = P f the coefficients of the
 /// contact force in the trial functions and E their samples:
 ///
@@ -65,7 +68,8 @@ class CondensedProblem {
   /// 1 / epsilon of each contact, m/N; empty in the displacement form.
   const Eigen::VectorXd& regularization() const { return regularization_; }
 
-  /// How far each contact yields to a constant unit force at it, m/N: the scale of 1 / epsilon.
+  /// How far each contact yields to a unit force at it, m/N: the median of the moduli at the harmonics 0, 1
+  /// and 2, or the static one for fewer than five functions. The scale of 1 / epsilon.
   Eigen::VectorXd contact_compliance() const;
 
   /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
@@ -99,6 +103,9 @@ class CondensedProblem {
   /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
   /// whichever is larger. O(C N log N + C^2 M).
   double rounding_error(const Eigen::VectorXd& force);
+  /// A motion of that size, m, samples() values, if the errors have the phases of compliance and load
+  /// response, as those of one dominant mode have.
+  Eigen::VectorXd rounding_motion(const Eigen::VectorXd& force);
 
   /// Spectra over translates of the coefficients of all n degrees of freedom, n x (M/2 + 1), for force
   /// samples of all contacts (samples()). Throws SingularSystem. O(n M), or M/2 + 1 factorisations.
@@ -112,6 +119,7 @@ class CondensedProblem {
   void project(const Eigen::VectorXd& force);
   Eigen::MatrixXcd respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force);
   void update_kernel();
+  void append_dropped();
 
   TimePair pair_;
   std::shared_ptr<const LinearStructure> structure_;
@@ -119,8 +127,8 @@ class CondensedProblem {
   Condensation condensation_;
   Eigen::VectorXcd load_;  // projected load, spectrum over translates
   double frequency_ = 0.0;
-  StiffnessSpectrum factors_, derivatives_;
-  CondensedSpectrum condensed_;  // load responses times the projected load
+  StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
+  CondensedSpectrum condensed_;              // load responses times the projected load
   Eigen::VectorXd regularization_;
   Eigen::MatrixXcd kernel_;  // of K or, in the force form, of K - E P / epsilon
   Eigen::VectorXd free_response_, free_response_slope_;

@@ -9,7 +9,7 @@ namespace wavebalance::solvers {
 
 /// The unknown in which contact is solved for; see CondensedProblem.
 enum class ContactForm {
-  automatic,     ///< force for a rigid law, else displacement
+  automatic,     ///< force for a rigid law and one that is stiff beside the structure, else displacement
   displacement,  ///< u at the points, with the law's force at u
   force          ///< u + E lambda / epsilon, with the law's resolvent
 };
@@ -17,9 +17,10 @@ enum class ContactForm {
 std::string_view to_string(ContactForm form);
 
 /// 1 / epsilon of each contact (m/N) for the force form, empty for the displacement form: the argument of
-/// CondensedProblem::set_regularization. Needs the problem's frequency. Throws
-/// std::invalid_argument for a rigid law in the displacement form, and for a law in the force form that acts
-/// below its gap.
+/// CondensedProblem::set_regularization. Needs the problem's frequency. `automatic` takes the force form
+/// where all laws are unilateral and the slope of one, at the penetration that the contact-free response
+/// would cause, exceeds 1e4 times the static stiffness of its contact. Throws std::invalid_argument for a
+/// rigid law in the displacement form, and for a law in the force form that acts below its gap.
 Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,
                                        ContactForm form);
 

@@ -94,7 +94,8 @@ class ContactSystem {
   ContactLaws laws_;
   Eigen::VectorXd gaps_, added_motion_;
   double relative_residual_ = 0.0;
-  double products_ = 0.0;  // operations of products with K
+  double column_scale_ = 1.0, row_scale_ = 1.0;  // of the border last factorized
+  double products_ = 0.0;                        // operations of products with K
   Eigen::VectorXd force_, tangent_, residual_, product_;
   std::unique_ptr<JacobianSolver> jacobian_;
 };

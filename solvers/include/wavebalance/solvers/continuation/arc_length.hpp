@@ -33,7 +33,12 @@ class FrequencyParameter final : public CurveParameter {
 enum class GrazingEvents {
   where_needed,       ///< those that no step passes
   at_turning_points,  ///< also those at turning points, and the first and the last contact
-  all                 ///< no turning point can be missed; a few solves per event
+  all,                ///< no turning point can be missed; a few solves per event
+  /// All where they are few, up to 512 samples, with a long step where the next event is not found; else
+  /// at_turning_points. The cost of all grows like the square of the samples, while the turning points that
+  /// long steps miss become smaller. A pair that keeps an undamped Nyquist coefficient takes
+  /// at_turning_points, too: its resonances are passed by long steps only.
+  automatic
 };
 
 /// Scales, steps and limits of a curve followed by arc length. Lengths are in the scaled inner product of
@@ -141,6 +146,7 @@ class ArcLength {
   ContactSystem& system_;
   const CurveParameter& parameter_;
   ArcLengthOptions options_;
+  bool events_first_ = false;  // long steps only where the next grazing event is not found
   CurvePoint point_, previous_;
   double step_ = 0.0;
   double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_

@@ -2,7 +2,6 @@
 #include <Eigen/Core>
 
 #include "wavebalance/solvers/balance/contact_form.hpp"
-#include "wavebalance/solvers/complementarity/complementarity_options.hpp"
 #include "wavebalance/solvers/continuation/residual_homotopy.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
 #include "wavebalance/solvers/response/settling.hpp"
@@ -13,25 +12,25 @@ namespace wavebalance::solvers {
 struct ForcedResponseOptions {
   NewtonOptions newton;
   ContactForm form = ContactForm::automatic;
-  /// Whether more than Newton's method from the start is tried: the complementarity problem of the contact
-  /// forces, the motion that the structure settles to, and continuation.
+  /// Whether more than Newton's method from the start is tried, see Strategy.
   bool fallbacks = true;
   double max_fallback_operations = 1e10;  ///< of each further Newton run
   SettlingOptions settling;               ///< its observer is not used
-  ResidualHomotopyOptions continuation;   ///< its observer is not used
-  ComplementarityOptions paths;
-  Observer observer;  ///< called in all phases; NewtonOptions::observer is not used here
+  ResidualHomotopyOptions continuation;   ///< in the gaps and of residuals; its observer is not used
+  Observer observer;                      ///< called in all phases; NewtonOptions::observer is not used here
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
 };
 
 /// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one for
-/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The
-/// problem is left in the displacement form, whatever the form of the response. If it does not converge, the
-/// status gives the reason. Throws std::invalid_argument for a guess or a list of laws of another length, for
-/// a problem without frequency and for options out of range.
+/// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The force
+/// form also starts from `guess_force` (samples() values, N), the contact force of the guess, zero when it is
+/// empty. The problem is left in the displacement form, whatever the form of the response. If it does not
+/// converge, the status gives the reason. Throws std::invalid_argument for guesses or a list of laws of
+/// another length, for a problem without frequency and for options out of range.
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
-                                 const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {});
+                                 const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {},
+                                 const Eigen::VectorXd& guess_force = {});
 
 }  // namespace wavebalance::solvers

@@ -12,9 +12,11 @@ enum class SweepStatus {
   reached_end,  ///< the curve left the frequency interval at its far end
   returned,     ///< the curve left the interval at the end where it started
   no_start,     ///< no periodic response was found at the first frequency
-  lost,         ///< no further point was found, neither along the tangent nor at a grazing event
-  unbounded,    ///< the response grew past all bounds, as it does at a resonance without damping: that of the
-                ///< Nyquist function which an even number of functions keeps
+  closed,     ///< the curve came back to an earlier point of itself in the same direction, with shorter steps
+              ///< and with every grazing event solved for, too
+  lost,       ///< no further point was found, neither along the tangent nor at a grazing event
+  unbounded,  ///< the response grew past all bounds, as it does at a resonance without damping: that of a
+              ///< Nyquist coefficient which the pair keeps
   point_limit,  ///< max_points was reached
   cancelled     ///< the observer returned false
 };
@@ -48,14 +50,16 @@ struct FrequencySweepOptions {
   int output_points = 1024;  ///< times per period at which the maximum and the rms are taken
   int max_points = 20000;
   /// Hz; turning points between which the frequency goes back by less are left out. 0 means a thousandth of
-  /// the interval. Long steps may miss small ones, too; GrazingEvents::all in arc_length finds every one.
+  /// the interval. Where grazing_events is not all, long steps may miss small ones, too.
   double smallest_return = 0.0;
   /// A displacement_scale of 0 means the largest gap, or without contact the rms response at `from`. A
   /// parameter_scale of 0 means a 20th of the interval.
-  ArcLengthOptions arc_length{.displacement_scale = 0.0, .parameter_scale = 0.0};
+  ArcLengthOptions arc_length{
+      .displacement_scale = 0.0, .parameter_scale = 0.0, .grazing_events = GrazingEvents::automatic};
   ForcedResponseOptions start;  ///< the solver of the first point
   /// Called after each point with its frequency, and during the solution of the first. A curve that ends as
-  /// unbounded is followed again with other steps, and its points are then counted anew.
+  /// unbounded is followed again with other steps, and its points are then counted anew; one that returns to
+  /// itself is followed again from an earlier point.
   Observer observer;
 
   /// Throws std::invalid_argument for a number out of its range.
@@ -75,7 +79,15 @@ struct FrequencySweep {
 };
 
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
-/// folds and grazing events, from `from` until it leaves the interval. Throws std::invalid_argument for
+/// folds and grazing events, from `from` until it leaves the interval.
+///
+/// A long step may jump to a closed curve beside the one that is followed. A curve that returns to an earlier
+/// point of itself, to 1e-6 of arc length and in the same direction, is therefore followed again from before
+/// that point with half and a quarter of the largest step, and then through every grazing event. If it still
+/// returns, it is `closed`. Its points of number 2^n are those compared with, so that a cycle is noticed
+/// before four times the points up to the end of its first round have been computed.
+///
+/// Throws std::invalid_argument for
 /// frequencies that are not positive, finite and different, and for laws that are neither one nor one per
 /// contact. O(points (active^3 + N log N)).
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,

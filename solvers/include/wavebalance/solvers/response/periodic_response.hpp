@@ -1,11 +1,22 @@
 #pragma once
 #include <Eigen/Core>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/balance/newton.hpp"
-#include "wavebalance/solvers/complementarity/complementarity_options.hpp"
 
 namespace wavebalance::solvers {
+
+/// What found a periodic response, in the order in which they are tried.
+enum class Strategy {
+  none,              ///< no response was found
+  newton,            ///< Newton's method from the start given, or no contact at all
+  gap_continuation,  ///< arc length in the gaps, from where the first contact touches to the gaps given
+  settling,          ///< Newton's method from the motion that the structure at rest settles to
+  residual_homotopy  ///< arc length from that motion, or from the start given, to a solution
+};
+
+std::string_view to_string(Strategy strategy);
 
 /// A periodic response at one frequency, as the solvers leave it. Displacement and force are those at the
 /// quadrature points and therefore vectors, contact-major like every vector of samples; so they also serve as
@@ -14,23 +25,22 @@ struct PeriodicResponse {
   SolveStatus status = SolveStatus::iteration_limit;
   double frequency = 0.0;              ///< Hz
   double residual = 0.0;               ///< ||R|| / (||u0|| + ||K f||)
-  int iterations = 0;                  ///< Newton iterations and pivots of all attempts
+  int iterations = 0;                  ///< Newton iterations of all attempts
   Strategy strategy = Strategy::none;  ///< what found it
   /// SettledMotion::attractor_periods where the structure was settled; -1 where it was not.
   int attractor_periods = -1;
   std::vector<double> residual_history;  ///< residuals of the last Newton run
   double condition = 0.0;                ///< NewtonResult::condition of that run
-  Eigen::VectorXd displacement;          ///< m, samples() values, contact-major
-  Eigen::VectorXd contact_force;         ///< N, samples() values
-  Eigen::MatrixXcd coefficients;         ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
+  /// Estimated rounding error of the condensation in the motion, relative: CondensedProblem::rounding_error()
+  /// and, where that exceeds 1e-6, the error that contact makes of it, J^-1 times the errors.
+  double rounding_error = 0.0;
+  Eigen::VectorXd displacement;   ///< m, samples() values, contact-major
+  Eigen::VectorXd contact_force;  ///< N, samples() values
+  Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
   /// 1 / epsilon of each contact (m/N) in the force form; empty in the displacement form.
   Eigen::VectorXd regularization;
   Eigen::VectorXd unknown;                ///< m, samples() values: displacement, or v of the force form
   Eigen::MatrixXcd unknown_coefficients;  ///< as coefficients, for the unknown
-  /// Whether contact_force is the force in the balance rather than the law's force at the displacement. This
-  /// is so for a law whose penetration is below rounding of the displacement. The law is then satisfied in
-  /// displacement, to 1e-9 of the motion, and `residual` is that mismatch.
-  bool force_by_balance = false;
 
   bool converged() const { return status == SolveStatus::converged; }
 };

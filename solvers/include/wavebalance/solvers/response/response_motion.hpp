@@ -10,9 +10,8 @@ namespace wavebalance::solvers {
 
 /// The motion of all contacts in a response of `problem` to `laws`, at `points` uniform times as in the
 /// constructor of MotionEvaluator: displacement and velocity from the response's coefficients, forces by the
-/// laws from the displacements, or in the force form by their resolvents from the unknown. Where the force is
-/// not the law's (PeriodicResponse::force_by_balance) it is known at the quadrature points only, and each
-/// point has that of the nearest of these. O(C points log points).
+/// laws from the displacements, or in the force form by their resolvents from the unknown. O(C points log
+/// points).
 Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& response,
                       const ContactLaws& laws, int points);
 

@@ -18,6 +18,15 @@ enum class Formulation { strong, weak, distributional };
 /// the paper does), or exactly.
 enum class InnerProducts { quadrature, exact };
 
+/// What becomes of the coefficient over translates k = M/2 of an even M, the alternating one. Its symbols are
+/// real for every pair of real generators, those of the first derivative too, so that C enters its dynamic
+/// stiffness as a spring does and damps nothing: a lightly damped structure resonates where a natural
+/// frequency meets M/2 times the forcing frequency, or near it. Dropped, the coefficient is in neither the
+/// trial nor the weight space; two Fourier bases of M functions are then those of M - 1. An odd M has none.
+/// Which Nyquist function a Fourier basis ends with, cosine or sine, is spectral::Nyquist: without effect
+/// where the coefficient is dropped.
+enum class NyquistCoefficient { keep, drop };
+
 /// A trial and a weighting basis that cannot be paired: s_p + s_q > 2 does not hold, or a derivative that the
 /// formulation samples has no pointwise values.
 class InadmissiblePair : public std::domain_error {
@@ -40,6 +49,7 @@ struct TimePairOptions {
   /// column a_d[m] = <p_i, d^d q_j / dt^d>, m = i - j mod M, of the circulant A_d for d = 0, 1, 2. With a
   /// band-limited basis on either side the pair sums its Fourier series itself and this is not called.
   std::function<Eigen::VectorXd(int derivative)> exact_column = {};
+  NyquistCoefficient nyquist = NyquistCoefficient::keep;
 };
 
 /// Whether the duality pairing of the bases exists: the Sobolev exponents satisfy s_p + s_q > 2, and with
@@ -67,12 +77,17 @@ class TimePair {
   int functions() const { return functions_; }              ///< M
   int points() const { return points_; }                    ///< N
   int spectrum_size() const { return functions_ / 2 + 1; }  ///< stored values of a spectrum over translates
+  /// Whether k = M/2 is out of both spaces: an even M whose Nyquist coefficient is dropped.
+  bool drops_nyquist() const { return options_.nyquist == NyquistCoefficient::drop && functions_ % 2 == 0; }
+  /// The values k = 0..solved_size()-1 of a spectrum that are solved for; a dropped one is zero.
+  int solved_size() const { return spectrum_size() - (drops_nyquist() ? 1 : 0); }
   const AnyTimeBasis& trial() const { return trial_; }
   const AnyTimeBasis& weight() const { return weight_; }
   Formulation formulation() const { return options_.formulation; }
   InnerProducts inner_products() const { return options_.inner_products; }
 
-  /// lambda_d(k), k = 0..M/2, of A_d for d = 0, 1, 2; the unit is 1, time scaled to the period.
+  /// lambda_d(k), k = 0..M/2, of A_d for d = 0, 1, 2, with that of a dropped coefficient; the unit is 1, time
+  /// scaled to the period.
   const Eigen::VectorXcd& symbol(int derivative) const {
     return symbols_[static_cast<std::size_t>(derivative)];
   }
@@ -82,7 +97,7 @@ class TimePair {
   const Eigen::VectorXcd& weight_spectrum() const { return weight_spectrum_; }
 
   /// The smallest r such that a shift of the force samples by r points shifts the displacement samples alike:
-  /// 1 when both bases are band-limited with an odd M, else N / gcd(N, M).
+  /// 1 when both bases are band-limited and M is odd or its Nyquist coefficient dropped, else N / gcd(N, M).
   int shift_period() const;
 
   /// Spectrum over translates (M/2 + 1) of the coefficients to spectrum over samples (N/2 + 1) of the

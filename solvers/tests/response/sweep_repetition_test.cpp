@@ -1,0 +1,124 @@
+// Curves that come back to an earlier point of themselves.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <optional>
+
+#include "continuation/milestones.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// A cantilever of steel, 0.5 m x 20 mm x 5 mm, as one element of deflection and slope at its tip, shaken at
+// its base, every mode damped by 1 % of the critical damping.
+LinearStructure shaken_beam() {
+  constexpr double length = 0.5, width = 0.02, height = 0.005, modulus = 210e9, density = 7850.0,
+                   ratio = 0.01;
+  const double bending = modulus * width * std::pow(height, 3) / 12.0 / std::pow(length, 3);
+  const double inertia = density * width * height * length / 420.0;
+  Eigen::Matrix2d stiffness, mass;
+  stiffness << 12.0, -6.0 * length, -6.0 * length, 4.0 * length * length;
+  mass << 156.0, -22.0 * length, -22.0 * length, 4.0 * length * length;
+  stiffness *= bending;
+  mass *= inertia;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(stiffness, mass);
+  const Eigen::Matrix2d shapes = mass * modes.eigenvectors();
+  LinearStructure beam;
+  beam.mass = mass.sparseView();
+  beam.stiffness = stiffness.sparseView();
+  const Eigen::Vector2d damping = 2.0 * ratio * modes.eigenvalues().cwiseSqrt();
+  beam.damping = Eigen::MatrixXd(shapes * damping.asDiagonal() * shapes.transpose()).sparseView();
+  beam.load = -inertia * Eigen::Vector2d(210.0, -35.0 * length);
+  return beam;
+}
+
+// The beam against a stiff stop, followed by steps so long that one of them jumps to a closed curve.
+struct Beam {
+  CondensedProblem problem{testing::fourier_pair(63, 256), shaken_beam(), testing::cosine_load()};
+  testing::LinearContact stop{1e5, 1e-3};
+
+  static FrequencySweepOptions options() {
+    FrequencySweepOptions options;
+    options.from = 12.0;
+    options.to = 25.0;
+    options.max_points = 3000;
+    options.output_points = 64;
+    auto& arc = options.arc_length;
+    arc.grazing_events = GrazingEvents::at_turning_points;
+    arc.displacement_scale = 1e-3;
+    arc.parameter_scale = 0.65;
+    arc.max_step = 0.3 / arc.parameter_scale;
+    arc.initial_step = 0.15 / arc.parameter_scale;
+    return options;
+  }
+
+  FrequencySweep sweep(GrazingEvents events) {
+    FrequencySweepOptions how = options();
+    how.arc_length.grazing_events = events;
+    return frequency_sweep(problem, stop, how);
+  }
+};
+
+TEST(SweepRepetition, AJumpToAClosedCurveIsFollowedAgainWithShorterSteps) {
+  Beam beam;
+  const FrequencySweep found = beam.sweep(GrazingEvents::at_turning_points);
+  EXPECT_EQ(found.status, SweepStatus::reached_end);
+  EXPECT_LT(found.points.size(), 1500u);
+  for (std::size_t i = 1; i < found.points.size(); ++i)
+    for (std::size_t j = 0; j + 1 < i; ++j) {
+      const SweepPoint &a = found.points[i], &b = found.points[j];
+      EXPECT_FALSE(a.frequency == b.frequency && a.rms_displacement == b.rms_displacement)
+          << j << " and " << i;
+    }
+}
+
+// Advances until the curve returns to a milestone; none within `most` points.
+std::optional<std::size_t> returned_within(ArcLength& curve, Milestones& milestones, int most, int& points) {
+  for (points = 1; points <= most; ++points) {
+    milestones.pass(curve.point(), points);
+    if (curve.advance() != ArcLength::Status::advanced) return std::nullopt;
+    if (const auto index = milestones.returned(curve)) return index;
+  }
+  return std::nullopt;
+}
+
+TEST(SweepRepetition, AClosedCurveReturnsToItsFirstPoint) {
+  Beam beam;
+  beam.problem.set_frequency(12.0);
+  ContactSystem system(beam.problem, beam.stop);
+  const FrequencyParameter frequency;
+  ArcLengthOptions arc = Beam::options().arc_length;
+  ArcLength curve(system, frequency, arc);
+  const PeriodicResponse first = forced_response(beam.problem, beam.stop, {});
+  ASSERT_EQ(curve.start(first.unknown, 12.0, 1.0), ArcLength::Status::advanced);
+  Milestones milestones(arc);
+  int entered = 0;
+  const auto index = returned_within(curve, milestones, 3000, entered);
+  ASSERT_TRUE(index) << "long steps jump to a closed curve";
+  EXPECT_GT(*index, 0u);
+  const CurvePoint on_it = milestones[*index].point;
+  arc.grazing_events = GrazingEvents::all;
+  ArcLength closed(system, frequency, arc);
+  const double direction = on_it.parameter_tangent > 0.0 ? 1.0 : -1.0;
+  ASSERT_EQ(closed.start(on_it.displacement, on_it.parameter, direction), ArcLength::Status::advanced);
+  Milestones fresh(arc);
+  int lap = 0;
+  const auto again = returned_within(closed, fresh, 500, lap);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(*again, 0u);
+  EXPECT_GT(lap, 5);
+}
+
+TEST(SweepRepetition, ACurveThatTurnsBackAndOnAgainDoesNotReturn) {
+  Beam beam;
+  const FrequencySweep found = beam.sweep(GrazingEvents::all);
+  EXPECT_EQ(found.status, SweepStatus::reached_end);
+  EXPECT_GT(found.turning_points.size(), 10u);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
