@@ -9,6 +9,7 @@
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -141,6 +142,14 @@ std::string mode_lines(const Scene& scene) {
           ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
           : fmt::format("{} points up to energy ratio {} or frequency ratio {}", analysis.points,
                         number_text(analysis.largest_energy), number_text(analysis.last_frequency_ratio));
+  if (is_elastic_mode(scene)) {
+    const Time time = mode_time(scene);
+    const std::int64_t functions = time.functions;
+    return fmt::format(
+        "mode       {}, {}\n{}size       {} unknowns after condensation on the contact ({} before)\n",
+        analysis.mode, range, time_lines(time), contact_count(scene.structure) * functions,
+        reduced_size(scene) * functions);
+  }
   return fmt::format(
       "mode       {}, {}{}\ntime       Fourier series, {} harmonics{}\n"
       "size       {} contact forces after condensation on the contact ({} unknowns before)\n",

@@ -57,8 +57,11 @@ void append_discretisation(Summary& summary, const ModeStudy& study) {
   const Analysis& analysis = study.scene().analysis;
   summary.emplace_back("analysis", name_of(analysis.type));
   summary.emplace_back("mode", std::int64_t{analysis.mode});
-  summary.emplace_back("harmonics", std::int64_t{analysis.harmonics});
-  summary.emplace_back("samples", std::int64_t{analysis.samples});
+  if (!study.elastic_mode() || study.scene().time.trial.empty()) {
+    summary.emplace_back("harmonics", std::int64_t{analysis.harmonics});
+    summary.emplace_back("samples", std::int64_t{analysis.samples});
+  }
+  if (study.elastic_mode()) append_discretisation(summary, mode_time(study.scene()));
   summary.emplace_back("linear_frequency_Hz", study.linear_frequency());
   append_structure(summary, study.model());
 }
@@ -95,14 +98,13 @@ void append_quality(Summary& summary, double penetration, double min_force, doub
   summary.emplace_back("virial_residual", virial_residual);
 }
 
-Record curve_record(const ModeStudy& study) {
-  const Backbone curve = study.backbone();
+Record curve_record(const ModeStudy& study, const Observer& observer) {
+  const Backbone curve = study.backbone(observer);
   Record record;
   record.converged = curve.converged();
   record.status = curve.status();
-  record.summary =
-      solution_entries(record.converged, record.status, worst_residual(curve), iterations_of(curve),
-                       study.mode().model().contacts() * study.scene().analysis.samples, curve.wall_seconds);
+  record.summary = solution_entries(record.converged, record.status, worst_residual(curve),
+                                    iterations_of(curve), study.unknowns(), curve.wall_seconds);
   append_curve(record.summary, curve, common_gap(study));
   append_discretisation(record.summary, study);
   append_statuses(record.summary, curve);
@@ -133,9 +135,13 @@ Record motion_record(const ModeStudy& study) {
   record.converged = response.converged = point.accepted();
   record.status = to_string(point.status);
   if (point.status == ModeStatus::internal_resonance) record.status += " " + resonance_name(point.resonance);
+  if (point.status == ModeStatus::no_contact) {
+    const Backbone curve = study.backbone(scene.analysis.energy_ratio);
+    record.status += curve.early_end.empty() ? ": no neighbouring points of the curve enclose the energy"
+                                             : ": the curve " + curve.early_end;
+  }
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
-                                    point.iterations, study.model().contacts() * scene.analysis.samples,
-                                    response.wall_seconds);
+                                    point.iterations, study.unknowns(), response.wall_seconds);
   append_motion(record.summary, response.leading());
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
@@ -236,7 +242,7 @@ Record mode_record(const Scene& scene, const StructureModel& model, const Observ
   const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
   if (scene.analysis.formulation == ModeFormulation::published && with_contact)
     return published_record(study);
-  return energy > 0.0 ? motion_record(study) : curve_record(study);
+  return energy > 0.0 ? motion_record(study) : curve_record(study, observer);
 }
 
 }  // namespace wavebalance::app

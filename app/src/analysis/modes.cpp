@@ -1,5 +1,7 @@
 #include "wavebalance/app/analysis/modes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <numbers>
 
 #include "analysis/summary_parts.hpp"
+#include "files/number_text.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
 namespace wavebalance::app {
@@ -24,12 +27,69 @@ bool is_solution(const ModePoint& point) {
 
 bool has_motion(const ModePoint& point) { return is_solution(point) && point.amplitudes.size() > 0; }
 
-solvers::BackboneOptions curve_options(const Analysis& analysis) {
+solvers::BackboneOptions curve_options(const Analysis& analysis, double largest_energy) {
   solvers::BackboneOptions options;
   options.last_ratio = analysis.last_frequency_ratio;
   options.points = analysis.points;
-  options.max_energy = analysis.largest_energy;
+  options.max_energy = largest_energy;
   return options;
+}
+
+/// Steps of about the length of the points asked for.
+solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double largest_energy) {
+  solvers::ElasticBackboneOptions options;
+  options.max_energy = largest_energy;
+  options.max_frequency_ratio = analysis.last_frequency_ratio;
+  const double length = (analysis.last_frequency_ratio - 1.0) / options.frequency_scale;
+  options.max_step = std::min(options.max_step, 0.5 * length / analysis.points);
+  options.initial_step = std::min(options.initial_step, options.max_step);
+  options.max_points = 1000 + 20 * analysis.points;
+  return options;
+}
+
+/// "ended at frequency ratio ..." with what was asked for; the last accepted point is given.
+std::string early_end_text(const ModePoint& last, double linear_omega, double largest_energy,
+                           const Analysis& analysis) {
+  return fmt::format(
+             "ended at frequency ratio {:.4f} and energy ratio {:.4g}, before the energy ratio {} asked for",
+             last.omega / linear_omega, last.energy_ratio, number_text(largest_energy)) +
+         (last.omega / linear_omega >= (1.0 - 1e-9) * analysis.last_frequency_ratio
+              ? ": last_frequency_ratio is reached"
+              : "");
+}
+
+/// How a curve with a rigid obstacle ends: its points have uniform frequencies.
+void set_rigid_end(Backbone& curve, double linear_omega, double largest_energy, const Analysis& analysis) {
+  const ModePoint* last = nullptr;
+  for (const ModePoint& point : curve.points)
+    if (point.accepted()) last = &point;
+  if (!last || last->energy_ratio >= largest_energy) return;
+  curve.early_end = early_end_text(*last, linear_omega, largest_energy, analysis);
+  curve.complete =
+      last == &curve.points.back() && curve.points.size() == static_cast<std::size_t>(analysis.points);
+  if (curve.complete) return;
+  const ModePoint& next = *(last + 1 <= &curve.points.back() ? last + 1 : last);
+  curve.early_end += next.status == ModeStatus::internal_resonance
+                         ? ": beyond it lies the internal resonance " + resonance_name(next.resonance)
+                         : ": beyond it the points are " + std::string(to_string(next.status));
+}
+
+/// How a curve with an elastic law ends.
+void set_elastic_end(Backbone& curve, solvers::BackboneStatus status, double linear_omega,
+                     double largest_energy, const Analysis& analysis) {
+  using solvers::BackboneStatus;
+  curve.complete = status == BackboneStatus::reached_energy || status == BackboneStatus::reached_frequency;
+  if (status == BackboneStatus::reached_energy) return;
+  const ModePoint* last = nullptr;
+  for (const ModePoint& point : curve.points)
+    if (point.accepted()) last = &point;
+  if (!last) return;
+  curve.early_end = early_end_text(*last, linear_omega, largest_energy, analysis);
+  if (status == BackboneStatus::internal_resonance)
+    curve.early_end +=
+        ": no step passed the internal resonance " + resonance_name(curve.points.back().resonance);
+  else if (!curve.complete)
+    curve.early_end += ": " + std::string(to_string(status));
 }
 
 void add_to(Interruption& gap, const ModePoint& point, double ratio) {
@@ -103,15 +163,20 @@ int Backbone::count(ModeStatus status) const {
                                         [&](const ModePoint& point) { return point.status == status; }));
 }
 
-bool Backbone::converged() const { return status() == "converged"; }
+bool Backbone::converged() const {
+  return complete && count(ModeStatus::converged) > 0 &&
+         std::none_of(interruptions.begin(), interruptions.end(),
+                      [](const Interruption& gap) { return gap.resonances.empty(); });
+}
 
 std::string Backbone::status() const {
   if (count(ModeStatus::converged) == 0) return "no motion with contact was found";
+  if (!complete) return early_end;
   for (const Interruption& gap : interruptions)
     if (gap.resonances.empty())
       return gap.status + " at frequency ratio " + std::to_string(gap.first_ratio) +
              ", on no known internal resonance";
-  return "converged";
+  return early_end.empty() ? "converged" : early_end;
 }
 
 ModeStudy::ModeStudy(const Scene& scene) : ModeStudy(scene, make_model(scene)) {}
@@ -120,14 +185,37 @@ ModeStudy::ModeStudy(const Scene& scene, StructureModel model)
     : scene_(scene),
       model_(std::move(model)),
       modes_(make_modes(model_)),
-      mode_(make_nonlinear_mode(scene, modes_.model)) {}
+      mode_(make_nonlinear_mode(scene, modes_.model)) {
+  if (is_elastic_mode(scene)) elastic_ = make_elastic_mode(scene, modes_.model);
+}
+
+int ModeStudy::unknowns() const {
+  const int one = elastic_ ? mode_time(scene_).functions : scene_.analysis.samples;
+  return model_.contacts() * one;
+}
 
 double ModeStudy::linear_frequency() const { return mode_.linear_omega() / (2.0 * std::numbers::pi); }
 
-Backbone ModeStudy::backbone() const {
+Backbone ModeStudy::backbone(const solvers::Observer& observer) const {
+  return backbone(scene_.analysis.largest_energy, observer);
+}
+
+Backbone ModeStudy::backbone(double largest_energy, const solvers::Observer& observer) const {
   const auto start = std::chrono::steady_clock::now();
+  const Analysis& analysis = scene_.analysis;
   Backbone curve;
-  curve.points = solvers::backbone(mode_, curve_options(scene_.analysis));
+  if (elastic_) {
+    auto options = elastic_options(analysis, largest_energy);
+    options.observer = observer;
+    solvers::ElasticBackbone found = elastic_->backbone(options);
+    curve.points = std::move(found.points);
+    set_elastic_end(curve, found.status, mode_.linear_omega(), largest_energy, analysis);
+  } else {
+    auto options = curve_options(analysis, largest_energy);
+    options.observer = observer;
+    curve.points = solvers::backbone(mode_, options);
+    set_rigid_end(curve, mode_.linear_omega(), largest_energy, analysis);
+  }
   curve.interruptions = interruptions_of(curve.points, mode_.linear_omega());
   curve.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const ModePoint& point : curve.points)
@@ -135,11 +223,15 @@ Backbone ModeStudy::backbone() const {
   return curve;
 }
 
+ModePoint ModeStudy::linear_mode(double energy_ratio) const {
+  return elastic_ ? elastic_->linear_mode(energy_ratio) : mode_.linear_mode(energy_ratio);
+}
+
 ModePoint ModeStudy::at_energy(double energy_ratio) const {
-  if (energy_ratio <= 1.0) return mode_.linear_mode(energy_ratio);
-  solvers::BackboneOptions options = curve_options(scene_.analysis);
-  options.max_energy = energy_ratio;
-  return solvers::at_energy(mode_, solvers::backbone(mode_, options), energy_ratio);
+  if (energy_ratio <= 1.0) return linear_mode(energy_ratio);
+  if (elastic_) return elastic_->at_energy(energy_ratio, elastic_options(scene_.analysis, energy_ratio));
+  const auto points = solvers::backbone(mode_, curve_options(scene_.analysis, energy_ratio));
+  return solvers::at_energy(mode_, points, energy_ratio);
 }
 
 ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const {
@@ -148,7 +240,9 @@ ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const
 
 solvers::Motion ModeStudy::contact_motion(const ModePoint& point, int points) const {
   if (!has_motion(point)) return {};
-  return motion_of_contacts(mode_.model(), point, points);
+  solvers::Motion motion = motion_of_contacts(mode_.model(), point, points);
+  if (elastic_) motion.force = make_laws(scene_).force(motion.displacement);
+  return motion;
 }
 
 solvers::Motion ModeStudy::contact_motion(const solvers::LagrangianPoint& point, int points) const {
@@ -179,6 +273,7 @@ std::vector<solvers::LagrangianPoint> ModeStudy::published_branch(double largest
 }
 
 double ModeStudy::residual(const ModePoint& point) const {
+  if (elastic_) return point.residual;
   const Eigen::MatrixXcd u = physical(modes_, point);
   const solvers::LinearStructure& structure = model_.structure;
   const auto count = point.force.cols();
@@ -206,10 +301,13 @@ std::string resonance_name(const solvers::InternalResonance& resonance) {
 
 namespace {
 
-Table empty_backbone() {
-  return Table({"energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio",
-                "contact_fraction", "status", "residual", "virial_residual", "max_penetration_over_gap",
-                "min_contact_force_N", "tongue", "tongue_share"});
+Table empty_backbone(bool elastic = false) {
+  std::vector<std::string> columns{
+      "energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio", "contact_fraction",
+      "status",       "residual",     "virial_residual", "max_penetration_over_gap", "min_contact_force_N",
+      "tongue",       "tongue_share"};
+  if (elastic) columns.emplace_back("modal_energy_ratio");
+  return Table(columns);
 }
 
 }  // namespace
@@ -231,20 +329,30 @@ Table backbone_table(const ModeStudy& study, const std::vector<solvers::Lagrangi
 }
 
 Table backbone_table(const ModeStudy& study, const Backbone& curve) {
-  Table table = empty_backbone();
+  const bool elastic = study.elastic_mode().has_value();
+  Table table = empty_backbone(elastic);
   const double linear = study.mode().linear_omega();
   const auto add = [&](const ModePoint& point, double residual) {
     const bool found = is_solution(point);
     const auto value = [&](double number) { return found ? number : missing; };
-    table.append_row({value(point.energy_ratio), point.omega / (2.0 * std::numbers::pi), point.omega / linear,
-                      value(std::sqrt(point.rayleigh) / linear), value(point.contact_fraction),
-                      std::string(to_string(point.status)), residual, value(point.virial_residual),
-                      value(point.max_penetration), value(point.min_force),
-                      point.resonance.harmonic > 0 ? resonance_name(point.resonance) : std::string("none"),
-                      value(point.resonance.share)});
+    std::vector<Cell> row{
+        value(point.energy_ratio),
+        point.omega / (2.0 * std::numbers::pi),
+        point.omega / linear,
+        value(std::sqrt(point.rayleigh) / linear),
+        value(point.contact_fraction),
+        std::string(to_string(point.status)),
+        residual,
+        value(point.virial_residual),
+        value(point.max_penetration),
+        value(point.min_force),
+        point.resonance.harmonic > 0 ? resonance_name(point.resonance) : std::string("none"),
+        value(point.resonance.share)};
+    if (elastic) row.emplace_back(value(point.gamma_ratio));
+    table.append_row(std::move(row));
   };
   for (int i = 0; i < linear_points; ++i) {
-    const auto point = study.mode().linear_mode(static_cast<double>(i) / (linear_points - 1));
+    const auto point = study.linear_mode(static_cast<double>(i) / (linear_points - 1));
     add(point, study.residual(point));
   }
   for (std::size_t i = 0; i < curve.points.size(); ++i) add(curve.points[i], curve.residuals[i]);

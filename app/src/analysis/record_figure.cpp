@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/response_parts.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 
 namespace wavebalance::app {
@@ -40,6 +41,12 @@ std::string structure_title(const Structure& structure) {
 }
 
 std::string method_title(const Scene& scene) {
+  if (is_elastic_mode(scene)) {
+    const Time time = mode_time(scene);
+    return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
+           basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
+           structure_title(scene.structure);
+  }
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return "Mode " + std::to_string(scene.analysis.mode) +
            ", N = " + std::to_string(scene.analysis.harmonics) +

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
@@ -99,10 +100,40 @@ void check_dense_size(const Document& document, const Scene& scene) {
   fail_rule(document, {"structure.kept_modes", "structure.stiffness"}, count + most + why + advice);
 }
 
+/// The pair of bases of an elastic mode, where the scene names one.
+void check_mode_pair(const Document& document, const Scene& scene) {
+  if (scene.time.trial.empty() != scene.time.weight.empty())
+    fail_rule(document, {"time.trial", "time.weight"}, "expected both time.trial and time.weight, or none");
+  if (scene.time.trial.empty()) return;
+  if (scene.time.functions < 3)
+    fail_rule(document, {"time.functions", "time.trial"},
+              "expected at least 3 time.functions beside time.trial");
+  check_time(document, scene);
+  if (scene.analysis.cosine_only && (is_wavelet(scene.time.trial) || is_wavelet(scene.time.weight)))
+    fail_rule(document, {"analysis.cosine_only"}, "expected false for wavelets, which have no even motions");
+  try {
+    solvers::require_free_motions(make_pair(scene.time));
+  } catch (const std::invalid_argument& error) {
+    fail_rule(document, {"time.trial", "time.weight"}, error.what());
+  }
+}
+
+void check_elastic_mode(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  if (analysis.formulation == ModeFormulation::published)
+    fail_rule(document, {"analysis.formulation"},
+              "expected \"consistent\"; the published equations are those of contact.law = \"rigid\"");
+  if (scene.time.trial.empty() && analysis.samples <= 2 * analysis.harmonics)
+    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
+              "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+  check_mode_pair(document, scene);
+}
+
 void check_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  if (scene.contact.law != ContactLawType::rigid)
-    fail_rule(document, {"contact.law"}, "expected \"rigid\" for a nonlinear mode");
+  if (scene.contact.law == ContactLawType::none)
+    fail_rule(document, {"contact.law"},
+              "expected \"rigid\", \"exponential\" or \"linear\" for a nonlinear mode");
   for (int contact = 0; contact < contact_count(scene.structure); ++contact)
     if (!(scene.contact.gap_of(contact) > 0.0))
       fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
@@ -112,6 +143,7 @@ void check_mode(const Document& document, const Scene& scene) {
   if (analysis.samples < 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+  if (is_elastic_mode(scene)) check_elastic_mode(document, scene);
 }
 
 void check_rigid(const Document& document, const Scene& scene) {

@@ -164,9 +164,14 @@ void add_mode(std::vector<SceneKey>& keys) {
        optional);
   mode(&Analysis::harmonics, "harmonics", "", "harmonics N of the Fourier series in time", within(1, 4096),
        optional);
-  mode(&Analysis::samples, "samples", "",
-       "uniform times of one period at which contact is enforced, at least 2 x harmonics", within(2, 1 << 16),
-       derived("2 x harmonics", [](const Scene& scene) { return 2 * scene.analysis.harmonics; }));
+  mode(
+      &Analysis::samples, "samples", "",
+      "uniform times of one period at which contact is enforced, at least 2 x harmonics; with an exponential "
+      "or linear law those of its force",
+      within(2, 1 << 16),
+      derived("2 x harmonics, 8 x with an exponential or linear law", [](const Scene& scene) {
+        return (scene.contact.law == ContactLawType::rigid ? 2 : 8) * scene.analysis.harmonics;
+      }));
   mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
   mode(&Analysis::energy_ratio, "energy_ratio", "",
        "the one motion of this energy, over that of the linear mode that just touches; 0 for the curve",
@@ -176,8 +181,9 @@ void add_mode(std::vector<SceneKey>& keys) {
   mode(&Analysis::last_frequency_ratio, "last_frequency_ratio", "",
        "or beyond this ratio of the frequency to the linear one", above(1.001), optional);
   mode(&Analysis::points, "points", "",
-       "of the curve, uniform in frequency up to there; in energy when published", within(2, 1'000'000),
-       optional);
+       "of the curve, uniform in frequency up to there; in energy when published; about as many with an "
+       "exponential or linear law",
+       within(2, 1'000'000), optional);
 }
 
 void add_structure(std::vector<SceneKey>& keys) {

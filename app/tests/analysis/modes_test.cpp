@@ -84,6 +84,24 @@ TEST(Backbone, FailureOnNoInternalResonanceIsNotConverged) {
   EXPECT_NE(curve.status().find("cycling at frequency ratio 1.25"), std::string::npos) << curve.status();
 }
 
+TEST(Analyse, RigidBackboneThatEndsBeforeItsEnergyIsNotConvergedAndSaysWhereItEnds) {
+  // Of the second mode few points lie on no internal resonance, none beyond 1.04 times its linear frequency.
+  const Record record = analyse(rod({"analysis.mode=2"}));
+  EXPECT_FALSE(record.converged);
+  EXPECT_NE(record.status.find("ended at frequency ratio 1.0"), std::string::npos) << record.status;
+  EXPECT_NE(record.status.find("before the energy ratio 10 asked for: beyond it lies the internal resonance"),
+            std::string::npos)
+      << record.status;
+  EXPECT_NE(record.figure.title.find("INCOMPLETE"), std::string::npos);
+}
+
+TEST(Analyse, RigidBackboneBelowItsEnergyAtTheLastFrequencyIsConvergedAndSaysSo) {
+  const Record record = analyse(rod({"analysis.last_frequency_ratio=1.05", "analysis.points=50"}));
+  EXPECT_TRUE(record.converged);
+  EXPECT_NE(record.status.find("ended at frequency ratio 1.0500"), std::string::npos) << record.status;
+  EXPECT_NE(record.status.find("last_frequency_ratio is reached"), std::string::npos) << record.status;
+}
+
 TEST(Analyse, BackboneHoldsLinearBranchAndContact) {
   const Record record = analyse(rod());
   EXPECT_TRUE(record.converged) << record.status;

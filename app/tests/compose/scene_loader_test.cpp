@@ -202,9 +202,10 @@ TEST(SceneLoader, NonlinearModesNeedNeitherForcingNorBases) {
   EXPECT_EQ(parse_scene(write_scene(scene), "written"), scene);
 }
 
-TEST(SceneLoader, NonlinearModesAreOfRigidContactWithoutDamping) {
-  expect_error(with(rod_scene, "law = \"rigid\"                   # 10", "law = \"linear\"\nstiffness = 1e9"),
-               10, "contact.law", "\"linear\"", "\"rigid\"");
+TEST(SceneLoader, NonlinearModesHaveContactAndNoDamping) {
+  expect_error(
+      with(with(rod_scene, "law = \"rigid\"                   # 10", "law = \"none\""), "gap = 1e-3", "#"),
+      10, "contact.law", "\"none\"", "\"exponential\"");
   expect_error(with(rod_scene, "gap = 1e-3", "gap = 0.0"), 11, "contact.gap", "0.0", "> 0");
   expect_error(with(rod_scene, "# 8", "\nstiffness_damping = 1e-6"), 9, "structure.stiffness_damping", "1e-6",
                "expected 0");

@@ -1,9 +1,12 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
@@ -21,15 +24,19 @@ struct Interruption {
 
 /// A nonlinear mode over its frequency.
 struct Backbone {
-  std::vector<solvers::ModePoint> points;  ///< with contact, in the order of their frequencies
-  std::vector<double> residuals;           ///< residuals of the equation of motion, see ModeStudy::residual()
+  std::vector<solvers::ModePoint>
+      points;                     ///< with contact, in the order of their frequencies or of the curve
+  std::vector<double> residuals;  ///< residuals of the equation of motion, see ModeStudy::residual()
   std::vector<Interruption> interruptions;
   double wall_seconds = 0.0;
+  /// Where and why the curve ends before the energy that it was to reach; empty where it does not.
+  std::string early_end;
+  bool complete = true;  ///< it goes to that energy or to the last frequency asked for
 
   int count(solvers::ModeStatus status) const;
-  /// There are accepted points with contact, and each interruption lies on a named internal resonance.
+  /// The curve is complete, and each interruption lies on a named internal resonance.
   bool converged() const;
-  /// "converged" or why not.
+  /// "converged", early_end, or why the curve is not complete.
   std::string status() const;
 };
 
@@ -44,21 +51,30 @@ class ModeStudy {
 
   const Scene& scene() const { return scene_; }
   const StructureModel& model() const { return model_; }
+  /// The mode with a rigid obstacle in place of the scene's law.
   const solvers::NonlinearMode& mode() const { return mode_; }
+  /// The mode with the scene's law; empty where the obstacle is rigid.
+  const std::optional<solvers::ElasticMode>& elastic_mode() const { return elastic_; }
+  /// Unknowns after condensation on the contacts.
+  int unknowns() const;
   /// n x r, mass-normalised, of the (reduced) structure's own coordinates.
   const Eigen::MatrixXd& linear_shapes() const { return modes_.shapes; }
   double linear_frequency() const;  ///< Hz
 
   /// The curve up to analysis.largest_energy or analysis.last_frequency_ratio.
-  Backbone backbone() const;
+  Backbone backbone(const solvers::Observer& observer = {}) const;
+  /// The same up to another energy ratio.
+  Backbone backbone(double largest_energy, const solvers::Observer& observer = {}) const;
+  /// A point of the linear mode, energy ratio 0..1.
+  solvers::ModePoint linear_mode(double energy_ratio) const;
   /// The motion of an energy ratio > 0: the linear mode up to 1, beyond it a point of the curve.
   solvers::ModePoint at_energy(double energy_ratio) const;
-  /// The same on a given curve.
+  /// The same on a given curve of a mode with a rigid obstacle.
   solvers::ModePoint at_energy(const Backbone& curve, double energy_ratio) const;
 
-  /// One period at `points` uniform times from the middle of the motion's symmetry on; contact forces are
-  /// known at analysis.samples times only and hold that of the nearest one. Empty unless the point is a
-  /// solution. O(c N points).
+  /// One period at `points` uniform times from the middle of the motion's symmetry on. The forces of a rigid
+  /// obstacle are known at analysis.samples times only and hold that of the nearest one. Empty unless the
+  /// point is a solution. O(c N points).
   solvers::Motion contact_motion(const solvers::ModePoint& point, int points) const;
   /// The same of all degrees of freedom of the reduced structure, without forces; model().recover() gives
   /// the whole structure's displacements from these. O(n N points).
@@ -72,7 +88,8 @@ class ModeStudy {
   solvers::Motion contact_motion(const solvers::LagrangianPoint& point, int points) const;
 
   /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
-  /// structure's own coordinates; NaN without motion. O(n N).
+  /// structure's own coordinates; NaN without motion. That of an elastic law is relative to the motion. O(n
+  /// N).
   double residual(const solvers::ModePoint& point) const;
 
  private:
@@ -80,6 +97,7 @@ class ModeStudy {
   StructureModel model_;
   StructureModes modes_;
   solvers::NonlinearMode mode_;
+  std::optional<solvers::ElasticMode> elastic_;
 };
 
 /// "3:2"
@@ -87,7 +105,8 @@ std::string resonance_name(const solvers::InternalResonance& resonance);
 
 /// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,
 /// virial_residual, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
-/// and the curve. Values of points that are not solutions are missing.
+/// and the curve; with an elastic law also modal_energy_ratio. Values of points that are not solutions are
+/// missing.
 Table backbone_table(const ModeStudy& study, const Backbone& curve);
 /// The same columns for a published branch, energies those prescribed; contact fractions and tongues are
 /// missing.

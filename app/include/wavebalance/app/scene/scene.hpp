@@ -126,7 +126,8 @@ struct Forcing {
 };
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
-/// 2>". Time stepping and nonlinear modes do not use it. A tolerance stands in place of functions and
+/// 2>". Time stepping and nonlinear
+/// modes with rigid contact do not use it. A tolerance stands in place of functions and
 /// quadrature_points, which are then chosen, and where it stands without trial and weight these are too.
 struct Time {
   std::string trial;

@@ -1,0 +1,377 @@
+#include "wavebalance/solvers/modes/elastic_mode.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "linalg/dense.hpp"
+#include "support/ll10_rod.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::CubicBasis;
+using testing::fourier_pair;
+using testing::HaarBasis;
+using testing::LinearContact;
+using testing::UnitRod;
+
+/// f = coefficient u^3, on both sides.
+struct CubicSpring {
+  double coefficient;
+  double force(double u) const { return coefficient * u * u * u; }
+  double tangent(double u) const { return 3.0 * coefficient * u * u; }
+  double potential(double u) const { return 0.25 * coefficient * u * u * u * u; }
+  double gap() const { return 0.0; }
+  bool unilateral() const { return false; }
+};
+
+/// stiffness (exp(u - 1) - 1) beyond a gap of 1.
+struct ExponentialContact {
+  double stiffness;
+  double force(double u) const { return u > 1.0 ? stiffness * std::expm1(u - 1.0) : 0.0; }
+  double tangent(double u) const { return u >= 1.0 ? stiffness * std::exp(u - 1.0) : 0.0; }
+  double potential(double u) const { return u > 1.0 ? stiffness * (std::expm1(u - 1.0) - (u - 1.0)) : 0.0; }
+  double gap() const { return 1.0; }
+};
+
+/// u <= 1.
+struct RigidStop {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  double force(double u) const { return u > 1.0 ? infinity : 0.0; }
+  double tangent(double u) const { return u >= 1.0 ? infinity : 0.0; }
+  double potential(double u) const { return u > 1.0 ? infinity : 0.0; }
+  double gap() const { return 1.0; }
+  ForceSlope resolvent(double v, double flexibility) const {
+    return v > 1.0 ? ForceSlope{(v - 1.0) / flexibility, 1.0 / flexibility} : ForceSlope{};
+  }
+};
+
+/// m = k = gap = 1.
+ModalModel unit_model() {
+  return {Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Ones(1)};
+}
+
+/// Angular frequency of u'' + u + stiffness (u - 1)_+ = 0 at the energy ratio: a free flight and an arc in
+/// contact, each a part of a sine.
+double exact_omega(double stiffness, double energy_ratio) {
+  const double speed = std::sqrt(energy_ratio - 1.0), natural = std::sqrt(1.0 + stiffness);
+  const double flight = std::acos(-1.0 / std::sqrt(energy_ratio));
+  const double contact = std::atan2(speed / natural, 1.0 / (1.0 + stiffness)) / natural;
+  return std::numbers::pi / (flight + contact);
+}
+
+ElasticBackboneOptions far(double energy) { return {.max_energy = energy, .max_frequency_ratio = 10.0}; }
+
+double oscillator_error(double stiffness, double energy_ratio, int functions, int points) {
+  const ElasticMode mode(unit_model(), fourier_pair(functions, points), LinearContact{stiffness, 1.0});
+  const ModePoint point = mode.at_energy(energy_ratio, far(energy_ratio));
+  EXPECT_EQ(point.status, ModeStatus::converged) << stiffness << ' ' << energy_ratio << ' ' << functions;
+  EXPECT_NEAR(point.energy_ratio, energy_ratio, 1e-9 * energy_ratio);
+  const double exact = exact_omega(stiffness, energy_ratio);
+  return std::abs(point.omega - exact) / exact;
+}
+
+TEST(ElasticMode, OscillatorWithALinearStopHasTheBackboneOfItsTwoArcs) {
+  for (const double stiffness : {0.1, 1.0, 10.0})
+    for (const double energy : {1.01, 1.5, 4.0, 20.0})
+      EXPECT_LT(oscillator_error(stiffness, energy, 63, 1024), 2e-5) << stiffness << ' ' << energy;
+}
+
+TEST(ElasticMode, ErrorOfTheOscillatorsFrequencyFallsAtLeastQuadraticallyWithTheFunctions) {
+  double coarse = 0.0, fine = 0.0;
+  for (const double energy : {1.5, 4.0, 20.0}) {
+    coarse = std::max(coarse, oscillator_error(4.0, energy, 15, 240));
+    fine = std::max(fine, oscillator_error(4.0, energy, 63, 1008));
+  }
+  const double order = std::log(coarse / fine) / std::log(63.0 / 15.0);
+  RecordProperty("order", std::to_string(order));
+  EXPECT_GT(order, 2.0) << coarse << ' ' << fine;
+}
+
+TEST(ElasticMode, StopWithoutAGapHasTheFrequencyOfTwoHalfSwingsAtEveryEnergy) {
+  for (const double stiffness : {0.1, 3.0}) {
+    const ElasticMode mode(unit_model(), fourier_pair(63, 1024), LinearContact{stiffness, 0.0});
+    const double natural = std::sqrt(1.0 + stiffness), exact = 2.0 * natural / (1.0 + natural);
+    const ElasticBackbone curve = mode.backbone(far(4.0));
+    EXPECT_EQ(curve.status, BackboneStatus::reached_energy);
+    for (const ModePoint& point : curve.points) EXPECT_NEAR(point.omega, exact, 2e-5);
+  }
+}
+
+TEST(ElasticMode, SoftStopWithoutAGapShiftsABarsFrequencyByHalfOfThatOfItsSpring) {
+  const UnitRod rod(8);
+  const double stiffness = 1e-4;
+  const ElasticMode mode(rod.model, fourier_pair(31, 256), LinearContact{stiffness, 0.0});
+  const double shape = rod.model.contact_shapes(0, 0);
+  const double spring =
+      0.5 * stiffness * shape * shape / mode.linear_omega();  // of the bar held by the spring
+  const ModePoint point = mode.at_energy(1.0, far(1.0));
+  EXPECT_NEAR(point.omega - mode.linear_omega(), 0.5 * spring, 1e-3 * spring);
+}
+
+TEST(ElasticMode, CubicSpringHasTheBackboneOfDuffing) {
+  const double coefficient = 0.7;
+  const ElasticMode mode(unit_model(), fourier_pair(63, 256), CubicSpring{coefficient});
+  for (const double energy : {0.1, 1.0, 10.0}) {
+    const ModePoint point = mode.at_energy(energy, far(energy));
+    ASSERT_EQ(point.status, ModeStatus::converged);
+    const double total = 0.5 * energy;  // A^2 / 2 + coefficient A^4 / 4
+    const double square = (std::sqrt(1.0 + 4.0 * coefficient * total) - 1.0) / coefficient;
+    const double stiffening = coefficient * square;
+    const double modulus = std::sqrt(0.5 * stiffening / (1.0 + stiffening));
+    const double exact = std::numbers::pi * std::sqrt(1.0 + stiffening) / (2.0 * std::comp_ellint_1(modulus));
+    EXPECT_NEAR(point.omega, exact, 1e-9 * exact);
+  }
+}
+
+LinearStructure structure_of(const UnitRod& rod) {
+  LinearStructure structure;
+  const auto size = rod.mass.rows();
+  structure.mass = rod.mass.sparseView();
+  structure.stiffness = rod.stiffness.sparseView();
+  structure.damping.resize(size, size);
+  structure.load = Eigen::VectorXd::Zero(size);
+  structure.contact_dofs = {static_cast<int>(size) - 1};
+  return structure;
+}
+
+// Change of the state over one period, by exact integration of the undamped rod.
+double return_error(const UnitRod& rod, const AnyContactLaw& law, const ModePoint& point) {
+  ShootingOptions options;
+  options.settling_periods = 0;
+  options.max_iterations = 1;
+  options.initial_displacement = Eigen::VectorXd::Zero(rod.mass.rows());
+  options.initial_velocity = options.initial_displacement;
+  for (Eigen::Index n = 0; n < point.amplitudes.cols(); ++n) {
+    const Eigen::VectorXcd shape = (n == 0 ? 1.0 : 2.0) * (rod.shapes * point.amplitudes.col(n));
+    options.initial_displacement += shape.real();
+    options.initial_velocity -= static_cast<double>(n) * point.omega * shape.imag();
+  }
+  const double frequency = point.omega / (2.0 * std::numbers::pi);
+  return shoot(structure_of(rod), law, frequency, options).residual_history.front();
+}
+
+TEST(ElasticMode, MotionsOfTheBackboneReturnToTheirStartWhenTheyAreIntegrated) {
+  const UnitRod rod(2);
+  for (const AnyContactLaw& law :
+       {AnyContactLaw(LinearContact{4.0, 1.0}), AnyContactLaw(ExponentialContact{3.0})}) {
+    double coarse = 0.0, fine = 0.0;
+    for (const double energy : {1.2, 2.0, 5.0}) {
+      const auto error = [&](int functions) {
+        const ElasticMode mode(rod.model, fourier_pair(functions, 8 * functions + 8), law);
+        const ModePoint point = mode.at_energy(energy, far(energy));
+        EXPECT_EQ(point.status, ModeStatus::converged) << energy << ' ' << functions;
+        EXPECT_LT(point.residual, 1e-8);
+        return return_error(rod, law, point);
+      };
+      coarse = std::max(coarse, error(63));
+      fine = std::max(fine, error(255));
+    }
+    EXPECT_LT(fine, 5e-6);
+    EXPECT_LT(fine, 0.1 * coarse);
+  }
+}
+
+// Largest deviation over the period of the total energy from its mean, relative.
+double energy_variation(const ElasticMode& mode, const AnyContactLaw& law, const ModePoint& point) {
+  constexpr int times = 512;
+  Eigen::VectorXd energy(times);
+  for (int l = 0; l < times; ++l) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(mode.model().modes()), rate = x;
+    for (Eigen::Index n = 0; n < point.amplitudes.cols(); ++n) {
+      const Eigen::VectorXcd wave =
+          (n == 0 ? 1.0 : 2.0) * point.amplitudes.col(n) *
+          std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(n * l % times) / times);
+      x += wave.real();
+      rate -= static_cast<double>(n) * point.omega * wave.imag();
+    }
+    energy[l] = 0.5 * rate.squaredNorm() + 0.5 * mode.model().omega_squared.dot(x.cwiseAbs2()) +
+                law.potential((mode.model().contact_shapes * x)[0]);
+  }
+  const double mean = energy.mean();
+  EXPECT_NEAR(mean, point.energy_ratio * mode.grazing_energy(), 1e-3 * mean);
+  return (energy.array() - mean).abs().maxCoeff() / mean;
+}
+
+TEST(ElasticMode, EnergyOfAMotionIsConstantInTimeUpToTheDiscretisation) {
+  const UnitRod rod(2);
+  const AnyContactLaw law = LinearContact{4.0, 1.0};
+  const auto variation = [&](int functions) {
+    const ElasticMode mode(rod.model, fourier_pair(functions, 8 * functions + 8), law);
+    return energy_variation(mode, law, mode.at_energy(3.0, far(3.0)));
+  };
+  const double coarse = variation(31), fine = variation(127);
+  EXPECT_LT(fine, 1e-4);
+  EXPECT_LT(fine, 0.1 * coarse);
+}
+
+// The rod of LL10 with nearly all of its tip's mass at the neighbour.
+ModalModel rod_with_light_tip() {
+  UnitRod rod(20, 0.5);
+  const Eigen::Index tip = rod.mass.rows() - 1;
+  rod.mass(tip - 1, tip - 1) += rod.mass(tip, tip) + 2.0 * rod.mass(tip, tip - 1);
+  rod.mass(tip, tip - 1) = rod.mass(tip - 1, tip) = 0.0;
+  rod.mass(tip, tip) = 1e-7;
+  const auto modes = detail::symmetric_eigen(rod.stiffness, rod.mass);
+  return {modes->values, modes->vectors.row(tip), Eigen::VectorXd::Ones(1)};
+}
+
+TEST(ElasticMode, StiffStopTendsToTheRigidModeLikeItsFlexibility) {
+  constexpr double energy = 2.0, least_stiffness = 1e2;
+  const ModalModel model = rod_with_light_tip();
+  const auto at = [&](double stiffness) {
+    const ElasticMode mode(model, fourier_pair(21, 160), LinearContact{stiffness, 1.0});
+    const ModePoint point = mode.at_energy(energy, far(energy));
+    EXPECT_EQ(point.status, ModeStatus::converged) << stiffness;
+    return point;
+  };
+  const ModePoint limit = at(1e7);
+  double last = std::abs(at(least_stiffness).omega - limit.omega);
+  for (const double stiffness : {1e3, 1e4, 1e5}) {
+    const double distance = std::abs(at(stiffness).omega - limit.omega);
+    EXPECT_NEAR(distance, 0.1 * last, 0.03 * last) << stiffness;
+    last = distance;
+  }
+}
+
+TEST(ElasticMode, RigidLawIsTheLimitOfStiffStops) {
+  const ModalModel model = rod_with_light_tip();
+  const ElasticMode rigid(model, fourier_pair(21, 160), RigidStop{});
+  const ElasticMode stiff(model, fourier_pair(21, 160), LinearContact{1e9, 1.0});
+  const ModePoint a = rigid.at_energy(2.0, far(2.0)), b = stiff.at_energy(2.0, far(2.0));
+  ASSERT_EQ(a.status, ModeStatus::converged);
+  ASSERT_EQ(b.status, ModeStatus::converged);
+  EXPECT_NEAR(a.omega, b.omega, 1e-7 * a.omega);
+}
+
+TEST(ElasticMode, VeryStiffStopHasTheExactBackboneOfTheRodWithARigidObstacleWithinOnePercent) {
+  const ModalModel model = rod_with_light_tip();
+  const ElasticMode mode(model, fourier_pair(21, 160), LinearContact{1e6, 1.0});
+  const ElasticBackbone curve = mode.backbone(far(8.0));
+  EXPECT_EQ(curve.status, BackboneStatus::reached_energy);
+  int compared = 0;
+  for (const ModePoint& point : curve.points) {
+    if (!point.accepted() || point.omega < 1.02 * mode.linear_omega()) continue;  // 3:2 resonance beside it
+    const double exact = 4.0 / (3.0 + std::sqrt(8.0 / point.energy_ratio) / std::numbers::pi);  // d'Alembert
+    EXPECT_NEAR(point.omega / mode.linear_omega(), exact, 1e-2 * exact) << point.energy_ratio;
+    ++compared;
+  }
+  EXPECT_GE(compared, 10);
+}
+
+TEST(ElasticMode, PairsOfBasesAgreeWithinTheirErrors) {
+  const ElasticMode reference(unit_model(), fourier_pair(127, 1024), LinearContact{2.0, 1.0});
+  const double exact = exact_omega(2.0, 3.0);
+  EXPECT_NEAR(reference.at_energy(3.0, far(3.0)).omega, exact, 1e-6 * exact);
+  const spectral::FourierBasis fourier(64);
+  const TimePair spline = testing::make_pair(CubicBasis{64}, CubicBasis{64}, 1024, Formulation::strong);
+  const TimePair haar = testing::make_pair(HaarBasis{64}, fourier, 1024);
+  const TimePair even = testing::make_pair(fourier, fourier, 1024);
+  const double allowed[] = {1e-4, 1e-2, 1e-4};
+  int i = 0;
+  for (const TimePair& pair : {spline, haar, even}) {
+    const ElasticMode mode(unit_model(), pair, LinearContact{2.0, 1.0});
+    const ModePoint point = mode.at_energy(3.0, far(3.0));
+    ASSERT_EQ(point.status, ModeStatus::converged) << i;
+    EXPECT_NEAR(point.omega, exact, allowed[i] * exact) << i;
+    ++i;
+  }
+}
+
+TEST(ElasticMode, PairThatDampsFreeMotionsIsRefused) {
+  const TimePair pair = testing::make_pair(HaarBasis{8}, CubicBasis{8}, 32);
+  try {
+    const ElasticMode mode(unit_model(), pair, LinearContact{1.0, 1.0});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("damps a free motion"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ElasticMode, EvenMotionsAreThoseOfAllCoefficients) {
+  const UnitRod rod(2);
+  const ElasticMode all(rod.model, fourier_pair(31, 256), LinearContact{4.0, 1.0});
+  const ElasticMode even(rod.model, fourier_pair(31, 256), LinearContact{4.0, 1.0}, {.cosine_only = true});
+  const ModePoint a = all.at_energy(3.0, far(3.0)), b = even.at_energy(3.0, far(3.0));
+  ASSERT_EQ(a.status, ModeStatus::converged);
+  ASSERT_EQ(b.status, ModeStatus::converged);
+  EXPECT_NEAR(a.omega, b.omega, 1e-8 * a.omega);
+  EXPECT_EQ(a.force.rows(), b.force.rows());
+}
+
+TEST(ElasticMode, BalanceAndVirialIdentityHoldAtEveryPoint) {
+  const UnitRod rod(20, 0.5);
+  const ElasticMode mode(rod.model, fourier_pair(21, 160), LinearContact{20.0, 1.0});
+  const ElasticBackbone curve = mode.backbone(far(10.0));
+  EXPECT_EQ(curve.status, BackboneStatus::reached_energy) << to_string(curve.status);
+  EXPECT_GT(curve.points.size(), 20u);
+  for (const ModePoint& point : curve.points) {
+    EXPECT_LT(point.virial_residual, 1e-9);
+    EXPECT_LT(point.residual, 1e-9);
+    EXPECT_GE(point.min_force, 0.0);
+  }
+}
+
+TEST(ElasticMode, EqualOscillatorsInContactMoveAsOne) {
+  // Two equal masses, coupled: the first mode moves both alike.
+  Eigen::Matrix2d shapes{{std::sqrt(0.5), std::sqrt(0.5)}, {std::sqrt(0.5), -std::sqrt(0.5)}};
+  const ModalModel model{Eigen::Vector2d(1.0, 3.7), shapes, Eigen::Vector2d::Ones()};
+  const ElasticMode mode(model, fourier_pair(63, 1024), LinearContact{2.0, 1.0});
+  const ModePoint point = mode.at_energy(3.0, far(3.0));
+  ASSERT_EQ(point.status, ModeStatus::converged);
+  const double exact = exact_omega(2.0, 3.0);
+  EXPECT_NEAR(point.omega, exact, 2e-5 * exact);
+  EXPECT_NEAR((point.force.row(0) - point.force.row(1)).norm(), 0.0, 1e-9);
+}
+
+TEST(ElasticMode, InternalResonanceBesideTheLinearFrequencyIsPassed) {
+  const UnitRod rod(20);  // 3 omega_1 is 0.2 % below omega_2
+  const ElasticMode mode(rod.model, fourier_pair(11, 80), LinearContact{10.0, 1.0});
+  const ElasticBackbone curve = mode.backbone(far(5.0));
+  EXPECT_EQ(curve.status, BackboneStatus::reached_energy) << to_string(curve.status);
+  const ModePoint& last = curve.points.back();
+  EXPECT_EQ(last.status, ModeStatus::converged);
+  EXPECT_GT(last.omega, 1.05 * mode.linear_omega());
+}
+
+TEST(ElasticMode, BackboneSaysWhereItEnds) {
+  const ElasticMode mode(unit_model(), fourier_pair(31, 256), LinearContact{10.0, 1.0});
+  EXPECT_EQ(mode.backbone(far(4.0)).status, BackboneStatus::reached_energy);
+  const ElasticBackbone low = mode.backbone({.max_energy = 1e9, .max_frequency_ratio = 1.1});
+  EXPECT_EQ(low.status, BackboneStatus::reached_frequency);
+  EXPECT_LT(low.points.back().energy_ratio, 1e9);
+  const ElasticBackbone few = mode.backbone({.max_points = 3});
+  EXPECT_EQ(few.status, BackboneStatus::point_limit);
+  EXPECT_EQ(few.points.size(), 3u);
+  ElasticBackboneOptions options;
+  options.observer = [](const Progress&) { return false; };
+  EXPECT_EQ(mode.backbone(options).status, BackboneStatus::cancelled);
+  // Energies beyond the frequency limit are not reached.
+  EXPECT_EQ(mode.at_energy(1e6, {.max_frequency_ratio = 1.1}).status, ModeStatus::no_contact);
+  EXPECT_EQ(mode.at_energy(0.5).status, ModeStatus::linear);
+}
+
+TEST(ElasticMode, BadInputIsAnErrorThatNamesTheValue) {
+  const TimePair pair = fourier_pair(11, 80);
+  EXPECT_THROW(ElasticMode(unit_model(), pair, LinearContact{1.0, 2.0}), std::invalid_argument);
+  EXPECT_THROW(ElasticMode(unit_model(), pair, LinearContact{1.0, 1.0}, {.mode = 2}), std::invalid_argument);
+  EXPECT_THROW(ElasticMode(unit_model(), pair, CubicSpring{1.0}, {.form = ContactForm::force}),
+               std::invalid_argument);
+  EXPECT_THROW(ElasticMode(unit_model(), fourier_pair(2, 8), LinearContact{1.0, 1.0}), std::invalid_argument);
+  const ElasticMode mode(unit_model(), pair, LinearContact{1.0, 1.0});
+  EXPECT_THROW(mode.backbone({.max_energy = -1.0}), std::invalid_argument);
+  EXPECT_THROW(mode.at_energy(-1.0), std::invalid_argument);
+  EXPECT_THROW(mode.linear_mode(2.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
