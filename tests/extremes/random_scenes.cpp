@@ -2,35 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
+#include "draw.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace {
 
 using namespace wavebalance::app;
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : generator_(seed) {}
-
-  int between(int least, int most) { return std::uniform_int_distribution<int>(least, most)(generator_); }
-  double uniform(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(generator_);
-  }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  double magnitude(double least_power, double most_power) {
-    return std::pow(10.0, uniform(least_power, most_power));
-  }
-  template <class Values>
-  auto one_of(const Values& values) {
-    return values[static_cast<std::size_t>(between(0, static_cast<int>(values.size()) - 1))];
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
 
 std::string valid_number(Draw& draw, const SceneKey& key) {
   if (key.type == SceneKey::Type::integer) {

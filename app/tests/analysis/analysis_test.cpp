@@ -299,8 +299,7 @@ TEST(Analyse, SweepThatItsObserverStopsHoldsThePointsSoFar) {
 TEST(Analyse, RigidSweepPassesFoldsAndSaysItsForm) {
   const std::vector<std::string> overrides{"time.trial=fourier", "time.weight=fourier", "time.functions=63",
                                            "time.quadrature_points=512", "analysis.largest_step=10"};
-  const Scene scene =
-      load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep_rigid.toml", overrides);
+  const Scene scene = load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep_rigid.toml", overrides);
   const Record record = analyse(scene);
   EXPECT_EQ(record.status, "reached_end");
   EXPECT_EQ(value_of<std::string>(record.summary, "form"), "force");

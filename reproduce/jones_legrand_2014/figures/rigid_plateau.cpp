@@ -51,7 +51,7 @@ void add_panels(app::Figure& figure, const Study& study) {
   motion.x = force.x = first ? axis("Time (fraction of a period)", -0.16, 0.16)
                              : axis("Time (fraction of a period)", 0.01, 0.15);
   motion.y = axis("Displacement (mm)", (first ? 0.97 : 0.93) * gap, (first ? 1.022 : 1.055) * gap);
-  force.y = axis("Force over amplitude", 0.0, first ? 0.4 : 20.0);
+  force.y = axis("Force over amplitude", 0.0, first ? 0.4 : 12.0);
   const double scale = 1.0 / study.scene.forcing.amplitude;
   auto penalty = centred("", millimetres * study.penalty.displacement(), Colour::black);
   penalty.dash = app::Dash::dashed;
