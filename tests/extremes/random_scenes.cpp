@@ -131,14 +131,7 @@ void draw_contact(Draw& draw, Scene& scene, double displacement, double stiffnes
 }
 
 Time draw_time(Draw& draw) {
-  using Names = std::pair<const char*, const char*>;
-  const auto [trial, weight] = draw.one_of(std::vector<Names>{{"fourier", "fourier"},
-                                                              {"fourier", "fourier"},
-                                                              {"bspline", "bspline"},
-                                                              {"daubechies6", "daubechies6"},
-                                                              {"daubechies12", "fourier"},
-                                                              {"haar", "fourier"},
-                                                              {"haar", "bspline"}});
+  const auto [trial, weight] = draw.pair_of_bases();
   Time time{trial, weight};
   const bool fourier = std::string_view(trial) == "fourier";
   time.functions = fourier ? draw.between(1, 24) : 1 << draw.between(2, 4);

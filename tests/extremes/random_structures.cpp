@@ -83,15 +83,7 @@ std::vector<int> draw_contacts(Draw& draw, int size) {
 }
 
 app::Time draw_time(Draw& draw) {
-  using Names = std::pair<const char*, const char*>;
-  const auto [trial, weight] = draw.one_of(std::vector<Names>{{"fourier", "fourier"},
-                                                              {"fourier", "fourier"},
-                                                              {"bspline", "bspline"},
-                                                              {"daubechies6", "daubechies6"},
-                                                              {"daubechies12", "fourier"},
-                                                              {"fourier", "bspline"},
-                                                              {"haar", "fourier"},
-                                                              {"haar", "bspline"}});
+  const auto [trial, weight] = draw.pair_of_bases();
   app::Time time{trial, weight};
   time.functions = 1 << draw.between(5, 7);
   time.quadrature_points = time.functions << draw.between(1, 3);
