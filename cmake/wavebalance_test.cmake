@@ -22,24 +22,31 @@ function(wavebalance_set_test_options target)
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 endfunction()
 
-# wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>]
+# wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>] [UNIT <name>]
 #                      [PROPERTIES <name> <value> ..])
 # adds GoogleTest files to `program`, which the first call declares. CTest knows their tests by their own names, with
-# the label. CASES of each property are tried, 100 by default. A test suite has one label within a program.
+# the label. CASES of each property are tried, 100 by default. A test suite has one label within a program. The files of
+# one folder are compiled as one source, or, where that takes too much memory, those of one UNIT.
 function(wavebalance_add_test program)
   if(NOT WAVEBALANCE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 T "" "CASES;LABEL" "SOURCES;LINK;PROPERTIES")
+  cmake_parse_arguments(PARSE_ARGV 1 T "" "CASES;LABEL;UNIT" "SOURCES;LINK;PROPERTIES")
   if(NOT TARGET ${program})
     add_executable(${program})
-    set_target_properties(${program} PROPERTIES UNITY_BUILD OFF)  # sources of tests use the same names
+    set_target_properties(${program} PROPERTIES UNITY_BUILD_MODE GROUP)
     wavebalance_add_test_headers()
     wavebalance_set_test_options(${program})
+    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
     target_link_libraries(${program} PRIVATE GTest::gtest_main rapidcheck_gtest)
     target_precompile_headers(${program} REUSE_FROM wavebalance_test_headers)
   endif()
   target_sources(${program} PRIVATE ${T_SOURCES})
+  foreach(source IN LISTS T_SOURCES)
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP tests_${group}${T_UNIT})
+  endforeach()
   target_link_libraries(${program} PRIVATE ${T_LINK})
   wavebalance_test_filter(${program} filter ${T_SOURCES})
   set(parameters "seed=20140817")

@@ -1,5 +1,8 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "wavebalance/contact/exact_bar_mode.hpp"
@@ -12,6 +15,20 @@ inline RigidObstacleBar published_bar() { return {2.1e11, 7800.0, 0.03 * 0.03, 1
 /// The mode at a fraction in (0, 1) of its interval of frequencies.
 inline ExactBarMode mode_at(const RigidObstacleBar& bar, int mode, double fraction) {
   return {bar, mode, 1.0 + fraction * (ExactBarMode::largest_frequency_ratio(mode) - 1.0)};
+}
+
+/// Of the interval of frequencies of a mode.
+inline constexpr double fractions[] = {0.02, 0.3, 0.7, 0.98};
+
+/// Modes of two bars over their intervals of frequencies.
+template <class Check>
+void for_each_mode(const Check& check) {
+  for (const RigidObstacleBar& bar : {RigidObstacleBar{}, published_bar()})
+    for (int m = 1; m <= 4; ++m)
+      for (double fraction : fractions) {
+        SCOPED_TRACE("mode " + std::to_string(m) + " at " + std::to_string(fraction));
+        check(mode_at(bar, m, fraction));
+      }
 }
 
 /// The largest displacement that the motion can reach, V times the length of a rise of f: its scale of

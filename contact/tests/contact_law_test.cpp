@@ -7,16 +7,14 @@
 #include <unsupported/Eigen/AutoDiff>
 #include <vector>
 
+#include "constants.hpp"
 #include "laws_under_test.hpp"
 #include "wavebalance/contact/no_contact.hpp"
 
 namespace wavebalance::contact {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double largest = std::numeric_limits<double>::max();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(ExponentialLaw, IsThePublishedFormula) {
   const ExponentialLaw law = published_law();

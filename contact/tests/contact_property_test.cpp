@@ -4,19 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "constants.hpp"
 #include "laws_under_test.hpp"
+#include "random_values.hpp"
 
 namespace wavebalance::contact {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-double any_between(double least, double greatest) {
-  return least +
-         (greatest - least) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)) / 1e6;
-}
 
 ExponentialLaw any_exponential_law() {
   return {std::pow(10.0, any_between(-3, 9)), std::pow(10.0, any_between(-2, 5)), any_between(-1, 1)};

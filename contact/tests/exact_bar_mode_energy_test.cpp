@@ -9,26 +9,14 @@
 #include <string>
 
 #include "bar_quadrature.hpp"
+#include "constants.hpp"
 
 namespace wavebalance::contact {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double pi = std::numbers::pi;
 constexpr EnergyMeasure measures[] = {EnergyMeasure::total, EnergyMeasure::mean_kinetic,
                                       EnergyMeasure::modal};
-constexpr double fractions[] = {0.02, 0.3, 0.7, 0.98};
-
-template <class Check>
-void for_each_mode(const Check& check) {
-  for (const RigidObstacleBar& bar : {RigidObstacleBar{}, published_bar()})
-    for (int m = 1; m <= 4; ++m)
-      for (double fraction : fractions) {
-        SCOPED_TRACE("mode " + std::to_string(m) + " at " + std::to_string(fraction));
-        check(mode_at(bar, m, fraction));
-      }
-}
-
 TEST(ExactBarMode, HasTheClosedFormsOfTheFirstMode) {
   for (double period : {3.001, 3.1, 3.25, 3.5, 3.75, 3.9, 3.999}) {
     const ExactBarMode mode({}, 1, 4.0 / period);

@@ -8,22 +8,10 @@
 #include <vector>
 
 #include "bar_quadrature.hpp"
+#include "constants.hpp"
 
 namespace wavebalance::contact {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double fractions[] = {0.02, 0.3, 0.7, 0.98};
-
-template <class Check>
-void for_each_mode(const Check& check) {
-  for (const RigidObstacleBar& bar : {RigidObstacleBar{}, published_bar()})
-    for (int m = 1; m <= 4; ++m)
-      for (double fraction : fractions) {
-        SCOPED_TRACE("mode " + std::to_string(m) + " at " + std::to_string(fraction));
-        check(mode_at(bar, m, fraction));
-      }
-}
 
 // V, a strain, by the closed form.
 double closed_amplitude(const ExactBarMode& mode) {

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "bar_quadrature.hpp"
+#include "constants.hpp"
 #include "quadratic_program.hpp"
+#include "random_values.hpp"
 
 namespace wavebalance::contact {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-double any_between(double least, double greatest) {
-  return least +
-         (greatest - least) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)) / 1e6;
-}
 
 int any_count(int least, int greatest) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(least, greatest + 1));

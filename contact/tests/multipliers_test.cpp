@@ -3,20 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "constants.hpp"
 #include "quadratic_program.hpp"
 
 namespace wavebalance::contact {
 namespace {
 
 using Array = std::vector<double>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Array copy(std::span<const double> values) { return {values.begin(), values.end()}; }
 

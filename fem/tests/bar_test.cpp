@@ -6,13 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "constants.hpp"
 #include "uniform_bar.hpp"
 
 namespace wavebalance::fem {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Eigen::VectorXd row_sums(const Eigen::SparseMatrix<double>& matrix) {
   return matrix * Eigen::VectorXd::Ones(matrix.cols());

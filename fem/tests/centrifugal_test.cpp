@@ -14,12 +14,12 @@
 namespace wavebalance::fem {
 namespace {
 
-const Beam beam{0.1, 0.2, 1.0};
+const Beam short_beam{0.1, 0.2, 1.0};
 
 SolidModel clamped(SolidElement element) {
-  StructuredMesh block = beam.block(element, {2, 2, 6});
+  StructuredMesh block = short_beam.block(element, {2, 2, 6});
   const std::vector<int> held = root(block);
-  return hold_nodes(std::move(block.mesh), beam.material, held);
+  return hold_nodes(std::move(block.mesh), short_beam.material, held);
 }
 
 class EveryRotor : public testing::TestWithParam<SolidElement> {};
@@ -36,7 +36,8 @@ TEST_P(EveryRotor, StretchesAsABarUnderItsCentrifugalLoad) {
   const RotationAxis axis{{0, 1, 0}, {0, 0, -0.5}};
   const CentrifugalStiffness turning = centrifugal_stiffness(model, solid_matrices(model).stiffness, axis);
   const Eigen::Matrix3Xd moved = model.displacements(turning.displacement);
-  const double expected = beam.material.density / beam.material.youngs_modulus * (1.0 / 3 + 0.5 / 2);
+  const double expected =
+      short_beam.material.density / short_beam.material.youngs_modulus * (1.0 / 3 + 0.5 / 2);
   double tip = 0.0;
   for (Eigen::Index node = 0; node < moved.cols(); ++node) tip = std::max(tip, moved(2, node));
   EXPECT_NEAR(tip / expected, 1.0, 1e-2);

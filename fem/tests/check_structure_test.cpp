@@ -6,21 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "expect_error.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {
 namespace {
-
-template <typename Function>
-void expect_error(Function&& function, const std::string& part) {
-  try {
-    function();
-    FAIL() << "accepted; expected: " << part;
-  } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what() << "\nlacks: " << part;
-  }
-}
 
 TEST(StructureCheck, AcceptsABarWithOrWithoutDamping) {
   Matrices matrices = bar({});

@@ -2,16 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
+#include "constants.hpp"
 #include "wavebalance/fem/bar.hpp"
 
 namespace wavebalance::fem {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Matrices damped_bar(int elements) {
   BarOptions options;

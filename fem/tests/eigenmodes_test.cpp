@@ -5,13 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "constants.hpp"
 #include "uniform_bar.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 EigenmodesResult modes_of(const BarOptions& options, int count, int dense_up_to = 200) {
   const Matrices matrices = bar(options);

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "random_values.hpp"
 #include "uniform_bar.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
@@ -11,11 +12,6 @@ namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-
-double any_between(double least, double greatest) {
-  return least +
-         (greatest - least) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)) / 1e6;
-}
 
 // A chain of any springs and masses, the first spring on the ground, with both ratios up to 100.
 Matrices any_chain(int size) {

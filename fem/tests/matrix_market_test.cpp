@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "expect_error.hpp"
 #include "wavebalance/fem/bar.hpp"
 
 namespace wavebalance::fem {
@@ -19,16 +20,6 @@ const std::string symmetric = "%%MatrixMarket matrix coordinate real symmetric\n
 Eigen::SparseMatrix<double> read(const std::string& text) {
   std::istringstream input(text);
   return read_matrix_market(input, "given.mtx");
-}
-
-template <typename Function>
-void expect_error(Function&& function, const std::string& part) {
-  try {
-    function();
-    FAIL() << "accepted; expected: " << part;
-  } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what() << "\nlacks: " << part;
-  }
 }
 
 TEST(MatrixMarket, ReadsGeneralAndSymmetricMatrices) {

@@ -5,16 +5,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "random_values.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 #include "wavebalance/fem/solid.hpp"
 
 namespace wavebalance::fem {
 namespace {
-
-double any_between(double least, double greatest) {
-  return least +
-         (greatest - least) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)) / 1e6;
-}
 
 SolidElement any_element() {
   return *rc::gen::element(SolidElement::hexahedron8, SolidElement::hexahedron20,

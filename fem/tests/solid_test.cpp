@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "constants.hpp"
 #include "print.hpp"
 #include "wavebalance/fem/blade.hpp"
 
@@ -16,7 +16,6 @@ namespace wavebalance::fem {
 namespace {
 
 using Stress = Eigen::Matrix<double, 6, 1>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 const SolidMaterial steel{210e9, 0.3, 7800.0};
 
 class EverySolid : public testing::TestWithParam<SolidElement> {};

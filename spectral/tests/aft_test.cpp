@@ -9,11 +9,12 @@
 #include <stdexcept>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "constants.hpp"
+
 namespace wavebalance::spectral {
 namespace {
 
 using std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 template <class Function>
 PointwiseLaw pointwise(Function function) {

@@ -9,11 +9,12 @@
 #include <thread>
 #include <vector>
 
+#include "constants.hpp"
+
 namespace wavebalance::spectral {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 std::vector<double> random_samples(int size, unsigned seed = 1) {
   std::mt19937 generator(seed);

@@ -6,11 +6,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "constants.hpp"
+
 namespace wavebalance::spectral {
 namespace {
 
 using std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 // d^order/dt^order of cos(2 pi n t + phase), by shifting the phase.
 double wave(int n, double t, int order, double phase = 0.0) {

@@ -7,13 +7,12 @@
 #include <numbers>
 #include <vector>
 
+#include "constants.hpp"
 #include "wavebalance/spectral/aft.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 namespace wavebalance::spectral {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Eigen::VectorXd any_vector(int size) {
   Eigen::VectorXd vector(size);

@@ -11,15 +11,15 @@
 namespace wavebalance::pairs {
 namespace {
 
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
-using DualMatrix = Eigen::Matrix<Dual, Eigen::Dynamic, Eigen::Dynamic>;
+using ScalarDual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
+using DualMatrix = Eigen::Matrix<ScalarDual, Eigen::Dynamic, Eigen::Dynamic>;
 
-Dual constant(double value) { return Dual(value, Eigen::Matrix<double, 1, 1>::Zero()); }
+ScalarDual constant(double value) { return ScalarDual(value, Eigen::Matrix<double, 1, 1>::Zero()); }
 
 // G = f^2 M (x) A_2 + f C (x) A_1 + K (x) A_0 with the frequency as the variable, beside its right sides.
 DualMatrix assembled(const solvers::LinearStructure& structure, const dense::InnerProductMatrices& a,
                      double frequency, const Eigen::MatrixXd& right) {
-  const Dual f(frequency, Eigen::Matrix<double, 1, 1>::Ones());
+  const ScalarDual f(frequency, Eigen::Matrix<double, 1, 1>::Ones());
   const Eigen::Index n = structure.size(), m = a[0].rows();
   const Eigen::MatrixXd mass = structure.mass, damping = structure.damping, stiffness = structure.stiffness;
   DualMatrix g(n * m, n * m + right.cols());
@@ -44,7 +44,7 @@ DualMatrix solve(DualMatrix g) {
     g.row(k).swap(g.row(pivot));
     for (Eigen::Index i = 0; i < size; ++i) {
       if (i == k) continue;
-      const Dual factor = g(i, k) / g(k, k);
+      const ScalarDual factor = g(i, k) / g(k, k);
       for (Eigen::Index j = k; j < g.cols(); ++j) g(i, j) -= factor * g(k, j);
     }
   }

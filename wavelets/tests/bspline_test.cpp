@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
+#include "constants.hpp"
+
 namespace wavebalance::wavelets {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 TEST(BsplineValues, AreThePublishedCubicPieces) {  // [JL14, eq. (29)]
   for (const double f : {0.0, 0.125, 0.3, 0.5, 0.75, 0.999}) {

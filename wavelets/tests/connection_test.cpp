@@ -5,18 +5,16 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "constants.hpp"
 #include "wavebalance/wavelets/bspline.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 std::vector<ScalingFunction> families() {
   std::vector<ScalingFunction> all{ScalingFunction::haar(), ScalingFunction::orthonormal_bspline()};

@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "constants.hpp"
 #include "wavebalance/wavelets/filter.hpp"
 #include "wavebalance/wavelets/periodic_basis.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 TEST(FastWaveletTransform, OfHaarIsSumsAndDifferences) {
   const FastWaveletTransform transform(daubechies_filter(2));

@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "constants.hpp"
+
 namespace wavebalance::wavelets {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 class DaubechiesFilter : public ::testing::TestWithParam<int> {
  protected:

@@ -2,8 +2,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "constants.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
 #include "wavebalance/wavelets/filter.hpp"
@@ -11,8 +11,6 @@
 
 namespace wavebalance::wavelets {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 int any_length() { return 2 * *rc::gen::inRange(1, 21); }
 

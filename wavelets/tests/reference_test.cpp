@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "constants.hpp"
 #include "ten_lectures_table.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 #include "wavebalance/wavelets/filter.hpp"
@@ -12,8 +12,6 @@
 
 namespace wavebalance::wavelets {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 TEST(PublishedFilters, AreTheHaarAndFourCoefficientClosedForms) {
   EXPECT_EQ(daubechies_filter(2), Eigen::VectorXd::Ones(2));

@@ -4,20 +4,18 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "constants.hpp"
 #include "wavebalance/wavelets/bspline.hpp"
 
 namespace wavebalance::wavelets {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-std::vector<ScalingFunction> families() {
+std::vector<ScalingFunction> all_families() {
   std::vector<ScalingFunction> all{ScalingFunction::haar(), ScalingFunction::orthonormal_bspline()};
   for (const int length : {4, 6, 8, 12, 20, 40}) all.push_back(ScalingFunction::daubechies(length));
   return all;
@@ -39,7 +37,7 @@ TEST(ScalingFunction, KnowsItsSupport) {
   const auto spline = ScalingFunction::orthonormal_bspline();
   EXPECT_EQ(spline.support_begin(), -50);
   EXPECT_EQ(spline.support_end(), 54);
-  for (const auto& phi : families())
+  for (const auto& phi : all_families())
     EXPECT_EQ(phi.values(3).size(), (phi.support_end() - phi.support_begin()) * 8 + 1) << phi.name();
 }
 
@@ -62,7 +60,7 @@ TEST(ScalingFunction, TwoCoefficientsAreHaar) {
 }
 
 TEST(ScalingFunction, ShiftsSumToOneAndTheirDerivativesToZero) {
-  for (const auto& phi : families())
+  for (const auto& phi : all_families())
     for (int d = 0; d <= phi.pointwise_derivatives(); ++d) {
       const Eigen::VectorXd values = phi.values(5, d);
       const double tolerance = 100 * eps * (1 + values.cwiseAbs().maxCoeff());
@@ -73,7 +71,7 @@ TEST(ScalingFunction, ShiftsSumToOneAndTheirDerivativesToZero) {
 }
 
 TEST(ScalingFunction, DerivativesHaveTheMomentsOfTheirOrder) {  // sum_k (k + x)^j phi^(d)(k + x), j <= d
-  for (const auto& phi : families())
+  for (const auto& phi : all_families())
     for (int d = 1; d <= phi.pointwise_derivatives(); ++d)
       for (int power = 0; power <= d; ++power) {
         const Eigen::VectorXd values = phi.values(0, d);
@@ -179,7 +177,7 @@ TEST(ScalingFunction, SplineIsSymmetricAboutTwo) {
 }
 
 TEST(FourierTransform, IsDeltaAtWholeTurns) {
-  for (const auto& phi : families())
+  for (const auto& phi : all_families())
     for (int k = -40; k <= 40; ++k)
       EXPECT_NEAR(std::abs(phi.fourier_transform(2 * std::numbers::pi * k) - (k == 0 ? 1.0 : 0.0)), 0.0,
                   64 * eps)
@@ -187,7 +185,7 @@ TEST(FourierTransform, IsDeltaAtWholeTurns) {
 }
 
 TEST(FourierTransform, SatisfiesTheRefinementEquation) {
-  for (const auto& phi : families()) {
+  for (const auto& phi : all_families()) {
     if (phi.coefficients().size() > 1) continue;  // the orthonormal spline's own filter is infinite
     for (const double xi : {0.3, -1.7, 5.0, 40.0}) {
       std::complex<double> symbol = 0.0;

@@ -4,17 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "support/occurrences.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
 namespace {
 
 using namespace wavebalance::app;
-
-int occurrences(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 /// The rows of the data block called `name`, empty ones left out.
 std::vector<std::string> rows_of(const std::string& script, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "support/occurrences.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -13,12 +14,6 @@ namespace {
 using namespace wavebalance::app;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-int occurrences(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 Figure simple_figure() {
   Figure figure;

@@ -6,19 +6,13 @@
 #include <filesystem>
 
 #include "blade.hpp"
-#include "figures.hpp"
-#include "paper_results.hpp"
+#include "ll10_results.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
 
 namespace fs = std::filesystem;
-
-report::PaperResults& results() {
-  static report::PaperResults all(figures());
-  return all;
-}
 
 /// Frequency ratio of a formulation at an energy ratio, linear between its rows.
 double at(const Table& table, const std::string& formulation, double energy_ratio,

@@ -7,8 +7,7 @@
 #include <numbers>
 
 #include "curves.hpp"
-#include "figures.hpp"
-#include "paper_results.hpp"
+#include "ll10_results.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::ll10 {
@@ -16,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Columns = std::vector<std::string>;
-
-report::PaperResults& results() {
-  static report::PaperResults all(figures());
-  return all;
-}
 
 TEST(Ll10Paper, BackboneHoldsThreeFormulationsAndTheExactOneIsTheClosedForm) {
   results().need({"fig03"});

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
@@ -18,7 +18,6 @@ namespace wavebalance::solvers {
 namespace {
 
 using testing::Rigid;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Stops on both sides, and a cubic spring.
 struct TwoSided {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "balance/harmonic_coarse_space.hpp"
+#include "constants.hpp"
 #include "linalg/gmres.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
@@ -10,8 +11,6 @@
 
 namespace wavebalance::solvers {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 LinearMap product_with(const Eigen::MatrixXd& matrix) {
   return [&matrix](const Eigen::VectorXd& v, Eigen::VectorXd& product) { product = matrix * v; };

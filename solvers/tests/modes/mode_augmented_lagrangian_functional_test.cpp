@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <ostream>
 #include <unsupported/Eigen/AutoDiff>
 #include <vector>
 
+#include "constants.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
 namespace wavebalance::solvers {
@@ -17,8 +17,7 @@ namespace {
 
 static_assert(MultiplierStrategy<contact::MultiplierUpdate>);
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int modes = 3, contacts = 2, harmonics = 2, samples = 7;
+constexpr int modes = 3, contacts = 2, highest_harmonic = 2, sample_count = 7;
 
 using First = Eigen::AutoDiffScalar<Eigen::VectorXd>;
 using Second = Eigen::AutoDiffScalar<Eigen::Matrix<First, Eigen::Dynamic, 1>>;
@@ -50,10 +49,10 @@ struct Problem {
 
   explicit Problem(const State& state)
       : model(random_model(state.seed)),
-        lagrangian(model, {harmonics, state.cosine_only}, samples, state.formulation),
-        outer(random(contacts * samples, 50.0, 500.0), {80.0}),
+        lagrangian(model, {highest_harmonic, state.cosine_only}, sample_count, state.formulation),
+        outer(random(contacts * sample_count, 50.0, 500.0), {80.0}),
         x(Eigen::VectorXd::Random(lagrangian.unknowns())) {
-    outer.restart(random(contacts * samples, 0.0, 20.0), std::vector<double>{-3.0});
+    outer.restart(random(contacts * sample_count, 0.0, 20.0), std::vector<double>{-3.0});
   }
 
   static ModalModel random_model(unsigned seed) {
@@ -70,7 +69,7 @@ struct Problem {
 
   double wave(int block, int k) const {
     const FourierLayout& layout = lagrangian.layout();
-    const double phase = 2.0 * std::numbers::pi * layout.harmonic(block) * k / samples;
+    const double phase = 2.0 * std::numbers::pi * layout.harmonic(block) * k / sample_count;
     return layout.is_sine(block) ? std::sin(phase) : std::cos(phase);
   }
 
@@ -90,15 +89,15 @@ struct Problem {
       }
     Second total = k / m;
     for (int c = 0; c < contacts; ++c)
-      for (int time = 0; time < samples; ++time) {
-        const auto i = static_cast<std::size_t>(c * samples + time);
+      for (int time = 0; time < sample_count; ++time) {
+        const auto i = static_cast<std::size_t>(c * sample_count + time);
         Second shifted = constant(outer.inequality_shifts()[i] - model.gaps[c], size);
         for (int block = 0; block < layout.blocks(); ++block)
           for (int mode = 0; mode < modes; ++mode)
             shifted += (model.contact_shapes(c, mode) * wave(block, time)) *
                        a[static_cast<std::size_t>(modes * block + mode)];
         if (shifted.value().value() > 0.0)
-          total += (0.5 / samples * outer.inequality_penalties()[i]) * Second(shifted * shifted);
+          total += (0.5 / sample_count * outer.inequality_penalties()[i]) * Second(shifted * shifted);
       }
     const Second pull = Second(0.5 * norm) + constant(outer.equality_shifts()[0] - gamma, size);
     return Second(total + (0.5 * outer.equality_penalties()[0]) * Second(pull * pull));

@@ -3,23 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <limits>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "constants.hpp"
 #include "support/ll10_rod.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-struct Problem {
+struct RandomProblem {
   Eigen::MatrixXd stiffness, mass;
   FourierLayout layout;
   RayleighQuotient quotient;
   Eigen::VectorXd x;
 
-  Problem(int dofs, int harmonics, bool cosine_only, unsigned seed)
+  RandomProblem(int dofs, int harmonics, bool cosine_only, unsigned seed)
       : stiffness(symmetric(dofs, seed)),
         mass(symmetric(dofs, seed + 1)),
         layout{harmonics, cosine_only},
@@ -37,7 +35,7 @@ class RandomMotion : public ::testing::TestWithParam<bool> {};
 
 // r from the motion itself, by sums over 64 samples of u and of du/d(omega t).
 TEST_P(RandomMotion, QuotientIsMeanPotentialOverMeanKineticEnergy) {
-  const Problem p(3, 4, GetParam(), 11);
+  const RandomProblem p(3, 4, GetParam(), 11);
   const int n = 3, samples = 64;
   double potential = 0.0, kinetic = 0.0;
   for (int k = 0; k < samples; ++k) {
@@ -62,7 +60,7 @@ TEST_P(RandomMotion, QuotientIsMeanPotentialOverMeanKineticEnergy) {
 TEST_P(RandomMotion, GradientAndHessianAgreeWithAutomaticDifferentiation) {
   using First = Eigen::AutoDiffScalar<Eigen::VectorXd>;
   using Second = Eigen::AutoDiffScalar<Eigen::Matrix<First, Eigen::Dynamic, 1>>;
-  const Problem p(2, 3, GetParam(), 5);
+  const RandomProblem p(2, 3, GetParam(), 5);
   const Eigen::Index size = p.x.size();
   Second k, m;
   std::vector<Second> x(static_cast<std::size_t>(size));
@@ -100,7 +98,7 @@ TEST_P(RandomMotion, GradientAndHessianAgreeWithAutomaticDifferentiation) {
 
 TEST_P(RandomMotion, ScaleChangesNothingAndHessianTimesVectorIsTheMatrixProduct) {
   for (unsigned seed = 0; seed < 5; ++seed) {
-    const Problem p(4, 3, GetParam(), seed);
+    const RandomProblem p(4, 3, GetParam(), seed);
     const double r = p.quotient.value(p.x);
     for (const double scale : {-3.7, 1e-8, 1e8}) EXPECT_NEAR(p.quotient.value(scale * p.x), r, 50 * eps * r);
     const Eigen::VectorXd gradient = p.quotient.gradient(p.x), v = Eigen::VectorXd::Random(p.x.size());

@@ -10,14 +10,11 @@
 namespace wavebalance::solvers {
 namespace {
 
-using testing::ExponentialLaw;
 using testing::jl14_bar;
-
-constexpr double frequency = 150.0;
-const ExponentialLaw law{1e8, 50.0, 1e-3};
+using testing::jl14_case_1;
 
 TEST(FirstOrderSystem, TimeDerivativeIsThatOfTheLoad) {
-  const FirstOrderSystem system(jl14_bar(3, 1e-4), law, frequency);
+  const FirstOrderSystem system(jl14_bar(3, 1e-4), jl14_case_1.law, jl14_case_1.frequency_hz);
   const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(6, -0.3, 0.4);
   Eigen::VectorXd before(6), after(6), by_time(6);
   Eigen::MatrixXd by_state(6, 6);
@@ -32,7 +29,7 @@ TEST(FirstOrderSystem, TimeDerivativeIsThatOfTheLoad) {
 
 TEST(FirstOrderSystem, JacobianOnTheKinkTakesTheSlopeInContact) {
   const LinearStructure bar = jl14_bar(2, 1e-4);
-  const FirstOrderSystem system(bar, law, frequency);
+  const FirstOrderSystem system(bar, jl14_case_1.law, jl14_case_1.frequency_hz);
   const auto jacobian = [&](double tip) {
     const Eigen::VectorXd state = system.state(Eigen::Vector2d(0.0, tip), Eigen::Vector2d::Zero());
     Eigen::VectorXd by_time(4);
@@ -40,23 +37,24 @@ TEST(FirstOrderSystem, JacobianOnTheKinkTakesTheSlopeInContact) {
     system.jacobian(0.0, {state.data(), 4}, {by_state.data(), 16}, {by_time.data(), 4});
     return by_state;
   };
-  const Eigen::MatrixXd inside = jacobian(law.start + 1e-12), outside = jacobian(law.start - 1e-12);
+  const Eigen::MatrixXd inside = jacobian(jl14_case_1.law.start + 1e-12),
+                        outside = jacobian(jl14_case_1.law.start - 1e-12);
   const double jump = (inside - outside).norm();
   EXPECT_GT(jump, 0.0);
-  EXPECT_LT((inside - jacobian(law.start + 1e-15)).norm(), 1e-9 * jump);
+  EXPECT_LT((inside - jacobian(jl14_case_1.law.start + 1e-15)).norm(), 1e-9 * jump);
 }
 
 TEST(FirstOrderSystem, RejectsBadInput) {
   const LinearStructure bar = jl14_bar(3, 1e-4);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
-    EXPECT_THROW(FirstOrderSystem(bar, law, bad), std::invalid_argument) << bad;
+    EXPECT_THROW(FirstOrderSystem(bar, jl14_case_1.law, bad), std::invalid_argument) << bad;
   LinearStructure massless = bar;
   massless.mass.coeffRef(1, 1) = 0.0;
-  EXPECT_THROW(FirstOrderSystem(massless, law, frequency), std::invalid_argument);
+  EXPECT_THROW(FirstOrderSystem(massless, jl14_case_1.law, jl14_case_1.frequency_hz), std::invalid_argument);
   LinearStructure misfit = bar;
   misfit.load = Eigen::VectorXd::Zero(2);
-  EXPECT_THROW(FirstOrderSystem(misfit, law, frequency), std::invalid_argument);
+  EXPECT_THROW(FirstOrderSystem(misfit, jl14_case_1.law, jl14_case_1.frequency_hz), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "constants.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 using testing::jl14_bar;
 using testing::LinearContact;
 using testing::Oscillator;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Shooting, GivesTheClosedFormOfALinearOscillator) {
   Oscillator oscillator;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "constants.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
 
@@ -16,8 +17,6 @@ namespace {
 using testing::jl14_bar;
 using testing::LinearContact;
 using testing::Oscillator;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(TimeStepping, ReachesTheClosedFormOfADampedOscillator) {
   const Oscillator oscillator;

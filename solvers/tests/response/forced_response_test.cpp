@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "constants.hpp"
 #include "support/held_motion.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -14,7 +15,6 @@ namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // A law of a user's own: an elastic stop.
 struct Stop {

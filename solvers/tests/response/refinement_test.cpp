@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -12,7 +12,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 const testing::ExponentialLaw law_1 = testing::jl14_case_1.law;
 
 CondensedProblem bar_at(double frequency, int functions, int points) {

@@ -6,14 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // u'' + 2 zeta u' + u + u^3 = cos, time in units of 1/omega_0: with one harmonic and enough points for the
 // third, balance is exact and has a closed form.

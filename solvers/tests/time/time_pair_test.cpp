@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "constants.hpp"
 #include "support/small_problems.hpp"
 
 namespace wavebalance::solvers {
@@ -16,9 +16,6 @@ using testing::make_pair;
 using Complex = std::complex<double>;
 using spectral::FourierBasis;
 using spectral::Nyquist;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // A basis of given smoothness whose values do not matter.
 struct Smoothness {
