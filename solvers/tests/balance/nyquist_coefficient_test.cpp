@@ -20,9 +20,9 @@ LinearStructure chain() {
   return testing::random_chain(5, generator);
 }
 
-CondensedProblem problem_of(const TimePair& pair, const LinearStructure& structure, double frequency) {
+CondensedProblem problem_of(const TimePair& pair, const LinearStructure& structure, double load_hz) {
   CondensedProblem problem(pair, structure, testing::cosine_load());
-  problem.set_frequency(frequency);
+  problem.set_frequency(load_hz);
   return problem;
 }
 
@@ -75,9 +75,9 @@ TEST(NyquistCoefficient, DroppedIsNeverSingular) {
   oscillator.damping = 0.0;
   const LinearStructure structure = oscillator.structure();
   const double natural = std::sqrt(oscillator.stiffness / oscillator.mass) / (2.0 * std::numbers::pi);
-  const double frequency = natural / 8.0;
-  EXPECT_THROW(problem_of(testing::fourier_pair(16, 64), structure, frequency), SingularSystem);
-  EXPECT_NO_THROW(problem_of(testing::fourier_pair(16, 64, drop), structure, frequency));
+  const double load_hz = natural / 8.0;
+  EXPECT_THROW(problem_of(testing::fourier_pair(16, 64), structure, load_hz), SingularSystem);
+  EXPECT_NO_THROW(problem_of(testing::fourier_pair(16, 64, drop), structure, load_hz));
 }
 
 }  // namespace
