@@ -110,7 +110,10 @@ class Settling {
       past.push_front(state_);
       if (past.size() > static_cast<std::size_t>(options_.longest)) past.pop_back();
       constexpr int transient = 50;  // before a motion is taken for one of several periods
-      if (repeats == 1 || (repeats > 1 && result.periods > transient)) {
+      // A spiral towards a motion of one period comes near past states too, and nearly as near the last one.
+      constexpr double apart = 100.0;
+      const bool subharmonic = repeats > 1 && change > apart * options_.tolerance;
+      if (repeats == 1 || (subharmonic && result.periods > transient)) {
         result.attractor_periods = repeats;
         return result;
       }

@@ -99,6 +99,16 @@ TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
   EXPECT_GE(subharmonic, 2);
 }
 
+// Driven at four times its natural frequency: the decaying motion turns by a right angle per period.
+TEST(Settling, DoesNotTakeASpiralForASubharmonicMotion) {
+  constexpr double omega = 2.0 * std::numbers::pi;
+  const testing::Oscillator one{
+      .mass = 1.0, .damping = 0.04 * omega, .stiffness = omega * omega, .load = 1.0};
+  CondensedProblem problem(testing::fourier_pair(7, 32), one.structure(), testing::cosine_load());
+  problem.set_frequency(4.0);
+  EXPECT_EQ(settle(problem, AnyContactLaw()).attractor_periods, 1);
+}
+
 TEST(Settling, ReportsWhatItCannotIntegrateAndStopsWhenAsked) {
   const CondensedProblem problem = oscillator_problem(25.0);
   SettlingOptions small;
