@@ -73,13 +73,21 @@ double NonlinearMode::grazing_energy() const {
   return 0.25 * amplitude * amplitude;
 }
 
-// The contact sample that the linear mode reaches first as it grows: at t = 0, the contact with the largest
-// shape over gap.
+// The contact samples that the linear mode reaches first as it grows: at t = 0, the contact with the largest
+// shape over gap, and those that graze with it, half a period later on the other side.
 std::vector<int> NonlinearMode::grazing_samples() const {
   const Eigen::VectorXd reach = model_.contact_shapes.col(options_.mode - 1).cwiseQuotient(model_.gaps);
-  Eigen::Index contact = 0;
-  reach.cwiseAbs().maxCoeff(&contact);
-  return {static_cast<int>(contact) * options_.samples};
+  constexpr double together = 1.0 - 1e-9;
+  Eigen::Index first = 0;
+  const double largest = reach.cwiseAbs().maxCoeff(&first);
+  std::vector<int> grazing;
+  for (int contact = 0; contact < model_.contacts(); ++contact) {
+    if (std::abs(reach[contact]) < together * largest) continue;
+    const bool later = reach[contact] * reach[first] < 0.0;
+    if (!later || options_.samples % 2 == 0)
+      grazing.push_back(contact * options_.samples + (later ? options_.samples / 2 : 0));
+  }
+  return grazing;
 }
 
 ModePoint NonlinearMode::at_frequency(double omega, const std::vector<int>& active) const {
