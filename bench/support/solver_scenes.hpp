@@ -18,8 +18,8 @@ struct Case {
 
   solvers::LinearStructure structure(int elements = 25) const {
     const fem::Matrices bar = fem::bar({.elements = elements, .stiffness_damping = stiffness_damping});
-    solvers::LinearStructure structure{
-        bar.mass, bar.damping, bar.stiffness, Eigen::VectorXd::Zero(elements), {elements - 1}};
+    solvers::LinearStructure structure{bar.mass, bar.damping, bar.stiffness, Eigen::VectorXd::Zero(elements),
+                                       solvers::contact_rows({elements - 1}, elements)};
     structure.load[elements - 1] = 250e3;
     return structure;
   }

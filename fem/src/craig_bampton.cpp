@@ -12,6 +12,7 @@ namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
+using Directions = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 void require_matrix(const Sparse& matrix, const char* name, Eigen::Index size) {
   detail::require_square(matrix, "craig_bampton", name, size);
@@ -103,6 +104,40 @@ Eigen::VectorXd CraigBampton::project_load(const Eigen::VectorXd& load) const {
                         "the size of load", static_cast<double>(load.size()),
                         std::to_string(transformation.rows()));
   return transformation.transpose() * load;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> CraigBampton::project_directions(
+    const Eigen::SparseMatrix<double, Eigen::RowMajor>& directions) const {
+  detail::require_value(directions.cols() == transformation.rows(), "CraigBampton::project_directions",
+                        "the number of columns of directions", static_cast<double>(directions.cols()),
+                        std::to_string(transformation.rows()));
+  std::vector<int> place(static_cast<std::size_t>(directions.cols()), -1);
+  for (int i = 0; i < boundary.size(); ++i) place[static_cast<std::size_t>(boundary[i])] = i;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < directions.outerSize(); ++row)
+    for (Directions::InnerIterator entry(directions, row); entry; ++entry) {
+      if (entry.value() == 0.0) continue;
+      const int column = place[static_cast<std::size_t>(entry.col())];
+      detail::require_value(column >= 0, "CraigBampton::project_directions", "an unknown that is touched",
+                            static_cast<double>(entry.col()), "on the boundary");
+      entries.emplace_back(row, column, entry.value());
+    }
+  Directions projected(directions.rows(), transformation.cols());
+  projected.setFromTriplets(entries.begin(), entries.end());
+  return projected;
+}
+
+std::vector<int> touched_unknowns(const Directions& directions) {
+  std::vector<int> touched;
+  std::vector<bool> known(static_cast<std::size_t>(directions.cols()), false);
+  for (int row = 0; row < directions.outerSize(); ++row)
+    for (Directions::InnerIterator entry(directions, row); entry; ++entry) {
+      const auto unknown = static_cast<std::size_t>(entry.col());
+      if (entry.value() == 0.0 || known[unknown]) continue;
+      known[unknown] = true;
+      touched.push_back(static_cast<int>(entry.col()));
+    }
+  return touched;
 }
 
 Eigen::VectorXd CraigBampton::recover(const Eigen::VectorXd& coordinates) const {

@@ -47,6 +47,29 @@ TEST(CraigBampton, IsTheProjectionOnItsTransformation) {
   }
 }
 
+// Relative motion of two unknowns, their sum with another, and a single one.
+TEST(CraigBampton, KeepsWhatDirectionsTouch) {
+  const Matrices matrices = damped_bar(300);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, 300);
+  rows(0, 299) = 1.0;
+  rows(0, 100) = -1.0;
+  rows(1, 100) = 0.5;
+  rows(1, 200) = 0.25;
+  rows(2, 299) = -1.0;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> directions = rows.sparseView();
+  const std::vector<int> boundary = touched_unknowns(directions);
+  EXPECT_EQ(boundary, (std::vector<int>{100, 299, 200}));
+  const CraigBampton reduced = craig_bampton(matrices, boundary, {.modes = 5, .solver = {}});
+  const Eigen::MatrixXd projected = reduced.project_directions(directions);
+  EXPECT_EQ(projected, rows * reduced.transformation);
+  const Eigen::VectorXd coordinates = Eigen::VectorXd::LinSpaced(8, 1, 8);
+  EXPECT_LE((projected * coordinates - rows * reduced.recover(coordinates)).norm(),
+            10.0 * eps * coordinates.norm());
+  rows(2, 7) = 1.0;
+  EXPECT_THROW(reduced.project_directions(rows.sparseView()), std::invalid_argument);
+  EXPECT_THROW(reduced.project_directions(rows.leftCols(299).sparseView()), std::invalid_argument);
+}
+
 TEST(CraigBampton, KeepsBoundaryDisplacementsAsCoordinates) {
   const Matrices matrices = damped_bar(300);
   const std::vector<int> boundary = {299, 100};

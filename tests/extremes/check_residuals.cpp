@@ -93,7 +93,7 @@ void measure_motion(const Scene& scene, const app::Response& response, Residuals
                                                 structure.damping * (pair.symbol(1)[k] * f * a.col(k)),
                                                 structure.stiffness * (pair.symbol(0)[k] * a.col(k))};
     Eigen::VectorXcd residual = terms[0] + terms[1] + terms[2] - structure.load * load[k];
-    residual(structure.contact_dofs) += contact.col(k);
+    residual += structure.contact_directions.transpose() * contact.col(k);
     double size =
         contact.col(k).cwiseAbs().maxCoeff() + structure.load.cwiseAbs().maxCoeff() * std::abs(load[k]);
     for (const auto& term : terms) size += term.cwiseAbs().maxCoeff();

@@ -115,13 +115,14 @@ RandomStructure random_structure(std::uint64_t seed) {
   const double first = fem::eigenmodes(structure.stiffness, structure.mass, 1).omega[0];
   structure.damping = (2.0 * draw.magnitude(-2.7, -1.0) / first) * structure.stiffness;
   structure.load = Eigen::VectorXd::NullaryExpr(size, [&](Eigen::Index) { return draw.uniform(-1.0, 1.0); });
-  structure.contact_dofs = draw_contacts(draw, size);
+  const std::vector<int> dofs = draw_contacts(draw, size);
+  structure.contact_directions = solvers::contact_rows(dofs, size);
   out.frequency = first / (2.0 * std::numbers::pi) * draw.magnitude(-0.7, 0.5);
   const Eigen::VectorXd free = free_amplitude(structure, out.frequency);
   const Eigen::MatrixXd flexibility = matrices.stiffness.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
   std::vector<solvers::AnyContactLaw> laws;
   const bool linear = draw.chance(0.5);
-  for (const int dof : structure.contact_dofs) {
+  for (const int dof : dofs) {
     const double gap = free[dof] * draw.uniform(-0.3, 1.0),
                  stop = draw.magnitude(0.0, 4.0) / flexibility(dof, dof);
     if (linear) {

@@ -82,7 +82,8 @@ struct Case {
   solvers::LinearStructure structure(int elements = 25) const {
     const fem::Matrices bar = fem::bar({.elements = elements, .stiffness_damping = beta});
     const Eigen::VectorXd tip = Eigen::VectorXd::Unit(elements, elements - 1);
-    return {bar.mass, bar.damping, bar.stiffness, 250e3 * tip, {elements - 1}};
+    return {bar.mass, bar.damping, bar.stiffness, 250e3 * tip,
+            solvers::contact_rows({elements - 1}, elements)};
   }
   solvers::AnyContactLaw law() const { return contact::ExponentialLaw(1e8, exponent, gap); }
 };

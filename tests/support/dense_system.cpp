@@ -40,18 +40,29 @@ Eigen::VectorXd DenseSystem::solve(const Eigen::VectorXd& r) const { return matr
 
 Eigen::VectorXd DenseSystem::linear_response() const { return solve(load_); }
 
+std::vector<DenseSystem::Entry> DenseSystem::direction(int contact) const {
+  std::vector<Entry> entries;
+  for (solvers::ContactDirections::InnerIterator entry(structure_.contact_directions, contact); entry;
+       ++entry)
+    entries.push_back({entry.value(), entry.col() * functions()});
+  return entries;
+}
+
 Eigen::VectorXd DenseSystem::contact_displacement(const Eigen::VectorXd& coefficients) const {
   Eigen::VectorXd u(contacts() * points());
+  u.setZero();
   for (int c = 0; c < contacts(); ++c)
-    u.segment(c * points(), points()) = time_.trial * coefficients.segment(first_unknown(c), functions());
+    for (const auto& [factor, first] : direction(c))
+      u.segment(c * points(), points()) += factor * time_.trial * coefficients.segment(first, functions());
   return u;
 }
 
 Eigen::VectorXd DenseSystem::project(const Eigen::VectorXd& force) const {
   Eigen::VectorXd projections = Eigen::VectorXd::Zero(unknowns());
   for (int c = 0; c < contacts(); ++c)
-    projections.segment(first_unknown(c), functions()) =
-        time_.weight.transpose() * force.segment(c * points(), points()) / double(points());
+    for (const auto& [factor, first] : direction(c))
+      projections.segment(first, functions()) +=
+          factor * time_.weight.transpose() * force.segment(c * points(), points()) / double(points());
   return projections;
 }
 
@@ -80,10 +91,14 @@ Eigen::MatrixXd DenseSystem::jacobian(const Eigen::VectorXd& coefficients) const
   Eigen::VectorXd force(u.size()), tangent(u.size());
   laws_.evaluate(contacts(), u, force, tangent);
   Eigen::MatrixXd matrix = matrix_;
-  for (int c = 0; c < contacts(); ++c)
-    matrix.block(first_unknown(c), first_unknown(c), functions(), functions()) +=
-        time_.weight.transpose() * tangent.segment(c * points(), points()).asDiagonal() * time_.trial /
-        double(points());
+  for (int c = 0; c < contacts(); ++c) {
+    const Eigen::MatrixXd stiffness = time_.weight.transpose() *
+                                      tangent.segment(c * points(), points()).asDiagonal() * time_.trial /
+                                      double(points());
+    for (const auto& [left, row] : direction(c))
+      for (const auto& [right, column] : direction(c))
+        matrix.block(row, column, functions(), functions()) += left * right * stiffness;
+  }
   return matrix;
 }
 

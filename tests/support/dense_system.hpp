@@ -89,10 +89,12 @@ class DenseSystem {
   Solution newton(const Eigen::VectorXd& start, const NewtonOptions& options = {}) const;
 
  private:
-  /// First unknown of a contact.
-  int first_unknown(int contact) const {
-    return structure_.contact_dofs[static_cast<std::size_t>(contact)] * functions();
-  }
+  /// Entries of a row of S, each with the first unknown of its degree of freedom.
+  struct Entry {
+    double coefficient;
+    Eigen::Index first_unknown;
+  };
+  std::vector<Entry> direction(int contact) const;
   Eigen::VectorXd project(const Eigen::VectorXd& force) const;               // n M
   Eigen::VectorXd contact_force(const Eigen::VectorXd& coefficients) const;  // n M projections
 

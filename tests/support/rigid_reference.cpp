@@ -22,8 +22,8 @@ class Flows {
       : masses_(structure.size() - 1), gap_(gap) {
     const Eigen::MatrixXd m = structure.mass, c = structure.damping, k = structure.stiffness;
     const int n = masses_, size = 2 * n + 3;
-    if (structure.single_contact("rigid_reference") != n || m.row(n).cwiseAbs().maxCoeff() != 0.0 ||
-        c(n, n) <= 0.0)
+    structure.require_single_contact("rigid_reference");
+    if (structure.selected_dof(0) != n || m.row(n).cwiseAbs().maxCoeff() != 0.0 || c(n, n) <= 0.0)
       throw std::invalid_argument(
           "rigid_reference: the last degree of freedom must touch, have no mass and "
           "be damped");

@@ -125,11 +125,11 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("min_displacement_m", missing);
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
-  const bool force_form = sweep.curve.form == solvers::ContactForm::force;
+  const bool one_law = sweep.curve.form != solvers::ContactForm::force && scene.contact.pairs.empty();
   record.summary.emplace_back("max_contact_force_N",
-                              points == 0  ? missing
-                              : force_form ? largest(sweep.curve, &solvers::SweepPoint::max_force)
-                                           : force_at(scene.contact, highest));
+                              points == 0 ? missing
+                              : one_law   ? force_at(scene.contact, highest)
+                                          : largest(sweep.curve, &solvers::SweepPoint::max_force));
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});

@@ -26,7 +26,7 @@ Sizes sizes_of(const Scene& scene) {
   const bool filter = time.trial == "fourier" && time.weight == "fourier" && time.functions % 2 == 1;
   const int common = std::gcd(time.quadrature_points, time.functions);
   Sizes sizes{};
-  sizes.contacts = contact_count(scene.structure);
+  sizes.contacts = contact_count(scene);
   sizes.functions = time.functions;
   sizes.points = time.quadrature_points;
   sizes.output_points = scene.analysis.output_points;

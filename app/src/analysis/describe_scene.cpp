@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include "compose/structure_files.hpp"
 #include "files/number_text.hpp"
@@ -55,25 +56,37 @@ std::string structure_line(const Scene& scene) {
   return bar_line(scene.structure);
 }
 
-std::string contact_place(const Structure& structure) {
-  if (structure.type == StructureType::bar) return "at the tip";
-  const std::string count = count_text(contact_count(structure), "degree") + " of freedom";
-  return "at " + count + (structure.type == StructureType::blade ? " along the tip, radially" : "");
+std::string contact_place(const Scene& scene) {
+  const StructureType type = scene.structure.type;
+  if (type == StructureType::bar) return "at the tip";
+  if (!scene.contact.pairs.empty()) return "at " + count_text(contact_count(scene), "contact");
+  const std::string count = count_text(contact_count(scene), "degree") + " of freedom";
+  return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
 }
 
 std::string gap_text(const Contact& contact) {
-  if (contact.gaps.empty()) return "gap " + number_text(contact.gap) + " m";
-  const auto [least, most] = std::minmax_element(contact.gaps.begin(), contact.gaps.end());
+  std::vector<double> gaps = contact.gaps;
+  for (const ContactPair& pair : contact.pairs) gaps.push_back(pair.gap);
+  if (gaps.empty()) return "gap " + number_text(contact.gap) + " m";
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   if (*least == *most) return "gap " + number_text(*least) + " m";
   return "gaps " + number_text(*least) + " to " + number_text(*most) + " m";
+}
+
+std::string law_text(const Contact& contact) {
+  if (contact.law == ContactLawType::rigid) return "rigid obstacle";
+  std::vector<std::string> names{name_of(contact.law)};
+  if (!contact.pairs.empty()) names.clear();
+  for (const ContactPair& pair : contact.pairs)
+    if (std::find(names.begin(), names.end(), name_of(pair.law)) == names.end())
+      names.push_back(name_of(pair.law));
+  return fmt::format("{} law{}", fmt::join(names, " and "), names.size() == 1 ? "" : "s");
 }
 
 std::string contact_line(const Scene& scene) {
   const Contact& contact = scene.contact;
   if (contact.law == ContactLawType::none) return "contact    none: the problem is linear\n";
-  const std::string what =
-      contact.law == ContactLawType::rigid ? "rigid obstacle" : name_of(contact.law) + " law";
-  return "contact    " + what + " " + contact_place(scene.structure) + ", " + gap_text(contact) + "\n";
+  return "contact    " + law_text(contact) + " " + contact_place(scene) + ", " + gap_text(contact) + "\n";
 }
 
 std::string force_place(const Scene& scene) {
@@ -132,7 +145,7 @@ std::string size_line(const Scene& scene) {
   if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
-                     contact_count(scene.structure) * functions, reduced_size(scene) * functions);
+                     contact_count(scene) * functions, reduced_size(scene) * functions);
 }
 
 std::string mode_lines(const Scene& scene) {
@@ -147,7 +160,7 @@ std::string mode_lines(const Scene& scene) {
     const std::int64_t functions = time.functions;
     return fmt::format(
         "mode       {}, {}\n{}size       {} unknowns after condensation on the contact ({} before)\n",
-        analysis.mode, range, time_lines(time), contact_count(scene.structure) * functions,
+        analysis.mode, range, time_lines(time), contact_count(scene) * functions,
         reduced_size(scene) * functions);
   }
   return fmt::format(
@@ -156,7 +169,7 @@ std::string mode_lines(const Scene& scene) {
       analysis.mode, range,
       analysis.formulation == ModeFormulation::published ? ", equations as published" : "",
       analysis.harmonics, analysis.cosine_only ? " (cosines only)" : "",
-      std::int64_t{contact_count(scene.structure)} * analysis.samples,
+      std::int64_t{contact_count(scene)} * analysis.samples,
       std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1));
 }
 

@@ -287,8 +287,7 @@ double ModeStudy::residual(const ModePoint& point) const {
       wave[k] = std::polar(1.0 / static_cast<double>(count),
                            -2.0 * std::numbers::pi * static_cast<double>(n * k) / static_cast<double>(count));
     const Eigen::VectorXcd force = point.force * wave;
-    for (int contact = 0; contact < model_.contacts(); ++contact)
-      rest[model_.structure.contact_dofs[static_cast<std::size_t>(contact)]] += force[contact];
+    rest += structure.contact_directions.transpose() * force;
     largest = std::max(largest, rest.norm());
     scale = std::max(scale, elastic.norm());
   }

@@ -33,10 +33,17 @@ std::string basis_title(const std::string& basis) {
   return basis == "fourier" ? "Fourier" : basis == "haar" ? "Haar" : "B-spline";
 }
 
-std::string structure_title(const Structure& structure) {
+/// Whether pairs have different gaps.
+bool pairs_differ(const Contact& contact) {
+  return std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                     [&](const ContactPair& pair) { return pair.gap != contact.pairs.front().gap; });
+}
+
+std::string structure_title(const Scene& scene) {
+  const Structure& structure = scene.structure;
   if (structure.type == StructureType::bar) return std::to_string(structure.elements) + " elements";
   const std::string kind = structure.type == StructureType::blade ? "blade" : "matrices";
-  const int contacts = contact_count(structure);
+  const int contacts = contact_count(scene);
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
 }
 
@@ -45,12 +52,12 @@ std::string method_title(const Scene& scene) {
     const Time time = mode_time(scene);
     return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
            basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
-           structure_title(scene.structure);
+           structure_title(scene);
   }
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return "Mode " + std::to_string(scene.analysis.mode) +
            ", N = " + std::to_string(scene.analysis.harmonics) +
-           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene.structure);
+           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
@@ -198,8 +205,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   for (const auto& [label, column] :
        {std::pair{"largest", "max_displacement_m"}, {"rms", "rms_displacement_m"}})
     panel.add(thinned({label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor)}));
-  if (scene.contact.law != ContactLawType::none && scene.contact.gaps.empty())
-    panel.mark_y(scale.factor * scene.contact.gap, "gap");
+  const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
+  if (scene.contact.law != ContactLawType::none && one_gap)
+    panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   return figure;
 }

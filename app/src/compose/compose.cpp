@@ -66,13 +66,16 @@ PairParts pair_parts(const Time& time) {
 
 solvers::LinearStructure make_structure(const Scene& scene) { return make_model(scene).structure; }
 
-solvers::AnyContactLaw make_law(const Contact& contact, int index) {
-  const double gap = contact.gap_of(index);
-  switch (contact.law) {
+namespace {
+
+/// The law of a Contact or of a ContactPair.
+template <class Parameters>
+solvers::AnyContactLaw law_of(const Parameters& of, double gap) {
+  switch (of.law) {
     case ContactLawType::exponential:
-      return contact::ExponentialLaw(contact.constant, contact.exponent, gap);
+      return contact::ExponentialLaw(of.constant, of.exponent, gap);
     case ContactLawType::linear:
-      return contact::LinearLaw(contact.stiffness, gap);
+      return contact::LinearLaw(of.stiffness, gap);
     case ContactLawType::rigid:
       return contact::RigidLaw(gap);
     case ContactLawType::none:
@@ -81,10 +84,18 @@ solvers::AnyContactLaw make_law(const Contact& contact, int index) {
   return contact::NoContact();
 }
 
+}  // namespace
+
+solvers::AnyContactLaw make_law(const Contact& contact, int index) {
+  const double gap = contact.gap_of(index);
+  if (contact.pairs.empty()) return law_of(contact, gap);
+  return law_of(*contact.pair_contacts().at(static_cast<std::size_t>(index)).pair, gap);
+}
+
 solvers::ContactLaws make_laws(const Scene& scene) {
-  if (scene.contact.gaps.empty()) return make_law(scene.contact);
+  if (scene.contact.gaps.empty() && scene.contact.pairs.empty()) return make_law(scene.contact);
   std::vector<solvers::AnyContactLaw> laws;
-  for (int contact = 0; contact < contact_count(scene.structure); ++contact)
+  for (int contact = 0; contact < contact_count(scene); ++contact)
     laws.push_back(make_law(scene.contact, contact));
   return laws;
 }
@@ -115,10 +126,7 @@ StructureModes make_modes(const StructureModel& model) {
   auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
   if (modes.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("make_modes: the eigenvalue solver did not find all linear modes");
-  Eigen::MatrixXd contact_shapes(model.contacts(), modes.shapes.cols());
-  for (int contact = 0; contact < model.contacts(); ++contact)
-    contact_shapes.row(contact) =
-        modes.shapes.row(model.structure.contact_dofs[static_cast<std::size_t>(contact)]);
+  Eigen::MatrixXd contact_shapes = structure.contact_directions * modes.shapes;
   return {{modes.omega.cwiseAbs2(), std::move(contact_shapes), model.gaps}, std::move(modes.shapes)};
 }
 

@@ -134,7 +134,11 @@ void check_mode(const Document& document, const Scene& scene) {
   if (scene.contact.law == ContactLawType::none)
     fail_rule(document, {"contact.law"},
               "expected \"rigid\", \"exponential\" or \"linear\" for a nonlinear mode");
-  for (int contact = 0; contact < contact_count(scene.structure); ++contact)
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    if (!(scene.contact.pairs[i].gap > 0.0))
+      fail_rule(document, {pair_section(i) + ".gap", "contact.gap"},
+                "expected a number in m, > 0 for a nonlinear mode");
+  for (int contact = 0; contact < contact_count(scene); ++contact)
     if (!(scene.contact.gap_of(contact) > 0.0))
       fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
   if (analysis.mode > reduced_size(scene))

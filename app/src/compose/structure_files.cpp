@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
+#include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::app {
@@ -94,6 +96,20 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
   }
 }
 
+/// Rows of the pairs in 1..n, each with a coefficient.
+void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (const int dof : pairs[i].dofs)
+      if (dof < 1 || dof > size)
+        throw StructureFault(pair_section(i) + ".dofs",
+                             fmt::format("there is no degree of freedom {}; expected 1..{}", dof, size));
+    if (pairs[i].coefficients.size() != pairs[i].dofs.size())
+      throw StructureFault(pair_section(i) + ".coefficients",
+                           fmt::format("there are {}; expected one for each of {} dofs",
+                                       pairs[i].coefficients.size(), pairs[i].dofs.size()));
+  }
+}
+
 void check_load(const Scene& scene) {
   const bool file = !scene.forcing.load.empty(), list = !scene.forcing.load_dofs.empty();
   if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
@@ -126,6 +142,7 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
 void check_against_files(const Scene& scene, const StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows();
   check_dofs(scene.structure.matrices.contact_dofs, size, "structure.contact_dofs");
+  check_pairs(scene.contact.pairs, size);
   check_dofs(scene.forcing.load_dofs, size, "forcing.load_dofs");
   check_load(scene);
   const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
@@ -157,9 +174,24 @@ std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
   return rows;
 }
 
+solvers::ContactDirections contact_directions(const Scene& scene, Eigen::Index size) {
+  std::vector<Eigen::Triplet<double>> entries;
+  int contacts = 0;
+  for (const int dof : scene.structure.matrices.contact_dofs)
+    entries.emplace_back(contacts++, std::abs(dof) - 1, dof > 0 ? 1.0 : -1.0);
+  for (const auto& [pair, sign] : scene.contact.pair_contacts()) {
+    for (std::size_t i = 0; i < pair->dofs.size(); ++i)
+      entries.emplace_back(contacts, pair->dofs[i] - 1, sign * pair->coefficients[i]);
+    ++contacts;
+  }
+  solvers::ContactDirections directions(contacts, size);
+  directions.setFromTriplets(entries.begin(), entries.end());
+  directions.prune(0.0);
+  return directions;
+}
+
 std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files) {
-  std::vector<int> rows;
-  for (const int dof : scene.structure.matrices.contact_dofs) rows.push_back(std::abs(dof) - 1);
+  std::vector<int> rows = fem::touched_unknowns(contact_directions(scene, files.matrices.stiffness.rows()));
   for (const int row : loaded_rows(scene, files))
     if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
   return rows;

@@ -8,6 +8,7 @@
 
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/matrices.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
 
@@ -36,8 +37,8 @@ class StructureFault : public std::runtime_error {
 /// symmetry, definiteness. Throws StructureFault. Two sparse factorisations.
 std::shared_ptr<const StructureFiles> structure_files(const Scene& scene);
 
-/// Holds the lists and numbers of a scene to the size n of its matrices: contact_dofs, load_dofs, kept_modes,
-/// and whether a force that is needed has a place. Throws StructureFault.
+/// Holds the lists and numbers of a scene to the size n of its matrices: contact_dofs, pairs, load_dofs,
+/// kept_modes, and whether a force that is needed has a place. Throws StructureFault.
 void check_against_files(const Scene& scene, const StructureFiles& files);
 
 /// Rows (from 0) of the loaded degrees of freedom, ascending. Empty if the load has more than
@@ -48,7 +49,10 @@ inline constexpr int most_loaded_dofs = 30;
 /// The force of amplitude 1 on all n degrees of freedom.
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
 
-/// The unknowns that a reduction keeps beside its modes: those in contact, in their order, then those loaded.
+/// The directions of contact among n degrees of freedom, contacts x n: of contact_dofs or of the pairs.
+solvers::ContactDirections contact_directions(const Scene& scene, Eigen::Index size);
+
+/// The unknowns that a reduction keeps beside its modes: those that the contacts touch, then those loaded.
 std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files);
 
 }  // namespace wavebalance::app

@@ -45,7 +45,7 @@ StructureModel bar_model(const Scene& scene) {
   model.structure.mass = std::move(matrices.mass);
   model.structure.damping = std::move(matrices.damping);
   model.structure.stiffness = std::move(matrices.stiffness);
-  model.structure.contact_dofs = {bar.elements - 1};
+  model.structure.contact_directions = solvers::contact_rows({bar.elements - 1}, bar.elements);
   model.structure.load = Eigen::VectorXd::Zero(bar.elements);
   model.structure.load[bar.elements - 1] = scene.forcing.amplitude;
   model.unknowns = bar.elements;
@@ -63,7 +63,7 @@ void set_structure(StructureModel& model, fem::Matrices matrices, const Eigen::V
 }
 
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::VectorXd& load,
-            const std::vector<int>& boundary, int kept_modes) {
+            const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes) {
   fem::CraigBampton reduced = fem::craig_bampton(matrices, boundary, {.modes = kept_modes, .solver = {}});
   if (reduced.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
@@ -72,6 +72,7 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::V
   model.structure.damping = reduced.damping.sparseView();
   model.structure.stiffness = reduced.stiffness.sparseView();
   model.structure.load = reduced.project_load(load);
+  model.structure.contact_directions = reduced.project_directions(directions);
   model.recovery = std::move(reduced.transformation);
 }
 
@@ -124,30 +125,12 @@ StructureModel blade_model(const Scene& scene) {
   const auto blade = std::make_shared<const fem::Blade>(fem::blade(blade_options(scene.structure)));
   fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
   stiffen_by_rotation(matrices, blade->model, scene.structure.blade);
-  reduce(model, matrices, blade_load(scene, *blade), blade->boundary_unknowns, scene.structure.kept_modes);
-  model.structure.contact_dofs.clear();
-  for (std::size_t contact = 0; contact < blade->contact_unknowns.size(); ++contact)
-    model.structure.contact_dofs.push_back(static_cast<int>(3 * contact + 2));  // z of each corner node
   model.unknowns = blade->model.dofs.count();
+  reduce(model, matrices, blade_load(scene, *blade),
+         solvers::contact_rows(blade->contact_unknowns, model.unknowns), blade->boundary_unknowns,
+         scene.structure.kept_modes);
   model.blade = blade;
   return model;
-}
-
-/// 1, or -1 for the unknowns whose obstacle is on the negative side; empty if there are none.
-Eigen::VectorXd signs_of(const std::vector<int>& contact_dofs, Eigen::Index size) {
-  if (std::all_of(contact_dofs.begin(), contact_dofs.end(), [](int dof) { return dof > 0; })) return {};
-  Eigen::VectorXd signs = Eigen::VectorXd::Ones(size);
-  for (const int dof : contact_dofs)
-    if (dof < 0) signs[-dof - 1] = -1.0;
-  return signs;
-}
-
-fem::Matrices orient_contacts(const fem::Matrices& matrices, const Eigen::VectorXd& signs) {
-  if (signs.size() == 0) return matrices;
-  const auto oriented = [&](const Sparse& matrix) -> Sparse {
-    return matrix.size() == 0 ? matrix : Sparse(signs.asDiagonal() * matrix * signs.asDiagonal());
-  };
-  return {oriented(matrices.mass), oriented(matrices.damping), oriented(matrices.stiffness)};
 }
 
 StructureModel matrices_model(const Scene& scene) {
@@ -157,21 +140,16 @@ StructureModel matrices_model(const Scene& scene) {
   StructureModel model;
   model.warnings = warnings_of(*files);
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
-  model.signs = signs_of(structure.matrices.contact_dofs, model.unknowns);
-  fem::Matrices matrices = orient_contacts(files->matrices, model.signs);
+  fem::Matrices matrices = files->matrices;
   if (structure.stiffness_damping > 0.0) matrices.damping = structure.stiffness_damping * matrices.stiffness;
-  Eigen::VectorXd load = scene.forcing.amplitude * unit_load(scene, *files);
-  if (model.signs.size() > 0) load.array() *= model.signs.array();
-  const std::vector<int> boundary = boundary_rows(scene, *files);
-  const auto contacts = static_cast<std::ptrdiff_t>(structure.matrices.contact_dofs.size());
+  const Eigen::VectorXd load = scene.forcing.amplitude * unit_load(scene, *files);
+  const solvers::ContactDirections directions = contact_directions(scene, model.unknowns);
   if (structure.kept_modes < 0) {
     set_structure(model, std::move(matrices), load);
-    model.structure.contact_dofs.assign(boundary.begin(), boundary.begin() + contacts);
+    model.structure.contact_directions = directions;
     return model;
   }
-  reduce(model, matrices, load, boundary, structure.kept_modes);
-  model.structure.contact_dofs.resize(structure.matrices.contact_dofs.size());
-  std::iota(model.structure.contact_dofs.begin(), model.structure.contact_dofs.end(), 0);
+  reduce(model, matrices, load, directions, boundary_rows(scene, *files), structure.kept_modes);
   return model;
 }
 
@@ -207,9 +185,7 @@ Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) cons
   if (coordinates.rows() != size())
     throw std::invalid_argument("StructureModel::recover: there are " + std::to_string(coordinates.rows()) +
                                 " rows of coordinates; there must be " + std::to_string(size()));
-  Eigen::MatrixXd whole = reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates;
-  if (signs.size() > 0) whole.array().colwise() *= signs.array();
-  return whole;
+  return reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates;
 }
 
 StructureModel make_model(const Scene& scene) {
@@ -234,12 +210,15 @@ StructureModel make_model(const Scene& scene) {
   return model;
 }
 
-int contact_count(const Structure& structure) {
-  switch (structure.type) {
+int tip_corners(const BladeStructure& blade) { return 2 * (blade.chord_elements + 1); }
+
+int contact_count(const Scene& scene) {
+  switch (scene.structure.type) {
     case StructureType::blade:
-      return 2 * (structure.blade.chord_elements + 1);
+      return tip_corners(scene.structure.blade);
     case StructureType::matrices:
-      return static_cast<int>(structure.matrices.contact_dofs.size());
+      return static_cast<int>(scene.structure.matrices.contact_dofs.size() +
+                              scene.contact.pair_contacts().size());
     case StructureType::bar:
       break;
   }
@@ -252,7 +231,7 @@ int reduced_size(const Scene& scene) {
     case StructureType::bar:
       return structure.elements;
     case StructureType::blade:
-      return 3 * contact_count(structure) + structure.kept_modes;
+      return 3 * tip_corners(structure.blade) + structure.kept_modes;
     case StructureType::matrices:
       break;
   }

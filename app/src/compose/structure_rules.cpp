@@ -39,16 +39,30 @@ void check_blade(const Document& document, const Structure& structure) {
   const auto& axis = structure.blade.rotation_axis;
   if (std::hypot(axis[0], axis[1], axis[2]) == 0.0)
     fail_rule(document, {"structure.rotation_axis"}, "expected a direction, which is not zero");
-  const std::int64_t interior = blade_unknowns(structure.blade) - 3 * contact_count(structure);
+  const std::int64_t interior = blade_unknowns(structure.blade) - 3 * tip_corners(structure.blade);
   if (structure.kept_modes > interior)
     fail_rule(document, {"structure.kept_modes", "structure.span_elements"},
               "expected at most " + std::to_string(interior) +
                   ", the mesh's degrees of freedom beside those of the tip's corner nodes");
 }
 
+/// Contacts of matrices are directions along single degrees of freedom or pairs.
+void check_directions(const Document& document, const Scene& scene) {
+  const bool dofs = !scene.structure.matrices.contact_dofs.empty(), pairs = !scene.contact.pairs.empty();
+  if (dofs && pairs)
+    fail_rule(document, {"structure.contact_dofs"},
+              "there are [[contact.pairs]] too; expected one or the other");
+  if (!dofs && !pairs)
+    fail_rule(document, {"structure.contact_dofs"},
+              "missing; expected a list of integers, or [[contact.pairs]]");
+}
+
 void check_gaps(const Document& document, const Scene& scene) {
-  const int contacts = contact_count(scene.structure);
+  const int contacts = contact_count(scene);
   const auto given = static_cast<int>(scene.contact.gaps.size());
+  if (given > 0 && !scene.contact.pairs.empty())
+    fail_rule(document, {"contact.gap"},
+              "there are [[contact.pairs]], each of which may have its own gap; expected one number");
   if (given > 0 && given != contacts)
     fail_rule(document, {"contact.gap"},
               "there are " + std::to_string(given) + " numbers; expected one, or one for each of " +
@@ -71,11 +85,11 @@ void check_files(const Document& document, Scene& scene) {
 void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
                const std::string& rule) {
   for (const auto name : names) {
-    const SceneKey& key = *find_scene_key(name);
-    if (const auto* entry = document.find(key.section, key.name)) fail_at(document, *entry, rule);
+    const auto [section, key] = split_name(std::string(name));
+    if (const auto* entry = document.find(section, key)) fail_at(document, *entry, rule);
   }
-  const SceneKey& first = *find_scene_key(*names.begin());
-  throw SceneError({document.name, document.section_line(first.section), "", first.full_name(), "", rule});
+  const std::string first(*names.begin());
+  throw SceneError({document.name, document.section_line(split_name(first).first), "", first, "", rule});
 }
 
 void check_structure_rules(const Document& document, Scene& scene) {
@@ -86,7 +100,10 @@ void check_structure_rules(const Document& document, Scene& scene) {
               "expected 2 or more with massless_tip or rigid contact: the tip's mass goes to a neighbour");
   check_damping(document, scene);
   if (structure.type == StructureType::blade) check_blade(document, structure);
-  if (structure.type == StructureType::matrices) check_files(document, scene);
+  if (structure.type == StructureType::matrices) {
+    check_directions(document, scene);
+    check_files(document, scene);
+  }
   check_gaps(document, scene);
 }
 

@@ -50,6 +50,11 @@ inline constexpr std::array<NamedValue<ContactMass>, 3> enum_names<ContactMass>{
      {ContactMass::keep, "keep"},
      {ContactMass::redistribute, "redistribute"}}};
 template <>
+inline constexpr std::array<NamedValue<ObstacleSide>, 3> enum_names<ObstacleSide>{
+    {{ObstacleSide::positive, "positive"},
+     {ObstacleSide::negative, "negative"},
+     {ObstacleSide::both, "both"}}};
+template <>
 inline constexpr std::array<NamedValue<Formulation>, 3> enum_names<Formulation>{
     {{Formulation::strong, "strong"},
      {Formulation::weak, "weak"},

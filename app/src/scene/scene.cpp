@@ -12,13 +12,24 @@ std::string name_of(SolidElement value) { return enum_name(value); }
 std::string name_of(Direction value) { return enum_name(value); }
 std::string name_of(TipPlace value) { return enum_name(value); }
 std::string name_of(ContactLawType value) { return enum_name(value); }
+std::string name_of(ObstacleSide value) { return enum_name(value); }
 std::string name_of(Formulation value) { return enum_name(value); }
 std::string name_of(InnerProducts value) { return enum_name(value); }
 std::string name_of(NyquistCoefficient value) { return enum_name(value); }
 std::string name_of(ModeFormulation value) { return enum_name(value); }
 std::string name_of(AnalysisType value) { return enum_name(value); }
 
+std::vector<SidedPair> Contact::pair_contacts() const {
+  std::vector<SidedPair> contacts;
+  for (const ContactPair& pair : pairs) {
+    if (pair.side != ObstacleSide::negative) contacts.push_back({&pair, 1.0});
+    if (pair.side != ObstacleSide::positive) contacts.push_back({&pair, -1.0});
+  }
+  return contacts;
+}
+
 double Contact::gap_of(int contact) const {
+  if (!pairs.empty()) return pair_contacts().at(static_cast<std::size_t>(contact)).pair->gap;
   return gaps.empty() ? gap : gaps.at(static_cast<std::size_t>(contact));
 }
 

@@ -59,9 +59,21 @@ DocumentEntry entry_of(std::string section, std::string key, const toml::node& n
   return {std::move(section), std::move(key), value_of(node), found_text(node), line_of(node), ""};
 }
 
+void add_section(Document& document, const std::string& name, const toml::table& table, int line);
+
+/// The entries of [[contact.pairs]], each a section of its own.
+void add_pairs(Document& document, const toml::array& pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    add_section(document, pair_section(i), *pairs[i].as_table(), line_of(pairs[i]));
+}
+
 void add_section(Document& document, const std::string& name, const toml::table& table, int line) {
   document.sections.push_back({name, line});
   for (const auto& [key, node] : table) {
+    if (name == "contact" && key.str() == "pairs" && node.is_array_of_tables()) {
+      add_pairs(document, *node.as_array());
+      continue;
+    }
     document.entries.push_back(entry_of(name, std::string(key.str()), node));
     // A dotted key has no line of its own for the table between.
     if (document.entries.back().line == 0)
@@ -107,10 +119,21 @@ DocumentEntry parse_override(const std::string& text, const std::string& section
 
 }  // namespace
 
+std::pair<std::string, std::string> split_name(const std::string& full_name) {
+  const auto bracket = full_name.find("].");
+  const auto dot = bracket == std::string::npos ? full_name.find('.') : bracket + 1;
+  return {full_name.substr(0, dot), full_name.substr(dot + 1)};
+}
+
 const DocumentEntry* Document::find(std::string_view section, std::string_view key) const {
   for (const auto& entry : entries)
     if (entry.section == section && entry.key == key) return &entry;
   return nullptr;
+}
+
+bool Document::has_section(std::string_view section) const {
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](const DocumentSection& one) { return one.name == section; });
 }
 
 int Document::section_line(std::string_view section) const {
@@ -156,8 +179,7 @@ void apply_overrides(Document& document, std::span<const std::string> overrides)
     if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
       throw SceneError(
           {document.name, 0, "--set " + text, "", "", "expected section.key=value, as in contact.gap=2e-3"});
-    const std::string section = text.substr(0, dot);
-    const std::string key = text.substr(dot + 1, equals - dot - 1);
+    const auto [section, key] = split_name(text.substr(0, equals));
     DocumentEntry entry = parse_override(text, section, key, text.substr(equals + 1));
     const auto same = [&](const DocumentEntry& other) { return other.full_name() == entry.full_name(); };
     const auto place = std::find_if(document.entries.begin(), document.entries.end(), same);

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,8 +40,13 @@ struct Document {
   std::vector<DocumentEntry> entries;
 
   const DocumentEntry* find(std::string_view section, std::string_view key) const;
+  bool has_section(std::string_view section) const;
   int section_line(std::string_view section) const;  ///< 0 if the file has no such section
 };
+
+/// The section and the key of "section.key"; the section of "contact.pairs[1].gap" is "contact.pairs[1]". The
+/// name must have a dot.
+std::pair<std::string, std::string> split_name(const std::string& full_name);
 
 /// Parses TOML. Throws SceneError with the line of a syntax error.
 Document parse_document(std::string_view text, const std::string& name);

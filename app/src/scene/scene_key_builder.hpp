@@ -115,6 +115,9 @@ inline Property single_or_list(SceneValue (*get)(const Scene&), void (*set)(Scen
   };
 }
 
+/// Entries of [[contact.pairs]] may each have their own.
+inline void or_in_pairs(SceneKey& key) { key.in_pairs = true; }
+
 /// The default is the value that the member is initialised with.
 inline void optional(SceneKey& key) { key.fallback = SceneKey::Default::value; }
 

@@ -56,7 +56,8 @@ void add_matrices(std::vector<SceneKey>& keys) {
            "damping matrix C, symmetric; in place of stiffness_damping or modal_damping", path, optional);
   matrices(&MatricesStructure::contact_dofs, "contact_dofs", "",
            "degrees of freedom that may touch an obstacle, rows of the matrices counted from 1; -7 is row 7 "
-           "with its obstacle on the negative side");
+           "with its obstacle on the negative side; or else [[contact.pairs]]",
+           optional);
 }
 
 void add_damping_and_reduction(std::vector<SceneKey>& keys) {
@@ -206,16 +207,17 @@ void add_contact(std::vector<SceneKey>& keys) {
           "radially) once its displacement u exceeds the gap: constant (exp(exponent (u - gap)) - 1), "
           "stiffness (u - gap), or, rigid, whatever keeps u at the gap",
           optional);
-  contact(&Contact::constant, "constant", "N", "a_c of the exponential law", positive,
+  contact(&Contact::constant, "constant", "N", "a_c of the exponential law", positive, or_in_pairs,
           only_with(law_is({"exponential"})));
-  contact(&Contact::exponent, "exponent", "1/m", "alpha of the exponential law", positive,
+  contact(&Contact::exponent, "exponent", "1/m", "alpha of the exponential law", positive, or_in_pairs,
           only_with(law_is({"exponential"})));
-  contact(&Contact::stiffness, "stiffness", "N/m", "slope of the linear law", positive,
+  contact(&Contact::stiffness, "stiffness", "N/m", "slope of the linear law", positive, or_in_pairs,
           only_with(law_is({"linear"})));
   contact(&Contact::gap, "gap", "m",
           "displacement towards the obstacle at which contact starts; a list has one for each degree of "
           "freedom in contact",
-          single_or_list(get_gap, set_gap), only_with(law_is({"exponential", "linear", "rigid"})));
+          single_or_list(get_gap, set_gap), or_in_pairs,
+          only_with(law_is({"exponential", "linear", "rigid"})));
   const Condition balanced = analysis_is({"forced_response", "frequency_sweep"});
   contact(
       &Contact::form, "form", "",
@@ -311,6 +313,38 @@ std::vector<SceneKey> make_keys() {
 }
 
 }  // namespace
+
+std::vector<SceneKey> pair_keys(std::size_t index) {
+  std::vector<SceneKey> keys;
+  const auto part = [index](auto& scene) -> auto& { return scene.contact.pairs[index]; };
+  const Section pair(keys, "contact.pairs", part);
+  const auto of_contact = [](auto Contact::*member) {
+    return derived("that of [contact]", [=](const Scene& scene) { return value_of(scene.contact.*member); });
+  };
+  pair(
+      &ContactPair::dofs, "dofs", "",
+      "degrees of freedom whose weighted sum is the displacement in contact, rows of the matrices counted from "
+      "1: two nodes that face each other, or the components along the normal of a surface",
+      within(1, 100'000'000));
+  pair(&ContactPair::coefficients, "coefficients", "", "their weights, one for each", within(-1e9, 1e9),
+       derived("[1.0] for one of dofs, [1.0, -1.0] for two", [=](const Scene& scene) {
+         return part(scene).dofs.size() == 1 ? std::vector<double>{1.0} : std::vector<double>{1.0, -1.0};
+       }));
+  pair(&ContactPair::side, "side", "",
+       "where the obstacle stands: the displacement may exceed gap, or -gap on the negative side, or both",
+       derived("\"positive\"", [](const Scene&) { return name_of(ObstacleSide::positive); }));
+  pair(&ContactPair::law, "law", "", "contact law of this pair", one_of({"exponential", "linear"}),
+       of_contact(&Contact::law));
+  pair(&ContactPair::constant, "constant", "N", "a_c of its exponential law", positive,
+       of_contact(&Contact::constant));
+  pair(&ContactPair::exponent, "exponent", "1/m", "alpha of its exponential law", positive,
+       of_contact(&Contact::exponent));
+  pair(&ContactPair::stiffness, "stiffness", "N/m", "slope of its linear law", positive,
+       of_contact(&Contact::stiffness));
+  pair(&ContactPair::gap, "gap", "m", "displacement towards its obstacle at which contact starts",
+       of_contact(&Contact::gap));
+  return keys;
+}
 
 std::span<const SceneKey> scene_keys() {
   static const std::vector<SceneKey> keys = make_keys();

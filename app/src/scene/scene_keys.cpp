@@ -48,10 +48,12 @@ Condition operator&&(Condition left, const Condition& right) {
 }
 
 bool SceneKey::required_in(const Scene& scene) const {
-  if (!belongs.holds(scene)) return false;
+  if (!belongs.holds(scene) || (in_pairs && !scene.contact.pairs.empty())) return false;
   if (fallback == Default::derived) return !needed.empty() && needed.holds(scene);
   return fallback == Default::required && needed.holds(scene);
 }
+
+std::string pair_section(std::size_t index) { return "contact.pairs[" + std::to_string(index + 1) + "]"; }
 
 std::string SceneKey::full_name() const { return std::string(section) + "." + std::string(name); }
 

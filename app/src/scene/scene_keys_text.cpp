@@ -89,6 +89,25 @@ std::string number_words(const SceneKey& key) {
   return text;
 }
 
+/// A key with its meaning and what it may be.
+std::string key_text(const SceneKey& key, int width) {
+  std::string status =
+      key.fallback == SceneKey::Default::required ? key.default_text() : "default " + key.default_text();
+  if (key.fallback == SceneKey::Default::derived && !key.needed.empty())
+    status += ", required with " + key.needed.text();
+  return "  " + std::string(key.name) + "\n" + wrapped(std::string(key.help) + ".", 6, width) +
+         wrapped(key.expected() + "; " + status +
+                     (key.in_pairs ? " unless every one of [[contact.pairs]] has its own" : "") +
+                     (key.belongs.empty() ? "" : "; only with " + key.belongs.text()),
+                 6, width);
+}
+
+std::string pairs_text(int width) {
+  std::string text = "\n[[contact.pairs]], any number of them, in place of structure.contact_dofs\n";
+  for (const SceneKey& key : pair_keys(0)) text += key_text(key, width);
+  return text;
+}
+
 }  // namespace
 
 std::string toml_text(const SceneValue& value) {
@@ -146,17 +165,12 @@ std::string describe_scene_keys(int width) {
   std::string text;
   std::string_view section;
   for (const SceneKey& key : scene_keys()) {
-    if (key.section != section) text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    if (key.section != section) {
+      if (section == "contact") text += pairs_text(width);
+      text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    }
     section = key.section;
-    std::string status =
-        key.fallback == SceneKey::Default::required ? key.default_text() : "default " + key.default_text();
-    if (key.fallback == SceneKey::Default::derived && !key.needed.empty())
-      status += ", required with " + key.needed.text();
-    text += "  " + std::string(key.name) + "\n";
-    text += wrapped(std::string(key.help) + ".", 6, width);
-    text += wrapped(
-        key.expected() + "; " + status + (key.belongs.empty() ? "" : "; only with " + key.belongs.text()), 6,
-        width);
+    text += key_text(key, width);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "scene/pair_reader.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -22,6 +23,8 @@ namespace {
 /// Names of `section`'s keys; of all sections when there is no such section.
 std::vector<std::string> known_names(const std::string& section) {
   std::vector<std::string> names;
+  if (is_pair_section(section))
+    for (const SceneKey& key : pair_keys(0)) names.emplace_back(key.name);
   for (const SceneKey& key : scene_keys())
     if (key.section == section) names.emplace_back(key.name);
   if (!names.empty()) return names;
@@ -51,18 +54,31 @@ std::string unknown_section_text(const std::string& section) {
   if (entry.section.empty() && is_section(entry.key))
     fail_at(document, entry, "expected a section [" + entry.key + "] of keys");
   if (entry.section.empty()) fail_at(document, entry, "unknown key outside of any section");
-  if (!is_section(entry.section)) fail_at(document, entry, unknown_section_text(entry.section));
+  if (entry.full_name() == "contact.pairs")
+    fail_at(document, entry, "expected tables [[contact.pairs]], one for each direction of contact");
+  if (is_pair_section(entry.section) && !document.has_section(entry.section))
+    fail_at(document, entry,
+            "the scene has " + std::to_string(count_pairs(document)) + " [[contact.pairs]], counted from 1");
+  if (!is_section(entry.section) && !is_pair_section(entry.section))
+    fail_at(document, entry, unknown_section_text(entry.section));
   const auto shown = [&](const std::string& name) { return entry.section + "." + name; };
   fail_at(document, entry, "unknown key" + unknown_text(entry.key, known_names(entry.section), shown));
 }
 
 void reject_unknown(const Document& document) {
   for (const DocumentSection& section : document.sections)
-    if (!is_section(section.name))
+    if (!is_section(section.name) && !is_pair_section(section.name))
       throw SceneError({document.name, section.line, "", "[" + section.name + "]", "",
                         unknown_section_text(section.name)});
+  const std::vector<SceneKey> of_pairs = pair_keys(0);
+  const auto is_known = [&](const DocumentEntry& entry) {
+    if (!is_pair_section(entry.section)) return find_scene_key(entry.full_name()) != nullptr;
+    return document.has_section(entry.section) &&
+           std::any_of(of_pairs.begin(), of_pairs.end(),
+                       [&](const SceneKey& key) { return key.name == entry.key; });
+  };
   for (const DocumentEntry& entry : document.entries)
-    if (find_scene_key(entry.full_name()) == nullptr) fail_unknown(document, entry);
+    if (!is_known(entry)) fail_unknown(document, entry);
 }
 
 SceneValue checked_text(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
@@ -180,9 +196,14 @@ void fail_at(const Document& document, const DocumentEntry& entry, std::string a
       {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
 }
 
+SceneValue checked_value(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  return checked(document, entry, key);
+}
+
 Scene read_scene(const Document& document) {
-  reject_unknown(document);
   Scene scene;
+  scene.contact.pairs.resize(count_pairs(document));
+  reject_unknown(document);
   const auto read = [&](const auto& wanted) {
     for (const SceneKey& key : scene_keys())
       if (wanted(key)) read_key(document, key, scene);
@@ -190,6 +211,7 @@ Scene read_scene(const Document& document) {
   read([](const SceneKey& key) { return governs(key) && key.belongs.empty(); });
   read([](const SceneKey& key) { return governs(key) && !key.belongs.empty(); });
   read([](const SceneKey& key) { return !governs(key); });
+  read_pairs(document, scene);
   return scene;
 }
 

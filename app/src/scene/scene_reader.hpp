@@ -3,11 +3,15 @@
 
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 
 /// Throws SceneError at the place of `entry`.
 [[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed);
+
+/// The value of `entry` if the key allows it. Throws SceneError.
+SceneValue checked_value(const Document& document, const DocumentEntry& entry, const SceneKey& key);
 
 /// The scene that `document` describes: each key is known, in range and allowed in the scene; defaults are
 /// filled in. The rules between keys are not checked here. Throws SceneError.

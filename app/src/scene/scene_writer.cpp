@@ -23,6 +23,35 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
   return line + "\n";
 }
 
+/// Whether a pair of this law has the key.
+bool has_value(const ContactPair& pair, std::string_view key) {
+  const bool exponential = pair.law == ContactLawType::exponential,
+             linear = pair.law == ContactLawType::linear;
+  if (key == "coefficients") return !pair.coefficients.empty();
+  if (key == "constant" || key == "exponent") return exponential;
+  if (key == "stiffness") return linear;
+  if (key == "law") return exponential || linear;
+  return key != "gap" || pair.law != ContactLawType::none;
+}
+
+/// Calls use(section, key) for each key of the pairs that is written.
+template <class Use>
+void for_each_pair_key(const Scene& scene, Use use) {
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    for (const SceneKey& key : pair_keys(i))
+      if (has_value(scene.contact.pairs[i], key.name)) use(pair_section(i), key);
+}
+
+std::string pair_lines(const Scene& scene) {
+  std::string text, current;
+  for_each_pair_key(scene, [&](const std::string& section, const SceneKey& key) {
+    if (section != current) text += "\n[[contact.pairs]]\n";
+    current = section;
+    text += line_of(key, scene);
+  });
+  return text;
+}
+
 DocumentValue document_value(const SceneValue& value) {
   return std::visit([](const auto& content) { return DocumentValue(content); }, value);
 }
@@ -38,6 +67,13 @@ Document document_of(const Scene& scene, const std::string& name) {
     document.entries.push_back(
         {std::string(key.section), std::string(key.name), document_value(value), toml_text(value), 0, ""});
   }
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    document.sections.push_back({pair_section(i), 0});
+  for_each_pair_key(scene, [&](const std::string& section, const SceneKey& key) {
+    const SceneValue value = key.get(scene);
+    document.entries.push_back(
+        {section, std::string(key.name), document_value(value), toml_text(value), 0, ""});
+  });
   return document;
 }
 
@@ -46,7 +82,10 @@ std::string write_scene(const Scene& scene) {
   std::string_view section;
   for (const SceneKey& key : scene_keys()) {
     if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
-    if (key.section != section) text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    if (key.section != section) {
+      if (section == "contact") text += pair_lines(scene);
+      text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
+    }
     section = key.section;
     text += line_of(key, scene);
   }

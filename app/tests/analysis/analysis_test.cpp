@@ -23,7 +23,8 @@ namespace solvers = wavebalance::solvers;
 TEST(MakeStructure, LoadAndContactAreAtTheTip) {
   const auto structure = make_structure(scene_of());
   EXPECT_EQ(structure.size(), 25);
-  EXPECT_EQ(structure.contact_dofs, std::vector<int>{24});
+  EXPECT_EQ(structure.contacts(), 1);
+  EXPECT_EQ(structure.selected_dof(0), 24);
   EXPECT_EQ(structure.load[24], 250e3);
   EXPECT_EQ(structure.load.head(24).norm(), 0.0);
   const double eps = std::numeric_limits<double>::epsilon();
@@ -229,7 +230,7 @@ TEST(Analyse, MotionFarFromTheLoadInAWeaklyCoupledStructureIsAccurate) {
   structure.stiffness = stiffness.sparseView();
   structure.damping = 0.5 * structure.mass;
   structure.load = Eigen::VectorXd::Unit(size, 5) * 1e18;
-  structure.contact_dofs = {0};
+  structure.contact_directions = wavebalance::solvers::contact_rows({0}, structure.size());
   const Response response = weighted_residual_response(scene, model);
   const std::complex<double> added(-omega * omega, 0.5 * omega);
   const Eigen::MatrixXcd stiff = stiffness + added * Eigen::MatrixXcd::Identity(size, size);

@@ -110,7 +110,7 @@ TEST(AdaptiveRigid, NamesWhatDoesNotFit) {
   EXPECT_THROW(solvers::cell_response(bar, 1e-3, {0, 64}), std::invalid_argument);
   EXPECT_THROW(solvers::uniform_cells(64, 7), std::invalid_argument);
   auto touching_twice = cases[0].structure();
-  touching_twice.contact_dofs = {23, 24};
+  touching_twice.contact_directions = solvers::contact_rows({23, 24}, touching_twice.size());
   solvers::CondensedProblem twice(solvers::TimePair(basis, basis, {.quadrature_points = 64}), touching_twice,
                                   cosine_load());
   twice.set_frequency(150.0);

@@ -197,7 +197,7 @@ TEST(AdaptiveWavelet, NamesWhatDoesNotFit) {
   EXPECT_THROW(multiscale(galerkin[0], 32, 64, 6), std::invalid_argument);
   EXPECT_THROW(basis.uniform(4), std::invalid_argument);
   auto touching_twice = cases[0].structure();
-  touching_twice.contact_dofs = {23, 24};
+  touching_twice.contact_directions = solvers::contact_rows({23, 24}, touching_twice.size());
   const auto how = options(galerkin[0], 32, 64, InnerProducts::exact);
   solvers::CondensedProblem twice(time_pair(galerkin[0], 32, how), touching_twice, cosine_load());
   twice.set_frequency(150.0);

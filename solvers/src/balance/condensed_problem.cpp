@@ -29,7 +29,7 @@ CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structu
       load_harmonics_(std::move(load_harmonics)),
       condensation_(structure, method),
       load_(pair_.load(load_harmonics_)),
-      columns_are_current_(structure.contact_dofs.size(), false),
+      columns_are_current_(static_cast<std::size_t>(structure.contacts()), false),
       work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {}
 
 CondensedProblem::CondensedProblem(CondensedProblem&&) noexcept = default;

@@ -29,7 +29,7 @@ Eigen::MatrixXd factor_mass(const LinearStructure& structure) {
 
 FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws laws, double frequency_hz)
     : laws_(std::move(laws)),
-      contact_dofs_(structure.contact_dofs),
+      directions_(structure.contact_directions),
       angular_frequency_(two_pi * frequency_hz) {
   structure.validate();
   laws_.require(structure.contacts());
@@ -41,15 +41,19 @@ FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws
     return detail::solve_lower_transposed(lower, detail::solve_lower(lower, right));
   };
   load_ = period * divide_by_mass(structure.load);
-  Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(n, structure.contacts());
-  for (int c = 0; c < structure.contacts(); ++c)
-    contacts(contact_dofs_[static_cast<std::size_t>(c)], c) = 1.0;
-  contact_inertia_ = period * divide_by_mass(contacts);
+  contact_inertia_ = period * divide_by_mass(Eigen::MatrixXd(directions_.transpose()));
   linear_ = RowMajorMatrix::Zero(2 * n, 2 * n);
   linear_.topRightCorner(n, n).diagonal().setConstant(two_pi);
   linear_.bottomLeftCorner(n, n) =
       -period / angular_frequency_ * divide_by_mass(Eigen::MatrixXd(structure.stiffness));
   linear_.bottomRightCorner(n, n) = -period * divide_by_mass(Eigen::MatrixXd(structure.damping));
+}
+
+double FirstOrderSystem::contact_displacement(int contact, std::span<const double> state) const {
+  double sum = 0.0;
+  for (ContactDirections::InnerIterator entry(directions_, contact); entry; ++entry)
+    sum += entry.value() * state[static_cast<std::size_t>(entry.col())];
+  return sum / angular_frequency_;
 }
 
 void FirstOrderSystem::derivative(double periods, std::span<const double> state,
@@ -60,11 +64,8 @@ void FirstOrderSystem::derivative(double periods, std::span<const double> state,
   rate.head(n) = two_pi * y.tail(n);
   rate.tail(n).noalias() = linear_.bottomRows(n) * y;
   rate.tail(n) += std::cos(two_pi * periods) * load_;
-  for (std::size_t c = 0; c < contact_dofs_.size(); ++c) {
-    const auto contact = static_cast<int>(c);
-    rate.tail(n) -=
-        laws_[contact].force(y[contact_dofs_[c]] / angular_frequency_) * contact_inertia_.col(contact);
-  }
+  for (int c = 0; c < contact_inertia_.cols(); ++c)
+    rate.tail(n) -= laws_[c].force(contact_displacement(c, state)) * contact_inertia_.col(c);
 }
 
 void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
@@ -73,11 +74,10 @@ void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
   Eigen::Map<RowMajorMatrix> by_state(state_derivative.data(), 2 * n, 2 * n);
   Eigen::Map<Eigen::VectorXd> by_time(time_derivative.data(), 2 * n);
   by_state = linear_;
-  for (std::size_t c = 0; c < contact_dofs_.size(); ++c) {
-    const auto contact = static_cast<int>(c);
-    const double u = state[static_cast<std::size_t>(contact_dofs_[c])] / angular_frequency_;
-    by_state.col(contact_dofs_[c]).tail(n) -=
-        laws_[contact].tangent(u) / angular_frequency_ * contact_inertia_.col(contact);
+  for (int c = 0; c < contact_inertia_.cols(); ++c) {
+    const double slope = laws_[c].tangent(contact_displacement(c, state)) / angular_frequency_;
+    for (ContactDirections::InnerIterator entry(directions_, c); entry; ++entry)
+      by_state.col(entry.col()).tail(n) -= slope * entry.value() * contact_inertia_.col(c);
   }
   by_time.head(n).setZero();
   by_time.tail(n) = -two_pi * std::sin(two_pi * periods) * load_;

@@ -228,7 +228,7 @@ ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law,
                      const ShootingOptions& options) {
   detail::require_positive("shoot", "frequency_hz", frequency_hz);
   structure.validate();
-  structure.single_contact("shoot");
+  structure.require_single_contact("shoot");
   options.validate(structure.size());
   return Shooting(structure, law, frequency_hz, options).run();
 }

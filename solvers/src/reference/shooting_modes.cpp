@@ -39,7 +39,9 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();
   projection = shapes.transpose() * structure.mass;
-  contact = shapes.row(structure.single_contact("shoot")).transpose();
+  structure.require_single_contact("shoot");
+  const Eigen::MatrixXd along = structure.contact_directions * shapes;
+  contact = along.row(0).transpose();
   const Eigen::VectorXd load = shapes.transpose() * structure.load;
   linear_response.resize(load.size());
   for (Eigen::Index k = 0; k < load.size(); ++k) {

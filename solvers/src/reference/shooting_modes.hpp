@@ -19,7 +19,7 @@ struct ModalStructure {
   Eigen::VectorXd damping;           // n, 1/s
   Eigen::MatrixXd shapes;            // n x n, columns are modes
   Eigen::MatrixXd projection;        // n x n, modal coordinates of a displacement, shapes^T M
-  Eigen::VectorXd contact;           // n, the modes at the contact degree of freedom
+  Eigen::VectorXd contact;           // n, the modes along the contact's direction
   Eigen::VectorXcd linear_response;  // n, q(t) = Re(linear_response exp(i omega t)) without contact
 };
 

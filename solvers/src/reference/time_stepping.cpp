@@ -178,9 +178,8 @@ class PeriodRecorder {
   }
 
  private:
-  template <class Rows>
-  Eigen::MatrixXd at_contacts(const Rows& of_all_dofs) const {
-    return of_all_dofs(system_.contact_dofs(), Eigen::all);
+  Eigen::MatrixXd at_contacts(const Eigen::Ref<const Eigen::MatrixXd>& of_all_dofs) const {
+    return system_.contact_directions() * of_all_dofs;
   }
 
   double time_of(Eigen::Index sample) const {

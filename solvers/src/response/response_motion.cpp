@@ -31,11 +31,9 @@ Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaw
   Eigen::VectorXd energy = 0.5 * (momentum.cwiseProduct(motion.velocity).colwise().sum() +
                                   elastic.cwiseProduct(motion.displacement).colwise().sum())
                                      .transpose();
-  for (int c = 0; c < structure.contacts(); ++c) {
-    const int dof = structure.contact_dofs[static_cast<std::size_t>(c)];
-    for (Eigen::Index l = 0; l < energy.size(); ++l)
-      energy[l] += laws[c].potential(motion.displacement(dof, l));
-  }
+  const Eigen::MatrixXd contacts = structure.contact_directions * motion.displacement;
+  for (int c = 0; c < structure.contacts(); ++c)
+    for (Eigen::Index l = 0; l < energy.size(); ++l) energy[l] += laws[c].potential(contacts(c, l));
   return energy;
 }
 

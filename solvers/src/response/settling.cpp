@@ -51,15 +51,13 @@ Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::V
   return responses;
 }
 
-// The contact-free motion of the contacts at steps k = 0..steps-1, C x steps.
-Eigen::MatrixXd contact_free_motion(const Eigen::MatrixXcd& responses, const std::vector<int>& contacts,
-                                    int steps) {
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(contacts.size()), steps);
+// The contact-free motion of the contacts at steps k = 0..steps-1, C x steps, from their responses.
+Eigen::MatrixXd contact_free_motion(const Eigen::MatrixXcd& responses, int steps) {
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(responses.rows(), steps);
   for (Eigen::Index n = 0; n < responses.cols(); ++n)
     for (int k = 0; k < steps; ++k) {
       const Complex phase = std::polar(1.0, 2.0 * std::numbers::pi * double(n) * k / steps);
-      for (std::size_t c = 0; c < contacts.size(); ++c)
-        motion(static_cast<Eigen::Index>(c), k) += (responses(contacts[c], n) * phase).real();
+      motion.col(k) += (responses.col(n) * phase).real();
     }
   return motion;
 }
@@ -85,7 +83,7 @@ class Settling {
     const LinearStructure& structure = problem.structure();
     const Eigen::VectorXcd harmonics = from_maximum(problem.load_harmonics(), start_);
     const Eigen::MatrixXcd responses = load_responses(structure, harmonics, problem.frequency());
-    free_ = contact_free_motion(responses, structure.contact_dofs, options.steps);
+    free_ = contact_free_motion(structure.contact_directions * responses, options.steps);
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(structure.size());
     for (Eigen::Index n = 0; n < responses.cols(); ++n)
       velocity -= 2.0 * std::numbers::pi * problem.frequency() * double(n) * responses.col(n).imag();

@@ -116,6 +116,12 @@ RoundingErrors relative_errors(const CondensedSpectrum& spectrum, const Eigen::V
 
 }  // namespace
 
+Eigen::VectorXd direction_lengths(const LinearStructure& structure) {
+  Eigen::VectorXd lengths(structure.contacts());
+  for (int c = 0; c < structure.contacts(); ++c) lengths[c] = structure.contact_directions.row(c).norm();
+  return lengths;
+}
+
 StiffnessScale::StiffnessScale(const LinearStructure& structure)
     : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
                largest_entry(structure.stiffness)} {}

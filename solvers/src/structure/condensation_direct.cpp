@@ -8,13 +8,14 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
                                                 const ImpedanceCoefficients& derivatives) {
   factorize(factors);
   const int count = contacts();
-  Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size(), count + 1);
-  for (int c = 0; c < count; ++c) right(structure_.contact_dofs[static_cast<std::size_t>(c)], c) = 1.0;
+  Eigen::MatrixXcd right(size(), count + 1);
+  right.leftCols(count) =
+      Eigen::MatrixXd(structure_.contact_directions.transpose()).cast<std::complex<double>>();
   right.col(count) = structure_.load;
   const Eigen::MatrixXcd response = solve(right);
-  for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), 1.0));
+  for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), lengths_[c]));
   const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(derivatives) * response);
-  const Eigen::MatrixXcd at_contacts = response(structure_.contact_dofs, Eigen::all);
+  const Eigen::MatrixXcd at_contacts = structure_.contact_directions * response;
   CondensedPoint point{at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count),
                        slope.col(count)};
   set_errors(factors, response, point);
@@ -22,8 +23,9 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
 }
 
 // A factorisation solves (Z + E) x = b with |E| <= eps A, A = |s2| |M| + |s1| |C| + |s0| |K|, so that the
-// entry c of x has the error |y|^T |E| |x| with y = Z^-1 e_c, which is a response to a unit [Skeel]. With y
-// in place of x the row sums of A are an upper bound by Cauchy and Schwarz.
+// part s^T x along a direction s has the error |y|^T |E| |x| with y = Z^-1 s, which is a response to a unit
+// force [Skeel]. It exceeds the rounding of the sum s^T x too, because |s| is at most A |y|. With y in place
+// of x the row sums of A are an upper bound by Cauchy and Schwarz.
 void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
                               CondensedPoint& point) const {
   const int count = contacts();
@@ -41,7 +43,7 @@ Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors,
                                        const Eigen::VectorXcd& contact_forces) {
   factorize(factors);
   Eigen::VectorXcd force = structure_.load * load_amplitude;
-  force(structure_.contact_dofs) -= contact_forces;
+  force -= structure_.contact_directions.transpose() * contact_forces;
   const Eigen::VectorXcd response = solve(force);
   scale_.require_regular(factors, response, safe_norm(force));
   return response;

@@ -14,7 +14,8 @@ class DirectMethod : public Condensation::Method {
       : structure_(structure),
         scale_(structure),
         magnitudes_{structure.mass.cwiseAbs(), structure.damping.cwiseAbs(), structure.stiffness.cwiseAbs()},
-        row_sums_(structure.size(), 3) {
+        row_sums_(structure.size(), 3),
+        lengths_(direction_lengths(structure)) {
     for (std::size_t d = 0; d < 3; ++d)
       row_sums_.col(Eigen::Index(d)) = magnitudes_[d] * Eigen::VectorXd::Ones(structure.size());
   }
@@ -34,7 +35,7 @@ class DirectMethod : public Condensation::Method {
   virtual void factorize(const ImpedanceCoefficients& factors) = 0;
   virtual Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const = 0;
 
-  // Errors of the responses to units at the contacts and, in the last column, to the load.
+  // Errors of the responses to unit forces of the contacts and, in the last column, to the load.
   void set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
                   CondensedPoint& point) const;
 
@@ -42,6 +43,7 @@ class DirectMethod : public Condensation::Method {
   StiffnessScale scale_;
   std::array<Eigen::SparseMatrix<double>, 3> magnitudes_;  // absolute values of M, C, K
   Eigen::MatrixX3d row_sums_;                              // of magnitudes_
+  Eigen::VectorXd lengths_;                                // of the contact directions
 };
 
 }  // namespace wavebalance::solvers

@@ -39,6 +39,9 @@ class Condensation::Method {
 /// rounding.
 constexpr double rounding_unit = 4.0 * std::numeric_limits<double>::epsilon();
 
+/// The 2-norms of the contact directions, C: those of their unit forces.
+Eigen::VectorXd direction_lengths(const LinearStructure& structure);
+
 /// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure
 /// they cancel in Z itself.
 class StiffnessScale {

@@ -85,7 +85,7 @@ class ModalMethod final : public Condensation::Method {
  public:
   ModalMethod(const LinearStructure& structure, Modes modes)
       : modes_(std::move(modes)),
-        contacts_(modes_.shapes(structure.contact_dofs, Eigen::all)),
+        contacts_(structure.contact_directions * modes_.shapes),
         load_(modes_.shapes.transpose() * structure.load),
         sizes_(modes_.shapes.colwise().squaredNorm().transpose()),
         size_squares_(sizes_.square()),
@@ -93,7 +93,10 @@ class ModalMethod final : public Condensation::Method {
         terms_(2 * contacts_.rows(), load_.size()),
         scale_(structure) {
     squares_ << contacts_.cwiseAbs2(), load_.cwiseAbs2().transpose();
-    terms_ << squares_.topRows(contacts_.rows()), contacts_.cwiseAbs() * load_.cwiseAbs().asDiagonal();
+    // Before the terms of S shapes cancel: bodies that move in unison hardly move against each other.
+    const ContactDirections magnitudes = structure.contact_directions.cwiseAbs();
+    const Eigen::MatrixXd summed = magnitudes * modes_.shapes.cwiseAbs();
+    terms_ << contacts_.cwiseAbs().cwiseProduct(summed), summed * load_.cwiseAbs().asDiagonal();
     terms_ *= rounding_unit;
   }
 
@@ -147,8 +150,8 @@ class ModalMethod final : public Condensation::Method {
     return inverse;
   }
 
-  // Rounding of the sums, eps sum_j |s_j w_j l_j|, and of the modes: with E the errors of their diagonal
-  // form, s^T W E W l with W = diag(w), at most ||W s|| ||E|| ||W l||.
+  // Rounding of the sums, eps sum_j |s_j w_j l_j|, of s_j itself, and of the modes: with E the errors of
+  // their diagonal form, s^T W E W l with W = diag(w), at most ||W s|| ||E|| ||W l||.
   void set_errors(const ImpedanceCoefficients& factors, CondensedPoint& point) {
     const Eigen::Index count = contacts_.rows();
     const double error = std::abs(factors[0]) * modes_.errors[0] + std::abs(factors[1]) * modes_.errors[1] +
@@ -162,12 +165,12 @@ class ModalMethod final : public Condensation::Method {
   }
 
   Modes modes_;
-  Eigen::MatrixXd contacts_;  // contacts x n, modes at the contacts
+  Eigen::MatrixXd contacts_;  // contacts x n, modes along the contact directions
   Eigen::VectorXd load_;      // n, modal load
   Eigen::ArrayXd sizes_;      // n, squared norms of the modes
   Eigen::VectorXd size_squares_;
   Eigen::MatrixXd squares_;  // contacts + 1 x n, of contacts_ and of load_
-  Eigen::MatrixXd terms_;    // 2 contacts x n, rounding_unit times the squares and |contacts_ load_|
+  Eigen::MatrixXd terms_;    // 2 contacts x n, rounding errors of contacts_^2 and of contacts_ load_
   StiffnessScale scale_;
   Eigen::MatrixX2d moduli_{load_.size(), 2};  // work space: squares of |w_j| and |w_j|
   Eigen::VectorXd norms_, rounding_;          // work space

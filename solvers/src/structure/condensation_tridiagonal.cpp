@@ -39,19 +39,20 @@ class TridiagonalMethod final : public Condensation::Method {
         damping_(structure.damping),
         stiffness_(structure.stiffness),
         load_(structure.load),
-        contacts_(structure.contact_dofs),
-        single_(contacts_.size() == 1 ? contacts_.front() : -1),
+        directions_(structure.contact_directions),
+        lengths_(direction_lengths(structure)),
+        single_(structure.contacts() == 1 ? structure.selected_dof(0) : -1),
         load_at_contact_(single_ >= 0 && load_.cwiseAbs().sum() == std::abs(load_[single_])),
         diagonal_(load_.size()),
         off_(load_.size()),
         inverse_pivot_(load_.size()),
         diagonal_error_(load_.size()),
         off_error_(load_.size()),
-        units_(contacts_.size(), Eigen::VectorXcd(load_.size())),
+        units_(static_cast<std::size_t>(structure.contacts()), Eigen::VectorXcd(load_.size())),
         loaded_(load_.size()) {}
 
   int size() const override { return static_cast<int>(load_.size()); }
-  int contacts() const override { return static_cast<int>(contacts_.size()); }
+  int contacts() const override { return static_cast<int>(units_.size()); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives) override {
@@ -70,9 +71,9 @@ class TridiagonalMethod final : public Condensation::Method {
     }
     loaded_ = load_.cast<Complex>();
     solve(loaded_);
-    point.load_response = loaded_(contacts_);
+    point.load_response = directions_ * loaded_;
     point.load_response_slope.resize(contacts());
-    for (std::size_t c = 0; c < contacts_.size(); ++c)
+    for (std::size_t c = 0; c < units_.size(); ++c)
       point.load_response_slope[Eigen::Index(c)] = -product(units_[c], derivatives, loaded_);
     set_load_error(point);
     return point;
@@ -97,7 +98,7 @@ class TridiagonalMethod final : public Condensation::Method {
                            const Eigen::VectorXcd& contact_forces) override {
     if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_forces);
     Eigen::VectorXcd response = load_ * load_amplitude;
-    response(contacts_) -= contact_forces;
+    response -= directions_.transpose() * contact_forces;
     const double force = safe_norm(response);
     solve(response);
     scale_.require_regular(factors, response, force);
@@ -156,28 +157,37 @@ class TridiagonalMethod final : public Condensation::Method {
   void set_load_error(CondensedPoint& point) const {
     const Eigen::VectorXd loaded = magnitudes(loaded_);
     point.load_response_error.resize(contacts());
-    for (std::size_t c = 0; c < contacts_.size(); ++c)
+    for (std::size_t c = 0; c < units_.size(); ++c)
       point.load_response_error[Eigen::Index(c)] =
           rounding_unit * perturbation(magnitudes(units_[c]), loaded);
   }
 
-  // Computes the columns of Z^-1 at the contacts, in units_.
+  // The part of x along a contact direction.
+  Complex along(Eigen::Index contact, const Eigen::VectorXcd& x) const {
+    Complex sum = 0.0;
+    for (ContactDirections::InnerIterator entry(directions_, contact); entry; ++entry)
+      sum += entry.value() * x[entry.col()];
+    return sum;
+  }
+
+  // Computes the columns of Z^-1 S^T, in units_.
   void set_compliance(const ImpedanceCoefficients& factors, const ImpedanceCoefficients& derivatives,
                       CondensedPoint& point) {
     point.compliance.resize(contacts(), contacts());
     point.compliance_slope.resize(contacts(), contacts());
     point.compliance_error.resize(contacts());
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      units_[c].setZero();
-      units_[c][contacts_[c]] = 1.0;
-      solve(units_[c]);
-      record(scale_.require_regular(factors, units_[c], 1.0));
+    for (std::size_t c = 0; c < units_.size(); ++c) {
       const auto column = Eigen::Index(c);
+      units_[c].setZero();
+      for (ContactDirections::InnerIterator entry(directions_, column); entry; ++entry)
+        units_[c][entry.col()] += entry.value();
+      solve(units_[c]);
+      record(scale_.require_regular(factors, units_[c], lengths_[column]));
       const Eigen::VectorXd unit = magnitudes(units_[c]);
       point.compliance_error[column] = rounding_unit * perturbation(unit, unit);
       for (std::size_t d = 0; d <= c; ++d) {
         const auto row = Eigen::Index(d);
-        point.compliance(row, column) = point.compliance(column, row) = units_[c][contacts_[d]];
+        point.compliance(row, column) = point.compliance(column, row) = along(row, units_[c]);
         point.compliance_slope(row, column) = point.compliance_slope(column, row) =
             -product(units_[d], derivatives, units_[c]);
       }
@@ -217,12 +227,13 @@ class TridiagonalMethod final : public Condensation::Method {
   std::unique_ptr<Condensation::Method> pivoting_;
   Bands mass_, damping_, stiffness_;
   Eigen::VectorXd load_;
-  std::vector<int> contacts_;
-  int single_;  // the contact when there is one, or else -1
+  ContactDirections directions_;
+  Eigen::VectorXd lengths_;  // of the directions
+  int single_;               // the degree of freedom that the only contact selects, or else -1
   bool load_at_contact_;
   Eigen::VectorXcd diagonal_, off_, inverse_pivot_;
   Eigen::VectorXd diagonal_error_, off_error_;  // |L| |D| |L^T| and the magnitudes of the terms of Z
-  std::vector<Eigen::VectorXcd> units_;         // one column per contact
+  std::vector<Eigen::VectorXcd> units_;         // Z^-1 S^T, one column per contact
   Eigen::VectorXcd loaded_;
 };
 

@@ -1,5 +1,7 @@
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -14,18 +16,24 @@ void require_square(const Eigen::SparseMatrix<double>& matrix, Eigen::Index size
                               " entries, so it must be square of that size");
 }
 
-void require_contacts(const std::vector<int>& dofs, int size) {
-  if (dofs.empty())
-    throw std::invalid_argument("LinearStructure: contact_dofs is empty; at least one entry is needed");
-  std::vector<bool> taken(static_cast<std::size_t>(size), false);
-  for (std::size_t c = 0; c < dofs.size(); ++c) {
-    const std::string name =
-        "LinearStructure: contact_dofs[" + std::to_string(c) + "] is " + std::to_string(dofs[c]);
-    if (dofs[c] < 0 || dofs[c] >= size)
-      throw std::invalid_argument(name + "; it must be in 0.." + std::to_string(size - 1));
-    if (taken[static_cast<std::size_t>(dofs[c])])
-      throw std::invalid_argument(name + " again; each contact must be another degree of freedom");
-    taken[static_cast<std::size_t>(dofs[c])] = true;
+void require_directions(const ContactDirections& directions, Eigen::Index size) {
+  const std::string name = "LinearStructure: contact_directions";
+  if (directions.rows() < 1 || directions.cols() != size)
+    throw std::invalid_argument(name + " is " + std::to_string(directions.rows()) + " x " +
+                                std::to_string(directions.cols()) +
+                                "; it must have at least one row, and one column for each of " +
+                                std::to_string(size) + " degrees of freedom");
+  for (int c = 0; c < directions.outerSize(); ++c) {
+    double largest = 0.0;
+    for (ContactDirections::InnerIterator entry(directions, c); entry; ++entry) {
+      if (!std::isfinite(entry.value()))
+        throw std::invalid_argument(name + " has an entry in row " + std::to_string(c) +
+                                    " that is not finite");
+      largest = std::max(largest, std::abs(entry.value()));
+    }
+    if (largest == 0.0)
+      throw std::invalid_argument(name + " has a zero row " + std::to_string(c) +
+                                  "; each contact must have a direction");
   }
 }
 
@@ -37,13 +45,39 @@ void LinearStructure::validate() const {
   require_square(mass, load.size(), "mass");
   require_square(damping, load.size(), "damping");
   require_square(stiffness, load.size(), "stiffness");
-  require_contacts(contact_dofs, size());
+  require_directions(contact_directions, load.size());
 }
 
-int LinearStructure::single_contact(const char* caller) const {
-  if (contacts() == 1) return contact_dofs.front();
-  throw std::invalid_argument(std::string(caller) + ": contact_dofs has " + std::to_string(contacts()) +
-                              " entries; this solver takes exactly 1");
+int LinearStructure::selected_dof(int contact) const {
+  int dof = -1;
+  for (ContactDirections::InnerIterator entry(contact_directions, contact); entry; ++entry) {
+    if (entry.value() == 0.0) continue;
+    if (dof >= 0 || entry.value() != 1.0) return -1;
+    dof = static_cast<int>(entry.col());
+  }
+  return dof;
+}
+
+void LinearStructure::require_single_contact(const char* caller) const {
+  if (contacts() == 1) return;
+  throw std::invalid_argument(std::string(caller) + ": contact_directions has " + std::to_string(contacts()) +
+                              " rows; this solver takes exactly 1");
+}
+
+ContactDirections contact_rows(const std::vector<int>& dofs, int size) {
+  std::vector<bool> taken(static_cast<std::size_t>(std::max(size, 0)), false);
+  ContactDirections directions(static_cast<Eigen::Index>(dofs.size()), size);
+  for (std::size_t c = 0; c < dofs.size(); ++c) {
+    const std::string name = "contact_rows: dofs[" + std::to_string(c) + "] is " + std::to_string(dofs[c]);
+    if (dofs[c] < 0 || dofs[c] >= size)
+      throw std::invalid_argument(name + "; it must be in 0.." + std::to_string(size - 1));
+    if (taken[static_cast<std::size_t>(dofs[c])])
+      throw std::invalid_argument(name + " again; each contact must be another degree of freedom");
+    taken[static_cast<std::size_t>(dofs[c])] = true;
+    directions.insert(static_cast<Eigen::Index>(c), dofs[c]) = 1.0;
+  }
+  directions.makeCompressed();
+  return directions;
 }
 
 }  // namespace wavebalance::solvers

@@ -55,9 +55,7 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   flow.projection_ = flow.shapes_.transpose() * mass;
   const Eigen::VectorXd stiffness = eigen->values.head(m);
   flow.sigma_ = stiffness.cwiseMax(0.0).cwiseSqrt().cwiseMax(2.0 * std::numbers::pi * frequency);
-  Eigen::MatrixXd contact(contacts, all);
-  for (Eigen::Index c = 0; c < contacts; ++c)
-    contact.row(c) = eigen->vectors.row(structure.contact_dofs[static_cast<std::size_t>(c)]);
+  const Eigen::MatrixXd contact = structure.contact_directions * eigen->vectors;
   flow.contact_ = contact.leftCols(m);
   const Eigen::MatrixXd damping = flow.shapes_.transpose() * (structure.damping * flow.shapes_);
   // Van Loan's block matrix for a force that is linear in time.

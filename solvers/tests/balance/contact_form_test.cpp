@@ -204,11 +204,8 @@ TEST(ContactForm, RefusesWhatItCannotSolve) {
 TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
   const double k = 1e5;
   const Eigen::Matrix3d stiffness{{2 * k, -k, 0}, {-k, 2 * k, -k}, {0, -k, k}};
-  LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(),
-                        1e-4 * stiffness.sparseView(),
-                        stiffness.sparseView(),
-                        Eigen::Vector3d(0, 0, 50),
-                        {2}};
+  LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(), 1e-4 * stiffness.sparseView(),
+                        stiffness.sparseView(), Eigen::Vector3d(0, 0, 50), contact_rows({2}, 3)};
   CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
   const std::vector<AnyContactLaw> laws{TwoSided{}, TwoSided{1e6, -1e-3}, TwoSided{1e4, 1e-3},
                                         Cubic{},    Cubic{1e11, -1.0},    Cubic{1e11, 1e-3}};

@@ -86,7 +86,7 @@ class CoarseSpaceTest : public ::testing::Test {
   }
   LinearStructure structure() {
     LinearStructure chain = testing::random_chain(5, generator_);
-    chain.contact_dofs = {0, 4};
+    chain.contact_directions = contact_rows({0, 4}, chain.size());
     return chain;
   }
   Eigen::MatrixXd synthesis() {

@@ -18,11 +18,8 @@ using testing::LinearContact;
 LinearStructure three_masses(double load) {
   const Eigen::Matrix3d stiffness{{2e6, -1e6, 0.0}, {-1e6, 2e6, -1e6}, {0.0, -1e6, 1e6}};
   const Eigen::Matrix3d mass = 2.0 * Eigen::Matrix3d::Identity();
-  LinearStructure chain{mass.sparseView(),
-                        Eigen::Matrix3d(4.0 * mass + 1e-5 * stiffness).sparseView(),
-                        stiffness.sparseView(),
-                        Eigen::Vector3d(0.0, 0.0, load),
-                        {1, 2}};
+  LinearStructure chain{mass.sparseView(), Eigen::Matrix3d(4.0 * mass + 1e-5 * stiffness).sparseView(),
+                        stiffness.sparseView(), Eigen::Vector3d(0.0, 0.0, load), contact_rows({1, 2}, 3)};
   return chain;
 }
 

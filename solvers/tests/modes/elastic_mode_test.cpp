@@ -140,7 +140,7 @@ LinearStructure structure_of(const UnitRod& rod) {
   structure.stiffness = rod.stiffness.sparseView();
   structure.damping.resize(size, size);
   structure.load = Eigen::VectorXd::Zero(size);
-  structure.contact_dofs = {static_cast<int>(size) - 1};
+  structure.contact_directions = contact_rows({static_cast<int>(size) - 1}, structure.size());
   return structure;
 }
 

@@ -42,10 +42,10 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> rate(const LinearStructure& bar, double
     for (int j = 0; j < n; ++j)
       force[i] = force[i] - stiffness(i, j) * displacement[j] - damping(i, j) * state[n + j];
   }
-  const Scalar tip = displacement[bar.contact_dofs[0]];
+  const Scalar tip = displacement[bar.selected_dof(0)];
   if (tip > law.start)
-    force[bar.contact_dofs[0]] =
-        force[bar.contact_dofs[0]] - law.constant * (exp(law.exponent * (tip - law.start)) - 1.0);
+    force[bar.selected_dof(0)] =
+        force[bar.selected_dof(0)] - law.constant * (exp(law.exponent * (tip - law.start)) - 1.0);
   for (int i = 0; i < n; ++i) {
     result[i] = state[n + i] * (omega / frequency);
     result[n + i] = Scalar(0.0);
@@ -60,7 +60,7 @@ Eigen::VectorXd random_state(const LinearStructure& bar, double tip) {
   const double omega = 2.0 * std::numbers::pi * frequency;
   Eigen::VectorXd state(2 * n);
   for (double& value : state) value = 1e-3 * *rc::gen::inRange(-1500, 1500);
-  state[bar.contact_dofs[0]] = omega * tip;
+  state[bar.selected_dof(0)] = omega * tip;
   return state;
 }
 

@@ -177,7 +177,7 @@ TEST(TimeStepping, RejectsOptionsOutOfRangeAndNamesThem) {
   expect("initial_displacement has 2 entries", [](auto& o) { o.initial_displacement.setZero(2); });
   expect("initial_velocity has an entry", [](auto& o) { o.initial_velocity.setConstant(3, nan); });
   LinearStructure misfit = bar;
-  misfit.contact_dofs = {3};
+  misfit.contact_directions = contact_rows({3}, 4);
   EXPECT_THROW(integrate_to_periodic(misfit, AnyContactLaw(), 150.0), std::invalid_argument);
 }
 

@@ -25,8 +25,8 @@ struct StoppedOscillators {
     structure.mass = structure.stiffness = identity.sparseView();
     structure.damping = 0.04 * structure.mass;
     structure.load = Eigen::VectorXd::Constant(count, 0.1);
-    structure.contact_dofs.clear();
-    for (int c = 0; c < count; ++c) structure.contact_dofs.push_back(c);
+    structure.contact_directions.resize(count, count);
+    structure.contact_directions.setIdentity();
     CondensedProblem problem(std::move(pair), structure, testing::cosine_load());
     FrequencySweepOptions options;
     options.from = from;
@@ -168,7 +168,7 @@ LinearStructure reduced_structure() {
   structure.stiffness = stiffness.sparseView();
   structure.damping = (0.005 * stiffness).sparseView();
   structure.load = Eigen::VectorXd::Unit(size, contacts);
-  structure.contact_dofs = {0, 1, 2, 3, 4, 5};
+  structure.contact_directions = contact_rows({0, 1, 2, 3, 4, 5}, structure.size());
   return structure;
 }
 
@@ -221,7 +221,7 @@ TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {
   ring.mass = Eigen::MatrixXd::Identity(sectors, sectors).sparseView();
   ring.damping = 0.04 * ring.mass;
   ring.load = Eigen::VectorXd::Constant(sectors, 0.1);
-  ring.contact_dofs = {0, 1, 2, 3};
+  ring.contact_directions = contact_rows({0, 1, 2, 3}, ring.size());
   const TimePair pair = testing::fourier_pair(7, 32);
   CondensedProblem problem(pair, ring, testing::cosine_load());
   FrequencySweepOptions options;

@@ -33,6 +33,7 @@ LinearStructure shaken_beam() {
   const Eigen::Vector2d damping = 2.0 * ratio * modes.eigenvalues().cwiseSqrt();
   beam.damping = Eigen::MatrixXd(shapes * damping.asDiagonal() * shapes.transpose()).sparseView();
   beam.load = -inertia * Eigen::Vector2d(210.0, -35.0 * length);
+  beam.contact_directions = contact_rows({0}, 2);
   return beam;
 }
 

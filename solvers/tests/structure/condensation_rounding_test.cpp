@@ -24,9 +24,10 @@ LongMatrix by_long_double(const LinearStructure& s, const ImpedanceCoefficients&
                                LongComplex(factors[1]) * precise(s.damping) +
                                LongComplex(factors[2]) * precise(s.stiffness);
   LongMatrix right = LongMatrix::Zero(s.size(), s.contacts() + 1);
-  for (int c = 0; c < s.contacts(); ++c) right(s.contact_dofs[std::size_t(c)], c) = 1.0L;
+  const LongMatrix directions = precise(s.contact_directions);
+  right.leftCols(s.contacts()) = directions.transpose();
   right.col(s.contacts()) = s.load.cast<LongComplex>();
-  return LongMatrix(stiffness.partialPivLu().solve(right))(s.contact_dofs, Eigen::all);
+  return directions * stiffness.partialPivLu().solve(right);
 }
 
 // Equal oscillators of 10 kN/m and 1 kg; each is coupled to the next by a spring of that share. The load acts
@@ -46,7 +47,7 @@ LinearStructure weakly_coupled(int size, double share, int loaded, bool ring) {
   s.mass = Eigen::MatrixXd::Identity(size, size).sparseView();
   s.damping = 0.02 * s.mass + 1e-4 * s.stiffness;
   s.load = Eigen::VectorXd::Unit(size, loaded);
-  s.contact_dofs = {0};
+  s.contact_directions = contact_rows({0}, s.size());
   return s;
 }
 
@@ -109,7 +110,7 @@ TEST(CondensationRounding, StatesAtLeastTheErrorThatItMakes) {
   for (const double share : {1e-1, 1e-2, 1e-3, 1e-4})
     for (const int loaded : {0, 2, 5, 9}) {
       LinearStructure chain = weakly_coupled(10, share, loaded, false);
-      chain.contact_dofs = {0, 3};
+      chain.contact_directions = contact_rows({0, 3}, chain.size());
       const LinearStructure other = shuffled(chain, generator);
       for (const CondensationMethod method : all_methods)
         for (const int k : {0, 1, 2, 30}) {
@@ -118,6 +119,29 @@ TEST(CondensationRounding, StatesAtLeastTheErrorThatItMakes) {
           TrueErrors(taken, condensation, at_harmonic(k));
         }
     }
+}
+
+// Neighbours that a stiff spring makes move alike: of their relative motion the digits are lost in the sums.
+TEST(CondensationRounding, HoldsForRelativeMotionsOfBodiesThatMoveAlike) {
+  std::mt19937 generator(12);
+  for (const double share : {1e-2, 1e2, 1e6}) {
+    LinearStructure chain = weakly_coupled(10, share, 0, false);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, 10);
+    for (int c = 0; c < 3; ++c) {
+      rows(c, 3 * c) = 1.0;
+      rows(c, 3 * c + 1) = -1.0;
+    }
+    rows.row(1) *= -0.3;
+    chain.contact_directions = rows.sparseView();
+    const LinearStructure other = shuffled(chain, generator);
+    for (const CondensationMethod method : all_methods)
+      for (const int k : {0, 1, 2, 30}) {
+        SCOPED_TRACE(::testing::Message() << "share " << share << ", method " << int(method) << ", k " << k);
+        const LinearStructure& taken = method == CondensationMethod::tridiagonal ? chain : other;
+        Condensation condensation(taken, method);
+        TrueErrors(taken, condensation, at_harmonic(k));
+      }
+  }
 }
 
 // Rows before the contact at a natural frequency of their own: pivots of the recursion lose up to eight
@@ -165,7 +189,7 @@ TEST(CondensationRounding, ReplacesTheModalSumWhereItLosesTheContactFreeResponse
 // The modal sum also takes the coupling of the damping off its diagonal as zero, up to 1e-8.
 TEST(CondensationRounding, ErrorsOfTheModalSumHoldTheDampingThatItLeavesOut) {
   LinearStructure chain = weakly_coupled(6, 1e-3, 0, true);
-  chain.contact_dofs = {2};
+  chain.contact_directions = contact_rows({2}, chain.size());
   chain.damping.coeffRef(0, 0) *= 1.0 + 1e-9;
   Condensation modal(chain, CondensationMethod::modal);
   const TrueErrors errors(chain, modal, at_harmonic(1, 100.0));

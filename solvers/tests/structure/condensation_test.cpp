@@ -32,10 +32,11 @@ Dense by_dense_lu(const LinearStructure& s, const ImpedanceCoefficients& factors
   const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
   const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
   const Eigen::VectorXcd forces = s.load.cast<Complex>();
-  const auto& c = s.contact_dofs;
-  Eigen::VectorXcd all = forces * load;
-  all(c) -= contact;
-  return {{inverse(c, c), (inverse * forces)(c), slope(c, c), (slope * forces)(c)}, inverse * all};
+  const Eigen::MatrixXcd rows = Eigen::MatrixXd(s.contact_directions).cast<Complex>();
+  const Eigen::VectorXcd all = forces * load - rows.transpose() * contact;
+  return {{rows * inverse * rows.transpose(), rows * inverse * forces, rows * slope * rows.transpose(),
+           rows * slope * forces},
+          inverse * all};
 }
 
 void expect_equal(const CondensedPoint& a, const CondensedPoint& b, double tolerance) {
@@ -82,7 +83,7 @@ TEST(Condensation, StiffnessesBeyondTheRangeOfSquaresAreOnlyAnotherUnit) {
   std::mt19937 generator(7);
   LinearStructure chain = testing::random_chain(12, generator);
   chain.load = Eigen::VectorXd::Unit(12, 11) * 2.0;
-  chain.contact_dofs = {11};
+  chain.contact_directions = contact_rows({11}, chain.size());
   const ImpedanceCoefficients factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
   const ImpedanceCoefficients rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
   const Eigen::VectorXcd force = Eigen::VectorXcd::Constant(1, Complex(0.3, -0.4));
@@ -113,8 +114,9 @@ TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
     for (const int contacts : {1, 2, 3}) {
       if (contacts > size) continue;
       LinearStructure chain = testing::random_chain(size, generator);
-      chain.contact_dofs = std::vector<int>{size / 2, 0, size - 1};
-      chain.contact_dofs.resize(static_cast<std::size_t>(contacts));
+      std::vector<int> dofs{size / 2, 0, size - 1};
+      dofs.resize(static_cast<std::size_t>(contacts));
+      chain.contact_directions = contact_rows(dofs, size);
       const Eigen::VectorXcd force = testing::random_vector(contacts, generator) * Complex(0.3, -0.4);
       const Dense expected = by_dense_lu(chain, factors, rates, Complex(1.0, 2.0), force);
       for (const CondensationMethod method : all_methods) {
@@ -126,6 +128,33 @@ TEST(Condensation, EveryMethodEqualsTheDenseInverse) {
         EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
       }
     }
+}
+
+// Relative motion, a weighted direction, both sides of one direction, the tip with another factor than 1.
+TEST(Condensation, EveryMethodTakesAnyDirections) {
+  std::mt19937 generator(3);
+  const ImpedanceCoefficients factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+  const ImpedanceCoefficients rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+  LinearStructure chain = testing::random_chain(9, generator);
+  Eigen::MatrixXd pair = Eigen::MatrixXd::Zero(1, 9), tip = pair, sides(4, 9);
+  pair(0, 2) = 1.0;
+  pair(0, 7) = -1.0;
+  tip(0, 8) = -2.5;
+  const Eigen::MatrixXd random = testing::random_directions(2, 9, generator);
+  sides << pair, -pair, random;
+  for (const Eigen::MatrixXd& rows : {pair, tip, random, sides}) {
+    chain.contact_directions = rows.sparseView();
+    const auto contacts = static_cast<int>(rows.rows());
+    const Eigen::VectorXcd force = testing::random_vector(contacts, generator) * Complex(0.3, -0.4);
+    const Dense expected = by_dense_lu(chain, factors, rates, Complex(1.0, 2.0), force);
+    for (const CondensationMethod method : all_methods) {
+      Condensation condensation(chain, method);
+      ASSERT_EQ(condensation.contacts(), contacts);
+      expect_equal(condensation.dynamic_compliance(factors, rates), expected.point, 1e-11);
+      const auto recovered = condensation.recover(factors, Complex(1.0, 2.0), force);
+      EXPECT_LE((recovered - expected.recovered).norm(), 1e-11 * expected.recovered.norm());
+    }
+  }
 }
 
 TEST(Condensation, TakesTheFastestMethodThatTheMatricesAdmit) {
@@ -151,12 +180,12 @@ TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
   const ImpedanceCoefficients factors{Complex(-1.7, 0.0), Complex(0.0, 1.3), 1.0},
       rates{Complex(-2.6), 1.0, 0.0};
   LinearStructure massless = testing::random_chain(9, generator);
-  massless.contact_dofs = {8, 2};
+  massless.contact_directions = contact_rows({8, 2}, massless.size());
   massless.mass.row(8) *= 0.0;
   massless.mass.col(8) *= 0.0;
   massless.damping = 0.01 * massless.stiffness;
   LinearStructure loose = testing::random_chain(9, generator);
-  loose.contact_dofs = {8, 2};
+  loose.contact_directions = contact_rows({8, 2}, loose.size());
   loose.stiffness.coeffRef(0, 0) = -loose.stiffness.coeff(1, 0);
   loose.damping = 0.02 * loose.mass;
   for (const LinearStructure& structure : {massless, loose}) {
@@ -184,7 +213,10 @@ TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
 TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
   std::mt19937 generator(4);
   const LinearStructure chain = testing::random_chain(7, generator);
-  for (const LinearStructure& structure : {chain, shuffled(chain, generator), testing::jl14_bar(25, 1e-4)}) {
+  LinearStructure other_side = testing::jl14_bar(25, 1e-4);
+  other_side.contact_directions *= -1.0;
+  for (const LinearStructure& structure :
+       {chain, shuffled(chain, generator), testing::jl14_bar(25, 1e-4), other_side}) {
     const double unit = structure.stiffness.coeff(0, 0) / structure.mass.coeff(0, 0);
     StiffnessSpectrum factors, rates;
     for (std::size_t d = 0; d < 3; ++d) {
@@ -246,7 +278,7 @@ TEST(Condensation, VanishingLeadingPivotIsNotSingular) {
   s.mass = mass.sparseView();
   s.damping = Eigen::SparseMatrix<double>(2, 2);
   s.load = Eigen::Vector2d(3.0, 0.0);
-  s.contact_dofs = {1};
+  s.contact_directions = contact_rows({1}, s.size());
   Condensation condensation(s);
   const CondensedPoint point = condensation.dynamic_compliance({-1.0, 0.0, 1.0}, {0.0, 0.0, 1.0});
   EXPECT_NEAR(point.compliance.norm(), 0.0, 1e-14);
@@ -292,10 +324,8 @@ TEST(Condensation, RefusesMatricesThatDoNotFit) {
     EXPECT_NE(std::string(error.what()).find("damping is 2 x 2; the load has 3"), std::string::npos);
   }
   bar = testing::jl14_bar(3, 1e-4);
-  for (const std::vector<int>& contacts : {std::vector<int>{3}, {-1}, {}, {1, 0, 1}}) {
-    bar.contact_dofs = contacts;
-    EXPECT_THROW(Condensation{bar}, std::invalid_argument) << contacts.size();
-  }
+  bar.contact_directions = contact_rows({3}, 4);
+  EXPECT_THROW(Condensation{bar}, std::invalid_argument);
   EXPECT_THROW(Condensation{LinearStructure{}}, std::invalid_argument);
 }
 

@@ -18,8 +18,31 @@ inline LinearStructure shuffled(const LinearStructure& structure, std::mt19937& 
   out.damping = structure.damping.twistedBy(order);
   out.stiffness = structure.stiffness.twistedBy(order);
   out.load = order * structure.load;
-  for (int& dof : out.contact_dofs) dof = indices[dof];
+  out.contact_directions = structure.contact_directions * order.transpose();
   return out;
+}
+
+// The same structure in other coordinates: x = turn y, for any invertible n x n matrix.
+inline LinearStructure turned(const LinearStructure& structure, const Eigen::MatrixXd& turn) {
+  const auto congruent = [&](const Eigen::SparseMatrix<double>& matrix) -> Eigen::SparseMatrix<double> {
+    const Eigen::MatrixXd product = turn.transpose() * (matrix * turn);
+    return Eigen::MatrixXd(0.5 * (product + product.transpose())).sparseView();
+  };
+  LinearStructure out;
+  out.mass = congruent(structure.mass);
+  out.damping = congruent(structure.damping);
+  out.stiffness = congruent(structure.stiffness);
+  out.load = turn.transpose() * structure.load;
+  out.contact_directions = Eigen::MatrixXd(structure.contact_directions * turn).sparseView();
+  return out;
+}
+
+// Directions of unit size with all entries, from a normal distribution.
+inline ContactDirections random_directions(int contacts, int size, std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::NullaryExpr(contacts, size, [&] { return normal(generator); });
+  rows.rowwise().normalize();
+  return rows.sparseView();
 }
 
 inline constexpr CondensationMethod all_methods[] = {CondensationMethod::tridiagonal,

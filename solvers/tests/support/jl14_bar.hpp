@@ -33,7 +33,7 @@ inline LinearStructure jl14_bar(int elements, double beta) {
   bar.damping = beta * bar.stiffness;
   bar.load = Eigen::VectorXd::Zero(elements);
   bar.load[elements - 1] = 250e3;
-  bar.contact_dofs = {elements - 1};
+  bar.contact_directions = contact_rows({elements - 1}, bar.size());
   return bar;
 }
 

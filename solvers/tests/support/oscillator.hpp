@@ -24,6 +24,7 @@ struct Oscillator {
     one.damping.insert(0, 0) = damping;
     one.stiffness.insert(0, 0) = stiffness;
     one.load = Eigen::VectorXd::Constant(1, load);
+    one.contact_directions = contact_rows({0}, 1);
     return one;
   }
 

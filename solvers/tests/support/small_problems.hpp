@@ -67,7 +67,7 @@ inline LinearStructure random_chain(int size, std::mt19937& generator) {
   chain.stiffness = stiffness.sparseView();
   chain.damping = 0.05 * chain.stiffness + 0.02 * chain.mass;
   chain.load = Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
-  chain.contact_dofs = {size / 2};
+  chain.contact_directions = contact_rows({size / 2}, chain.size());
   return chain;
 }
 

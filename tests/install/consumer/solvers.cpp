@@ -10,6 +10,7 @@ int main() {
   structure.damping.insert(0, 0) = 1e-6;
   structure.stiffness.insert(0, 0) = 1.0;
   structure.load = Eigen::VectorXd::Ones(1);
+  structure.contact_directions = solvers::contact_rows({0}, 1);
   const spectral::FourierBasis basis(3);
   Eigen::VectorXcd load(2);
   load << 0.0, 1.0;

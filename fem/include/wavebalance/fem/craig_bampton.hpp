@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <span>
+#include <vector>
 
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/matrices.hpp"
@@ -34,9 +35,17 @@ struct CraigBampton {
   Eigen::MatrixXd project(const Eigen::SparseMatrix<double>& matrix) const;
   /// T^T f for a load on the n unknowns.
   Eigen::VectorXd project_load(const Eigen::VectorXd& load) const;
+  /// S T, c x (b+m), of contact directions S (c x n): their entries in the columns of the boundary. Throws
+  /// std::invalid_argument for one that touches an unknown of the interior. O(nnz + n).
+  Eigen::SparseMatrix<double, Eigen::RowMajor> project_directions(
+      const Eigen::SparseMatrix<double, Eigen::RowMajor>& directions) const;
   /// T q: displacements (n) of the structure from the b+m coordinates.
   Eigen::VectorXd recover(const Eigen::VectorXd& coordinates) const;
 };
+
+/// The unknowns that the rows of `directions` (c x n) touch, each once, row by row in ascending order: the
+/// boundary that a reduction has to keep for contacts along them. O(nnz + n).
+std::vector<int> touched_unknowns(const Eigen::SparseMatrix<double, Eigen::RowMajor>& directions);
 
 /// Reduces a structure with symmetric stiffness, positive definite once the boundary is held, and symmetric
 /// mass; an empty damping matrix (0 x 0) counts as zero. One sparse factorisation of K_ii serves constraint

@@ -12,8 +12,8 @@ namespace wavebalance::app {
 /// make_model(scene).structure: a bar is loaded and touches at its tip.
 solvers::LinearStructure make_structure(const Scene& scene);
 
-/// The law of one contact, which has its own gap. Throws std::invalid_argument for rigid contact, which is a
-/// complementarity and has no law.
+/// The law of one contact, which has its own gap and, in a pair, its own parameters. Throws
+/// std::invalid_argument for rigid contact, which is a complementarity and has no law.
 solvers::AnyContactLaw make_law(const Contact& contact, int index = 0);
 /// One law per contact of the scene's structure.
 solvers::ContactLaws make_laws(const Scene& scene);

@@ -15,10 +15,8 @@ namespace wavebalance::app {
 /// A scene's structure, composed once: the structure that is solved, and the way back to the whole structure.
 /// Immutable.
 struct StructureModel {
-  /// Reduced if the scene has kept_modes. Displacements of contacts are positive towards their obstacles. The
-  /// load is the force's amplitude.
+  /// Reduced if the scene has kept_modes. The load is the force's amplitude.
   solvers::LinearStructure structure;
-  std::vector<int> contact_dofs;      ///< rows of the reduced structure
   Eigen::VectorXd gaps;               ///< m, one per contact
   std::vector<std::string> warnings;  ///< doubtful properties of the structure, one sentence each
   int unknowns = 0;                   ///< degrees of freedom before the reduction
@@ -26,10 +24,8 @@ struct StructureModel {
   /// Largest relative change of the first ten natural frequencies without contact by the redistribution of
   /// the contacts' mass; NaN where there was none, or beyond 1000 degrees of freedom.
   double frequency_change = std::numeric_limits<double>::quiet_NaN();
-  /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are equal except
-  /// for signs.
+  /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are equal.
   Eigen::MatrixXd recovery;
-  Eigen::VectorXd signs;  ///< unknowns, 1 or -1 where the obstacle is on the negative side; empty: all 1
   std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
 
   int contacts() const { return structure.contacts(); }
@@ -46,8 +42,10 @@ struct StructureModel {
 /// freely, std::runtime_error if the kept modes are not found.
 StructureModel make_model(const Scene& scene);
 
-/// The number of contacts of a scene's structure. O(1).
-int contact_count(const Structure& structure);
+/// The number of contacts of a scene. O(contacts).
+int contact_count(const Scene& scene);
+/// Corner nodes of a blade's tip, each of which may touch. O(1).
+int tip_corners(const BladeStructure& blade);
 
 /// Degrees of freedom of the scene's structure, and of the reduced one that is solved. Files of matrices are
 /// read unless load_scene() has read them.

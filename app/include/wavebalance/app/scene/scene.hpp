@@ -29,6 +29,8 @@ enum class ContactLawType { none, exponential, linear, rigid };
 /// What becomes of the mass at the contacts, contact.mass: it stays, or the rest of the structure takes it.
 /// `automatic` redistributes it where the law is rigid.
 enum class ContactMass { automatic, keep, redistribute };
+/// Where the obstacles of a contact direction stand, contact.pairs.side.
+enum class ObstacleSide { positive, negative, both };
 /// Analyses, analysis.type.
 enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
 
@@ -95,6 +97,27 @@ struct Structure {
   bool operator==(const Structure&) const = default;
 };
 
+/// One entry of [[contact.pairs]]: a direction of contact of matrices, which moves by the sum of coefficients
+/// times degrees of freedom, and its law. Complete once loaded: what a file leaves out is that of [contact].
+struct ContactPair {
+  std::vector<int> dofs = {};             ///< from 1, none twice
+  std::vector<double> coefficients = {};  ///< one each, not all zero; empty before loading: 1, or 1 and -1
+  ObstacleSide side = ObstacleSide::positive;
+  ContactLawType law = ContactLawType::none;
+  double constant = 0.0;   ///< as in Contact
+  double exponent = 0.0;   ///< as in Contact
+  double stiffness = 0.0;  ///< as in Contact
+  double gap = 0.0;        ///< m, on every side that has an obstacle
+
+  bool operator==(const ContactPair&) const = default;
+};
+
+/// A contact of a pair, and 1 or -1 for the side of its obstacle.
+struct SidedPair {
+  const ContactPair* pair;
+  double sign;
+};
+
 /// The contact force at a contact degree of freedom as a function of its displacement u towards the obstacle;
 /// zero for u < gap. Rigid contact has no such function: u <= gap, force >= 0, product 0.
 struct Contact {
@@ -106,7 +129,12 @@ struct Contact {
   ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom
   double gap = 0.0;                           ///< m, displacement at which contact starts
   std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
+  /// Directions of contact in place of MatricesStructure::contact_dofs, each with its own law and gap.
+  std::vector<ContactPair> pairs = {};
 
+  /// The contacts of the pairs in their order; a pair with obstacles on both sides has two, the positive one
+  /// first. They refer to `pairs`.
+  std::vector<SidedPair> pair_contacts() const;
   /// The gap of one contact, from 0.
   double gap_of(int contact) const;
   bool operator==(const Contact&) const = default;
@@ -190,6 +218,7 @@ std::string name_of(SolidElement value);
 std::string name_of(TipPlace value);
 std::string name_of(Direction value);
 std::string name_of(ContactLawType value);
+std::string name_of(ObstacleSide value);
 std::string name_of(Formulation value);
 std::string name_of(InnerProducts value);
 std::string name_of(NyquistCoefficient value);

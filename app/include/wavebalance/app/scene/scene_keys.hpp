@@ -78,6 +78,7 @@ struct SceneKey {
   std::vector<std::string_view> choices;  ///< the texts that are allowed
   Condition belongs;                      ///< scenes that may hold the key; in others it is an error
   Condition needed;                       ///< scenes in which the key is required if it has no default
+  bool in_pairs = false;                  ///< not required where [[contact.pairs]] may each have their own
   Default fallback = Default::required;
   std::string_view derived_text;                    ///< the derived default in words
   std::function<SceneValue(const Scene&)> derived;  ///< computes it from the other keys
@@ -97,6 +98,13 @@ struct SceneKey {
 /// Every key, in the order in which a scene is written. Only keys with choices decide whether others are
 /// allowed.
 std::span<const SceneKey> scene_keys();
+
+/// The keys of an entry of [[contact.pairs]], the one at `index` from 0: `get` and `set` act on that pair of
+/// a scene. Each is read after those of scene_keys(), from which its default follows.
+std::vector<SceneKey> pair_keys(std::size_t index);
+
+/// "contact.pairs[1]": the section of the pair at `index` from 0, in messages and overrides.
+std::string pair_section(std::size_t index);
 
 /// The key called "section.name", or nullptr.
 const SceneKey* find_scene_key(std::string_view full_name);

@@ -8,7 +8,7 @@
 namespace wavebalance::solvers {
 
 /// The laws of all contacts of a structure: one law for all of them, or one each, in the order of
-/// LinearStructure::contact_dofs. Samples are contact-major: contact c has entries [c N, (c + 1) N).
+/// LinearStructure::contact_directions. Samples are contact-major: contact c has entries [c N, (c + 1) N).
 class ContactLaws {
  public:
   /// No contact.

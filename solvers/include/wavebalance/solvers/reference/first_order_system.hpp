@@ -1,14 +1,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::solvers {
 
-/// The equation of motion M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c) [JL14, eq. (7)] as 2n
+/// The equation of motion M u'' + C u' + K u = load cos(2 pi f t) - S^T f(S u) [JL14, eq. (7)] as 2n
 /// first-order equations dy/ds = F(s, y) in the number of periods s = f t. The state holds y = (2 pi f u,
 /// u'), both in m/s, so that one absolute tolerance suits displacements and velocities alike.
 ///
@@ -19,10 +18,10 @@ class FirstOrderSystem {
   /// frequency_hz (Hz) is not positive and finite, or when the mass matrix is not positive definite.
   FirstOrderSystem(const LinearStructure& structure, ContactLaws laws, double frequency_hz);
 
-  int dofs() const { return static_cast<int>(load_.size()); }  ///< n
-  int states() const { return 2 * dofs(); }                    ///< 2n
-  const std::vector<int>& contact_dofs() const { return contact_dofs_; }
-  double angular_frequency() const { return angular_frequency_; }  ///< 2 pi f, rad/s
+  int dofs() const { return static_cast<int>(load_.size()); }                  ///< n
+  int states() const { return 2 * dofs(); }                                    ///< 2n
+  const ContactDirections& contact_directions() const { return directions_; }  ///< S, C x n
+  double angular_frequency() const { return angular_frequency_; }              ///< 2 pi f, rad/s
 
   /// F(s, y): state and derivative hold 2n values each, m/s. O(n^2).
   void derivative(double periods, std::span<const double> state, std::span<double> derivative) const;
@@ -40,8 +39,11 @@ class FirstOrderSystem {
  private:
   using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+  // The displacement u_c of a contact in a state, m.
+  double contact_displacement(int contact, std::span<const double> state) const;
+
   ContactLaws laws_;
-  std::vector<int> contact_dofs_;
+  ContactDirections directions_;
   double angular_frequency_;
   RowMajorMatrix linear_;            // 2n x 2n, dF/dy without contact
   Eigen::VectorXd load_;             // T M^-1 load, m/s

@@ -15,8 +15,8 @@ class SingularSystem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The reduction of a structure to C contact degrees of freedom at one dynamic stiffness Z = s2 M + s1 C + s0
-/// K; S is their C x n selection.
+/// The reduction of a structure to C contacts at one dynamic stiffness Z = s2 M + s1 C + s0 K; S are their
+/// directions, C x n.
 struct CondensedPoint {
   Eigen::MatrixXcd compliance;     ///< S Z^-1 S^T, C x C, m/N
   Eigen::VectorXcd load_response;  ///< S Z^-1 load, C, m for a load of unit time function
@@ -60,7 +60,7 @@ enum class CondensationMethod {
   sparse  ///< one sparse LU per point
 };
 
-/// Condensation of a structure on its contact degrees of freedom, after which no cost depends on the
+/// Condensation of a structure on its contacts, after which no cost depends on the
 /// structure. Immutable after construction except for work space: one object per thread.
 class Condensation {
  public:

@@ -5,22 +5,35 @@
 
 namespace wavebalance::solvers {
 
-/// The linear part of a vibrating structure, M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c),
-/// with e_c the unit vector of contact degree of freedom c. SI units or any other consistent set.
+/// The directions S of C contacts, C x n, one row each: contact c has the displacement u_c = S_c x, towards
+/// its obstacle where positive, and its force f_c acts on the structure as -S_c^T f_c. A row may select a
+/// degree of freedom, or hold the relative motion of two bodies or the normal of a surface. Rows S_c and -S_c
+/// are obstacles on both sides.
+using ContactDirections = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// The S whose row c selects degree of freedom dofs[c] of `size`. O(C + n). Throws std::invalid_argument for
+/// one that is out of 0..size-1 or listed twice.
+ContactDirections contact_rows(const std::vector<int>& dofs, int size);
+
+/// The linear part of a vibrating structure, M x'' + C x' + K x = load cos(2 pi f t) - S^T f(S x), with f the
+/// contact forces. SI units or any other consistent set.
 struct LinearStructure {
   Eigen::SparseMatrix<double> mass;       ///< n x n, kg
   Eigen::SparseMatrix<double> damping;    ///< n x n, N s/m
   Eigen::SparseMatrix<double> stiffness;  ///< n x n, N/m
   Eigen::VectorXd load;                   ///< n, N, amplitude of the cosine load
-  std::vector<int> contact_dofs = {0};    ///< at least one, distinct, each in 0..n-1; contacts in this order
+  ContactDirections contact_directions;   ///< S, C x n: at least one row, none of them zero
 
   int size() const { return static_cast<int>(load.size()); }
-  int contacts() const { return static_cast<int>(contact_dofs.size()); }
-  /// Throws std::invalid_argument naming the member whose size does not fit, with both sizes, or the contact
-  /// that is out of range or listed twice.
+  int contacts() const { return static_cast<int>(contact_directions.rows()); }
+  /// The degree of freedom that row `contact` selects with the coefficient 1, or -1 for any other direction.
+  /// O(entries of the row).
+  int selected_dof(int contact) const;
+  /// Throws std::invalid_argument naming the member whose size does not fit, with both sizes, or the
+  /// direction that is zero or not finite.
   void validate() const;
-  /// The only contact. Throws std::invalid_argument naming `caller` when there are more.
-  int single_contact(const char* caller) const;
+  /// Throws std::invalid_argument naming `caller` when there is not exactly one contact.
+  void require_single_contact(const char* caller) const;
 };
 
 }  // namespace wavebalance::solvers

@@ -1,0 +1,128 @@
+#include "scene/pair_reader.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "scene/scene_reader.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// Reads the entry at one index.
+class PairReader {
+ public:
+  PairReader(const Document& document, std::size_t index, Scene& scene)
+      : document_(document),
+        section_(pair_section(index)),
+        scene_(scene),
+        pair_(scene.contact.pairs[index]),
+        keys_(pair_keys(index)) {}
+
+  void read() {
+    read_direction();
+    read_law();
+  }
+
+ private:
+  const DocumentEntry* entry(std::string_view name) const { return document_.find(section_, name); }
+  const SceneKey& key(std::string_view name) const {
+    return *std::find_if(keys_.begin(), keys_.end(), [&](const SceneKey& one) { return one.name == name; });
+  }
+
+  [[noreturn]] void fail_missing(std::string_view name, const std::string& more) const {
+    throw SceneError({document_.name, document_.section_line(section_), "",
+                      section_ + "." + std::string(name), "",
+                      "missing; expected " + key(name).expected() + more});
+  }
+
+  /// Sets a value that stands in the file, or else its default.
+  void take(std::string_view name) {
+    const SceneKey& taken = key(name);
+    if (const DocumentEntry* given = entry(name))
+      taken.set(scene_, checked_value(document_, *given, taken));
+    else
+      taken.set(scene_, taken.derived(scene_));
+  }
+
+  void read_direction() {
+    if (entry("dofs") == nullptr) fail_missing("dofs", "");
+    take("dofs");
+    if (std::set<int>(pair_.dofs.begin(), pair_.dofs.end()).size() < pair_.dofs.size())
+      fail_at(document_, *entry("dofs"), "a degree of freedom is there twice; expected each once");
+    const std::string one_each = ", one for each of " + std::to_string(pair_.dofs.size()) + " dofs";
+    const DocumentEntry* coefficients = entry("coefficients");
+    if (coefficients == nullptr && pair_.dofs.size() > 2) fail_missing("coefficients", one_each);
+    take("coefficients");
+    if (pair_.coefficients.size() != pair_.dofs.size())
+      fail_at(document_, *coefficients,
+              "there are " + std::to_string(pair_.coefficients.size()) + "; expected a list of numbers" +
+                  one_each);
+    if (std::all_of(pair_.coefficients.begin(), pair_.coefficients.end(),
+                    [](double one) { return one == 0.0; }))
+      fail_at(document_, *coefficients, "all are zero; expected a direction, with one that is not");
+    take("side");
+  }
+
+  void read_law() {
+    const ContactLawType law = scene_.contact.law;
+    const DocumentEntry* own = entry("law");
+    if (own != nullptr && (law == ContactLawType::none || law == ContactLawType::rigid))
+      fail_at(document_, *own,
+              "does not belong to a scene with contact.law = \"" + name_of(law) +
+                  "\"; only with contact.law = \"exponential\" or \"linear\"");
+    if (own != nullptr)
+      take("law");
+    else
+      pair_.law = law;
+    read_parameter("constant", pair_.law == ContactLawType::exponential);
+    read_parameter("exponent", pair_.law == ContactLawType::exponential);
+    read_parameter("stiffness", pair_.law == ContactLawType::linear);
+    read_parameter("gap", pair_.law != ContactLawType::none);
+  }
+
+  void read_parameter(std::string_view name, bool belongs) {
+    const DocumentEntry* own = entry(name);
+    if (!belongs) {
+      if (own != nullptr)
+        fail_at(document_, *own, "does not belong to a pair with the law \"" + name_of(pair_.law) + "\"");
+      return;
+    }
+    if (own == nullptr && document_.find("contact", name) == nullptr)
+      fail_missing(name, ", here or in [contact]");
+    take(name);
+  }
+
+  const Document& document_;
+  std::string section_;
+  Scene& scene_;
+  ContactPair& pair_;
+  std::vector<SceneKey> keys_;
+};
+
+}  // namespace
+
+bool is_pair_section(std::string_view section) { return section.starts_with("contact.pairs["); }
+
+std::size_t count_pairs(const Document& document) {
+  const auto count = std::count_if(document.sections.begin(), document.sections.end(),
+                                   [](const DocumentSection& one) { return is_pair_section(one.name); });
+  if (count > most_pairs)
+    throw SceneError(
+        {document.name, document.section_line(pair_section(0)), "", "contact.pairs", "",
+         "there are " + std::to_string(count) + "; expected at most " + std::to_string(most_pairs)});
+  return static_cast<std::size_t>(count);
+}
+
+void read_pairs(const Document& document, Scene& scene) {
+  if (scene.contact.pairs.empty()) return;
+  if (scene.structure.type != StructureType::matrices)
+    throw SceneError({document.name, document.section_line(pair_section(0)), "", "contact.pairs", "",
+                      "does not belong to a scene with structure.type = \"" + name_of(scene.structure.type) +
+                          "\"; only with structure.type = \"matrices\""});
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) PairReader(document, i, scene).read();
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,311 @@
+// Contacts along any directions: other coordinates change nothing, and one direction may have obstacles on
+// both sides.
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "support/condensation_cases.hpp"
+#include "support/ll10_rod.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/balance/contact_form.hpp"
+#include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/response/settling.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::LinearContact;
+
+constexpr double driven = 0.11;  // Hz, near the first resonance
+
+// A chain of which two masses may touch each other, the last one an obstacle, and of which a weighted sum is
+// limited on the negative side.
+LinearStructure touching_chain() {
+  std::mt19937 generator(21);
+  LinearStructure chain = testing::random_chain(6, generator);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, 6);
+  rows(0, 4) = 1.0;
+  rows(0, 1) = -1.0;
+  rows(1, 5) = 1.0;
+  rows.row(2) << -0.3, 0.0, -0.5, 0.2, 0.0, -0.4;
+  chain.contact_directions = rows.sparseView();
+  return chain;
+}
+
+// Stops at half of the motion that each contact has without them.
+std::vector<AnyContactLaw> stops(CondensedProblem& problem) {
+  std::vector<AnyContactLaw> laws;
+  for (int c = 0; c < problem.contacts(); ++c) {
+    const auto free = problem.contact_free_response().segment(c * problem.points(), problem.points());
+    laws.emplace_back(LinearContact{1.0 + c, 0.5 * free.maxCoeff()});
+  }
+  return laws;
+}
+
+bool every_contact_presses(const Eigen::MatrixXd& force) {
+  return (force.rowwise().maxCoeff().array() > 0.0).all();
+}
+
+Eigen::MatrixXd rotation(int size, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd random = Eigen::MatrixXd::NullaryExpr(size, size, [&] { return normal(generator); });
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
+}
+
+// A rotation, and a rotation of coordinates in other units.
+std::vector<Eigen::MatrixXd> turns(int size) {
+  return {rotation(size, 1),
+          rotation(size, 2) * Eigen::VectorXd::LinSpaced(size, 0.5, 2.0).asDiagonal() * rotation(size, 3)};
+}
+
+double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / b.norm(); }
+
+TEST(TurnedCoordinates, ChangeNoResponse) {
+  const LinearStructure chain = touching_chain();
+  for (const Eigen::MatrixXd& turn : turns(6))
+    for (const TimePair& pair : testing::pair_kinds(16, 64)) {
+      CondensedProblem problem(pair, chain, testing::cosine_load()),
+          other(pair, testing::turned(chain, turn), testing::cosine_load());
+      problem.set_frequency(driven);
+      other.set_frequency(driven);
+      const auto laws = stops(problem);
+      const PeriodicResponse a = forced_response(problem, laws, {}), b = forced_response(other, laws, {});
+      ASSERT_TRUE(a.converged() && b.converged());
+      EXPECT_TRUE(every_contact_presses(by_contact(a.contact_force, 3)));
+      EXPECT_LE(distance(b.displacement, a.displacement), 1e-9);
+      EXPECT_LE(distance(b.contact_force, a.contact_force), 1e-8);
+      const Motion whole = structure_motion(problem, a.contact_force, 64),
+                   turned = structure_motion(other, b.contact_force, 64);
+      EXPECT_LE(distance(turn * turned.displacement, whole.displacement), 1e-9);
+      EXPECT_LE(distance(chain.contact_directions * whole.displacement,
+                         contact_motion(problem, a, laws, 64).displacement),
+                1e-9);
+      EXPECT_LE(distance(system_energy(other.structure(), laws, turned), system_energy(chain, laws, whole)),
+                1e-9);
+    }
+}
+
+TEST(TurnedCoordinates, ChangeNoSweep) {
+  const LinearStructure chain = touching_chain();
+  std::vector<FrequencySweep> sweeps;
+  for (const bool turn : {false, true}) {
+    const LinearStructure structure = turn ? testing::turned(chain, rotation(6, 4)) : chain;
+    CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
+    problem.set_frequency(driven);
+    const auto laws = stops(problem);
+    FrequencySweepOptions options;
+    options.from = 0.08;
+    options.to = 0.16;
+    sweeps.push_back(frequency_sweep(problem, laws, options));
+    ASSERT_EQ(sweeps.back().status, SweepStatus::reached_end) << to_string(sweeps.back().status);
+  }
+  ASSERT_EQ(sweeps[0].points.size(), sweeps[1].points.size());
+  for (std::size_t i = 0; i < sweeps[0].points.size(); ++i) {
+    const SweepPoint &a = sweeps[0].points[i], &b = sweeps[1].points[i];
+    EXPECT_NEAR(b.frequency, a.frequency, 1e-6 * a.frequency);
+    EXPECT_NEAR(b.max_displacement, a.max_displacement, 1e-5 * a.max_displacement);
+  }
+}
+
+TEST(TurnedCoordinates, ChangeNoReference) {
+  const LinearStructure chain = touching_chain();
+  CondensedProblem problem(testing::fourier_pair(127, 512), chain, testing::cosine_load());
+  problem.set_frequency(driven);
+  const auto laws = stops(problem);
+  TimeSteppingOptions options;
+  options.output_points = 512;
+  options.full_history = true;
+  const TimeSteppingResult plain = integrate_to_periodic(chain, laws, driven, options);
+  ASSERT_EQ(plain.status, TimeSteppingStatus::converged);
+  EXPECT_TRUE(every_contact_presses(plain.contacts.force));
+  for (const Eigen::MatrixXd& turn : turns(6)) {
+    const TimeSteppingResult turned =
+        integrate_to_periodic(testing::turned(chain, turn), laws, driven, options);
+    ASSERT_EQ(turned.status, TimeSteppingStatus::converged);
+    EXPECT_LE(distance(turned.contacts.displacement, plain.contacts.displacement), 1e-5);
+    EXPECT_LE(distance(turn * turned.structure.displacement, plain.structure.displacement), 1e-5);
+  }
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_LE(distance(by_contact(response.displacement, 3), plain.contacts.displacement), 1e-4);
+}
+
+TEST(TurnedCoordinates, ChangeNeitherShootingNorSettling) {
+  LinearStructure chain = touching_chain();
+  const Eigen::MatrixXd relative = Eigen::MatrixXd(chain.contact_directions).row(0);
+  chain.contact_directions = relative.sparseView();
+  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
+  problem.set_frequency(driven);
+  const auto laws = stops(problem);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
+  ShootingOptions shooting;
+  shooting.output_points = 256;
+  for (const Eigen::MatrixXd& turn : turns(6)) {
+    const LinearStructure turned = testing::turned(chain, turn);
+    const ShootingResult shot = shoot(turned, laws[0], driven, shooting);
+    ASSERT_EQ(shot.status, ShootingStatus::converged);
+    EXPECT_LE(distance(shot.contacts.displacement.transpose(), response.displacement), 1e-4);
+    CondensedProblem other(testing::fourier_pair(63, 256), turned, testing::cosine_load());
+    other.set_frequency(driven);
+    const SettledMotion settled = settle(other, laws);
+    ASSERT_EQ(settled.attractor_periods, 1);
+    EXPECT_LE(distance(resample(settled.displacement, 256), response.displacement), 2e-3);
+  }
+}
+
+// The same law on both sides of one direction, as one contact.
+struct BothSides {
+  LinearContact side;
+
+  double force(double u) const { return side.force(u) - side.force(-u); }
+  double tangent(double u) const { return side.tangent(u) + side.tangent(-u); }
+  double potential(double u) const { return side.potential(u) + side.potential(-u); }
+  double gap() const { return side.gap(); }
+};
+
+// Two masses between obstacles for their relative motion.
+LinearStructure between_obstacles(bool both) {
+  std::mt19937 generator(22);
+  LinearStructure chain = testing::random_chain(4, generator);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(both ? 2 : 1, 4);
+  rows.row(0) << 0.0, -1.0, 0.0, 1.0;
+  if (both) rows.row(1) = -rows.row(0);
+  chain.contact_directions = rows.sparseView();
+  return chain;
+}
+
+TEST(ObstaclesOnBothSides, TouchWithinOnePeriodInEveryFormAsTimeSteppingSays) {
+  const LinearStructure chain = between_obstacles(true);
+  CondensedProblem problem(testing::fourier_pair(63, 512), chain, testing::cosine_load());
+  problem.set_frequency(driven);
+  const double gap = 0.6 * problem.contact_free_response().maxCoeff();
+  const LinearContact law{3.0, gap};
+  TimeSteppingOptions options;
+  options.output_points = 512;
+  const TimeSteppingResult reference = integrate_to_periodic(chain, law, driven, options);
+  ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
+  EXPECT_TRUE(every_contact_presses(reference.contacts.force));
+  for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
+    ForcedResponseOptions solver;
+    solver.form = form;
+    const PeriodicResponse response = forced_response(problem, law, solver);
+    ASSERT_TRUE(response.converged()) << to_string(form);
+    EXPECT_EQ(response.strategy, Strategy::newton);
+    EXPECT_TRUE(every_contact_presses(by_contact(response.contact_force, 2)));
+    EXPECT_LE(distance(by_contact(response.displacement, 2), reference.contacts.displacement), 1e-4)
+        << to_string(form);
+  }
+  const SettledMotion settled = settle(problem, law);
+  ASSERT_EQ(settled.attractor_periods, 1);
+  EXPECT_TRUE(every_contact_presses(settled.force));
+  EXPECT_LE(
+      distance(resample(settled.displacement, 512), reference.contacts.displacement.transpose().reshaped()),
+      2e-3);
+}
+
+TEST(ObstaclesOnBothSides, MoveAsOneLawThatActsOnBothSides) {
+  const TimePair pair = testing::fourier_pair(31, 128);
+  CondensedProblem two(pair, between_obstacles(true), testing::cosine_load()),
+      one(pair, between_obstacles(false), testing::cosine_load());
+  two.set_frequency(driven);
+  one.set_frequency(driven);
+  const LinearContact law{3.0, 0.6 * one.contact_free_response().maxCoeff()};
+  const PeriodicResponse a = forced_response(two, law, {}), b = forced_response(one, BothSides{law}, {});
+  ASSERT_TRUE(a.converged() && b.converged());
+  EXPECT_LE(distance(a.displacement.head(128), b.displacement), 1e-9);
+  EXPECT_LE(distance(-a.displacement.tail(128), b.displacement), 1e-9);
+  EXPECT_LE(distance(a.contact_force.head(128) - a.contact_force.tail(128), b.contact_force), 1e-9);
+}
+
+// At the same time in contact: obstacles that press from both sides add up their stiffness.
+TEST(ObstaclesOnBothSides, MayPressAtTheSameTime) {
+  const LinearStructure chain = between_obstacles(true);
+  LinearStructure stiffer = chain;
+  const Eigen::MatrixXd rows(chain.contact_directions);
+  stiffer.stiffness = (Eigen::MatrixXd(chain.stiffness) + 0.7 * rows.transpose() * rows).sparseView();
+  CondensedProblem problem(testing::fourier_pair(15, 64), chain, testing::cosine_load()),
+      linear(testing::fourier_pair(15, 64), stiffer, testing::cosine_load());
+  problem.set_frequency(driven);
+  linear.set_frequency(driven);
+  const double preload = -2.0 * linear.contact_free_response().maxCoeff();
+  for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
+    ForcedResponseOptions solver;
+    solver.form = form;
+    const PeriodicResponse response = forced_response(problem, LinearContact{0.7, preload}, solver);
+    ASSERT_TRUE(response.converged()) << to_string(form);
+    EXPECT_GT(response.contact_force.minCoeff(), 0.0);
+    EXPECT_LE(distance(response.displacement, linear.contact_free_response()), 1e-9) << to_string(form);
+  }
+}
+
+// The obstacle as a user writes it; the forms are told apart by its resolvent.
+struct RigidObstacle {
+  double start;  // m
+  double force(double u) const { return u > start ? std::numeric_limits<double>::infinity() : 0.0; }
+  double tangent(double u) const { return u >= start ? std::numeric_limits<double>::infinity() : 0.0; }
+  double potential(double u) const { return force(u); }
+  double gap() const { return start; }
+  ForceSlope resolvent(double v, double flexibility) const {
+    return v < start ? ForceSlope{} : ForceSlope{(v - start) / flexibility, 1.0 / flexibility};
+  }
+};
+
+// A mass of the chain without mass of its own, as rigid contact needs it.
+TEST(ObstaclesOnBothSides, HoldAMasslessContactBetweenThem) {
+  std::mt19937 generator(23);
+  LinearStructure chain = testing::random_chain(4, generator);
+  Eigen::MatrixXd mass(chain.mass);
+  mass.row(3).setZero();
+  mass.col(3).setZero();
+  chain.mass = mass.sparseView();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 4);
+  rows.col(3) << 1.0, -1.0;
+  chain.contact_directions = rows.sparseView();
+  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
+  problem.set_frequency(driven);
+  const double gap = 0.6 * problem.contact_free_response().maxCoeff();
+  const PeriodicResponse response = forced_response(problem, RigidObstacle{gap}, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_TRUE(every_contact_presses(by_contact(response.contact_force, 2)));
+  EXPECT_GE(response.contact_force.minCoeff(), 0.0);
+  EXPECT_LE(response.displacement.maxCoeff(), 1.02 * gap);
+}
+
+// The rod between two rigid obstacles at equal gaps: the motion is symmetric, and stiffer than with one.
+TEST(ObstaclesOnBothSides, HoldInNonlinearModes) {
+  const testing::UnitRod rod(20);
+  ModalModel both = rod.model;
+  both.contact_shapes.resize(2, rod.model.modes());
+  both.contact_shapes << rod.model.contact_shapes, -rod.model.contact_shapes;
+  both.gaps = rod.model.gaps.replicate(2, 1);
+  const NonlinearModeOptions options{.harmonics = 5, .samples = 20, .cosine_only = true};
+  const NonlinearMode one_side(rod.model, options), two_sides(both, options);
+  const double omega = 1.1 * two_sides.linear_omega();
+  const ModePoint one = one_side.at_frequency_by_harmonic_continuation(omega),
+                  two = two_sides.at_frequency_by_harmonic_continuation(omega);
+  ASSERT_EQ(one.status, ModeStatus::converged);
+  ASSERT_EQ(two.status, ModeStatus::converged) << to_string(two.status);
+  EXPECT_LE(two.max_penetration, 1e-9);
+  EXPECT_GE(two.min_force, 0.0);
+  EXPECT_LT(two.energy_ratio, one.energy_ratio);
+  EXPECT_GT(two.force.row(0).maxCoeff(), 0.0);
+  for (int k = 0; k < 20; ++k)
+    EXPECT_NEAR(two.force(1, k), two.force(0, (k + 10) % 20), 1e-8 * two.force.maxCoeff()) << k;
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
