@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dense.hpp"
 #include "hexahedron.hpp"
 #include "require.hpp"
 #include "symmetric_factor.hpp"
@@ -32,8 +33,8 @@ Eigen::VectorXd centrifugal_load(const SolidModel& model, const Assembly& assemb
   return assembly.vector([&](int index) -> Eigen::VectorXd {
     const Eigen::Matrix3Xd coordinates = model.mesh.coordinates(index);
     const Eigen::MatrixXd mass = detail::scalar_mass(model.mesh.element, coordinates, model.material.density);
-    const Eigen::Matrix3Xd load = across * (coordinates.colwise() - point) * mass;
-    return load.reshaped();
+    const Eigen::Matrix3Xd arms = across * (coordinates.colwise() - point);
+    return detail::product(arms, mass).reshaped();
   });
 }
 
@@ -51,8 +52,8 @@ Eigen::MatrixXd geometric_matrix(const SolidModel& model, int index, const Eigen
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < 3; ++b) {
       const Eigen::VectorXd weights = samples.volumes.cwiseProduct(stress.row(component[a][b]).transpose());
-      scalar += samples.gradients[a].topRows(nodes) * weights.asDiagonal() *
-                samples.gradients[b].topRows(nodes).transpose();
+      scalar += detail::product_transposed(samples.gradients[a].topRows(nodes) * weights.asDiagonal(),
+                                           samples.gradients[b].topRows(nodes));
     }
   return detail::expand_by_block((scalar + scalar.transpose()) / 2.0, Eigen::Matrix3d::Identity());
 }

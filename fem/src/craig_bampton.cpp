@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "dense.hpp"
 #include "require.hpp"
 #include "shift_invert.hpp"
 #include "wavebalance/fem/assembly.hpp"
@@ -95,7 +96,7 @@ void clean(CraigBampton& reduced) {
 
 Eigen::MatrixXd CraigBampton::project(const Sparse& matrix) const {
   detail::require_square(matrix, "CraigBampton::project", "matrix", transformation.rows());
-  const Eigen::MatrixXd projected = transformation.transpose() * (matrix * transformation);
+  const Eigen::MatrixXd projected = detail::transposed_product(transformation, matrix * transformation);
   return (projected + projected.transpose()) / 2.0;
 }
 

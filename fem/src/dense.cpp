@@ -15,4 +15,10 @@ Eigen::MatrixXd cholesky_solve(const Eigen::MatrixXd& b, const Eigen::MatrixXd& 
   return Eigen::LLT<Eigen::MatrixXd>(b).solve(right);
 }
 
+Eigen::MatrixXd product(const ConstMatrix& a, const ConstMatrix& b) { return a * b; }
+
+Eigen::MatrixXd transposed_product(const ConstMatrix& a, const ConstMatrix& b) { return a.transpose() * b; }
+
+Eigen::MatrixXd product_transposed(const ConstMatrix& a, const ConstMatrix& b) { return a * b.transpose(); }
+
 }  // namespace wavebalance::fem::detail

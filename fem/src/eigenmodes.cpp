@@ -135,12 +135,12 @@ void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Spa
     space = factor.solve(mass * space).eval();
     space.colwise().normalize();
   }
-  const Eigen::MatrixXd left = space.transpose() * (mass * space);
-  const Eigen::MatrixXd right = space.transpose() * (shifted * space);
+  const Eigen::MatrixXd left = detail::transposed_product(space, mass * space);
+  const Eigen::MatrixXd right = detail::transposed_product(space, shifted * space);
   const auto ritz = detail::generalized_eigen(left, right);
   if (!ritz) return;  // the iterates are dependent to rounding; the modes stay as Lanczos left them
   modes.squares = ritz->values.reverse().cwiseInverse().array() + shift;
-  modes.shapes = space * ritz->vectors.rowwise().reverse();
+  modes.shapes = detail::product(space, ritz->vectors.rowwise().reverse());
 }
 
 // The number of modes below the count-th one found that are not among those found.

@@ -80,7 +80,7 @@ PointShapes shapes_at(const Eigen::Matrix3Xd& nodes, const Eigen::Vector3d& poin
 
 // The columns are the derivatives of x with respect to the natural coordinates.
 Eigen::Matrix3d jacobian(const Eigen::Matrix3Xd& coordinates, const PointShapes& shapes) {
-  return coordinates * shapes.derivatives.transpose();
+  return product_transposed(coordinates, shapes.derivatives);
 }
 
 double positive_determinant(const Eigen::Matrix3d& matrix) {
@@ -177,7 +177,8 @@ Eigen::MatrixXd elastic_matrix(const Samples& samples, const SolidMaterial& mate
   std::array<std::array<Eigen::MatrixXd, 3>, 3> products;
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = a; b < 3; ++b) {
-      products[a][b] = samples.gradients[a] * samples.volumes.asDiagonal() * samples.gradients[b].transpose();
+      products[a][b] =
+          product_transposed(samples.gradients[a] * samples.volumes.asDiagonal(), samples.gradients[b]);
       if (a != b) products[b][a] = products[a][b].transpose();
     }
   const Eigen::MatrixXd laplacian = shear * (products[0][0] + products[1][1] + products[2][2]);
@@ -212,7 +213,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> stress_at(const Samples& samples, const
   const double lame = 2.0 * shear * nu / (1.0 - 2.0 * nu);
   // slopes[b](a, p) is du_a/dx_b.
   std::array<Eigen::Matrix3Xd, 3> slopes;
-  for (std::size_t b = 0; b < 3; ++b) slopes[b] = coefficients * samples.gradients[b];
+  for (std::size_t b = 0; b < 3; ++b) slopes[b] = product(coefficients, samples.gradients[b]);
   const Eigen::RowVectorXd pressure = lame * (slopes[0].row(0) + slopes[1].row(1) + slopes[2].row(2));
   Eigen::Matrix<double, 6, Eigen::Dynamic> stress(6, pressure.size());
   for (int a = 0; a < 3; ++a)
@@ -225,7 +226,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> stress_at(const Samples& samples, const
 
 Eigen::MatrixXd scalar_mass(SolidElement element, const Eigen::Matrix3Xd& coordinates, double density) {
   const Samples samples = sample(element, coordinates, mass_rule(element));
-  return density * (samples.values * samples.volumes.asDiagonal() * samples.values.transpose());
+  return density * product_transposed(samples.values * samples.volumes.asDiagonal(), samples.values);
 }
 
 Eigen::MatrixXd expand_by_block(const Eigen::MatrixXd& scalar, const Eigen::Matrix3d& block) {

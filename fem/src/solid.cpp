@@ -76,7 +76,7 @@ Eigen::MatrixXd element_stiffness(SolidElement element, const Eigen::Matrix3Xd& 
   const Eigen::MatrixXd coupling = full.bottomLeftCorner(9, 24);
   const Eigen::MatrixXd condensed =
       full.topLeftCorner(24, 24) -
-      coupling.transpose() * detail::cholesky_solve(full.bottomRightCorner(9, 9), coupling);
+      detail::transposed_product(coupling, detail::cholesky_solve(full.bottomRightCorner(9, 9), coupling));
   return (condensed + condensed.transpose()) / 2.0;
 }
 
@@ -153,7 +153,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> nodal_stress(const SolidModel& model,
         detail::with_incompatible_modes(mesh.element, coordinates, model.material, moved);
     const auto samples = detail::sample(mesh.element, coordinates, detail::gauss_rule(2));
     sum(Eigen::all, mesh.elements.col(index)) +=
-        detail::stress_at(samples, model.material, coefficients) * extension;
+        detail::product(detail::stress_at(samples, model.material, coefficients), extension);
     for (int node : mesh.elements.col(index)) shares[node] += 1.0;
   }
   return sum * shares.cwiseMax(1.0).cwiseInverse().asDiagonal();

@@ -1,7 +1,8 @@
 // Gathers the records below a results folder into its index.html, and into the pages that it links to.
-#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
+#include "command_line.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/report/page.hpp"
 
@@ -9,13 +10,9 @@ using namespace wavebalance;
 
 int main(int argc, char** argv) {
   std::string results = "results";
-  CLI::App app("Writes index.html over the results of the papers");
-  app.add_option("--results", results, "folder with one folder per paper")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  const auto code = report::read_arguments(argc, argv, "Writes index.html over the results of the papers", "",
+                                           {{"--results", &results, "folder with one folder per paper"}});
+  if (code) return *code;
   try {
     std::vector<report::Section> sections;
     for (const auto& paper : report::papers()) {

@@ -1,10 +1,10 @@
 #include "wavebalance/report/program.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
 
+#include "command_line.hpp"
 #include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::report {
@@ -48,17 +48,12 @@ int run_program(int argc, const char* const* argv, const std::vector<Step>& step
     names.push_back(step.name);
     list += "\n  " + step.name + ": " + step.identity.number + ", " + step.identity.title;
   }
-  CLI::App app("Makes one figure or table of results/" + steps.at(0).identity.paper);
-  app.footer(list);
-  app.add_option("name", arguments.name, "the step to make")->required()->check(CLI::IsMember(names));
-  app.add_option("--output", arguments.output, "folder for the data and its picture or table")
-      ->capture_default_str();
-  app.add_option("--scenes", arguments.scenes, "folder of the scene files")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  const auto code =
+      read_arguments(argc, argv, "Makes one figure or table of results/" + steps.at(0).identity.paper, list,
+                     {{"name", &arguments.name, "the step to make", names},
+                      {"--output", &arguments.output, "folder for the data and its picture or table"},
+                      {"--scenes", &arguments.scenes, "folder of the scene files"}});
+  if (code) return *code;
   const Step& step = find(steps, arguments.name);
   try {
     run(step, arguments);

@@ -27,14 +27,14 @@ class Lu {
   /// A^-1 right. O(n^2) per column.
   Matrix solve(const Matrix& right) const;
   Vector solve(const Vector& right) const;
-  /// A^-1. O(n^3).
-  Matrix inverse() const;
+  /// A^-1, of a real matrix. O(n^3).
+  Matrix inverse() const requires std::same_as<Scalar, double>;
 
   /// Whether a pivot is not finite, or at most `tolerance` times the largest, or below the normal numbers.
   /// This costs O(n), less than the condition number.
   bool is_singular(double tolerance = 0.0) const;
-  /// Estimate of the condition number in the 1-norm. O(n^2).
-  double condition() const;
+  /// Estimate of the condition number of a real matrix in the 1-norm. O(n^2).
+  double condition() const requires std::same_as<Scalar, double>;
   /// 1 or -1, of a real matrix; 1 of a matrix without rows.
   int determinant_sign() const requires std::same_as<Scalar, double>;
 
@@ -45,6 +45,15 @@ class Lu {
 
 extern template class Lu<double>;
 extern template class Lu<std::complex<double>>;
+
+/// A B, A^T B and A B^T of any sizes. O(n^3).
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// exp(A) by a Padé approximant of A / 2^s and s squarings [Higham, SIAM J. Matrix Anal. Appl. 26, 2005].
+/// O(n^3).
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
 
 /// The shortest x that minimises ||A x - b||, by complete orthogonal decomposition; A may be singular.
 /// O(n^3).

@@ -42,7 +42,7 @@ typename Lu<Scalar>::Vector Lu<Scalar>::solve(const Vector& right) const {
 }
 
 template <class Scalar>
-typename Lu<Scalar>::Matrix Lu<Scalar>::inverse() const {
+typename Lu<Scalar>::Matrix Lu<Scalar>::inverse() const requires std::same_as<Scalar, double> {
   return factors_ ? Matrix(factors_->lu.inverse()) : Matrix();
 }
 
@@ -55,7 +55,7 @@ bool Lu<Scalar>::is_singular(double tolerance) const {
 }
 
 template <class Scalar>
-double Lu<Scalar>::condition() const {
+double Lu<Scalar>::condition() const requires std::same_as<Scalar, double> {
   return factors_ ? 1.0 / factors_->lu.rcond() : 1.0;
 }
 

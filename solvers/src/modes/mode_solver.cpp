@@ -39,7 +39,7 @@ void ModeSolver::assemble_lags(int harmonics) {
     const double squared = n * omega_ * (n * omega_);
     const Eigen::VectorXd gain = (model.omega_squared.array() - squared).inverse();
     const Eigen::MatrixXd compliance =
-        model.contact_shapes * gain.asDiagonal() * model.contact_shapes.transpose();
+        detail::product_transposed(model.contact_shapes * gain.asDiagonal(), model.contact_shapes);
     const double weight = (n == 0 ? 1.0 : 2.0) / samples_;
     for (int d = 0; d < samples_; ++d)
       lags_[static_cast<std::size_t>(d)] +=
@@ -177,7 +177,9 @@ void ModeSolver::measure_energy(ModePoint& point) const {
 
 void ModeSolver::measure_complementarity(ModePoint& point) const {
   constexpr int fine = 16;
-  const Eigen::MatrixXcd contact = mode_.model().contact_shapes * point.amplitudes;
+  Eigen::MatrixXcd contact(mode_.model().contacts(), point.amplitudes.cols());
+  contact.real() = detail::product(mode_.model().contact_shapes, point.amplitudes.real());
+  contact.imag() = detail::product(mode_.model().contact_shapes, point.amplitudes.imag());
   point.max_penetration = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < fine * samples_; ++k) {
     Eigen::VectorXd displacement = contact.col(0).real();

@@ -183,10 +183,11 @@ class Shooting {
         });
     result.displacement = modes().shapes * q.col(0);
     result.velocity = modes().shapes * v.col(0);
-    result.contacts.displacement = (q.transpose() * modes().contact).eval().transpose();
-    result.contacts.velocity = (v.transpose() * modes().contact).eval().transpose();
+    result.contacts.displacement = modes().contact.transpose() * q;
+    result.contacts.velocity = modes().contact.transpose() * v;
     result.contacts.force = result.contacts.displacement.unaryExpr([&](double u) { return law_.force(u); });
-    if (options_.full_history) result.structure = {modes().shapes * q, modes().shapes * v, {}};
+    if (options_.full_history)
+      result.structure = {detail::product(modes().shapes, q), detail::product(modes().shapes, v), {}};
   }
 
   const ShootingOptions& options_;

@@ -35,7 +35,7 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
   stiffness = modes->values;
   shapes = modes->vectors;
-  const Eigen::MatrixXd modal_damping = shapes.transpose() * (structure.damping * shapes);
+  const Eigen::MatrixXd modal_damping = transposed_product(shapes, structure.damping * shapes);
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();
   projection = shapes.transpose() * structure.mass;

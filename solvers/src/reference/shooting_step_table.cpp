@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "linalg/dense.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -77,27 +78,33 @@ class ModeResponse {
     // its force form one linear autonomous system. q is scaled to keep the matrix balanced when the mode is
     // fast.
     const double balance = std::max(1.0, std::sqrt(std::abs(stiffness)) * step);
-    scale_ = {1.0 / balance, 1.0 / step};
+    scale_[0] = 1.0 / balance;
+    scale_[1] = 1.0 / step;
     force_scale_ = step * step;
-    system_.setZero();
+    system_.setZero(states, states);
     system_(0, 1) = balance;
     system_(1, 0) = -stiffness * step * step / balance;
     system_(1, 1) = -damping * step;
-    system_.block<1, nodes>(1, 2) = polynomials().at_begin.transpose();
-    system_.block<nodes, nodes>(2, 2) = polynomials().differentiation;
+    for (int i = 0; i < nodes; ++i) {
+      system_(1, 2 + i) = polynomials().at_begin[i];
+      for (int j = 0; j < nodes; ++j) system_(2 + i, 2 + j) = polynomials().differentiation(i, j);
+    }
   }
 
   Blocks at(double fraction) const {
-    const Matrix propagated = (fraction * system_).exp();
-    const Eigen::DiagonalMatrix<double, 2> out(scale_);
-    return {out * propagated.topLeftCorner<2, 2>() * out.inverse(),
-            force_scale_ * (out * propagated.topRightCorner<2, nodes>())};
+    const Eigen::MatrixXd propagated = exponential(fraction * system_);
+    Blocks blocks;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) blocks.state(i, j) = scale_[i] * propagated(i, j) / scale_[j];
+      for (int j = 0; j < nodes; ++j) blocks.force(i, j) = force_scale_ * scale_[i] * propagated(i, 2 + j);
+    }
+    return blocks;
   }
 
  private:
-  using Matrix = Eigen::Matrix<double, nodes + 2, nodes + 2>;
-  Matrix system_;
-  Eigen::Vector2d scale_;
+  static constexpr int states = nodes + 2;
+  Eigen::MatrixXd system_;
+  double scale_[2];
   double force_scale_;
 };
 

@@ -28,8 +28,8 @@ double diagonal_error(const Eigen::MatrixXd& shapes, const Eigen::SparseMatrix<d
   std::minstd_rand generator(1);
   const Eigen::MatrixXd signs = Eigen::MatrixXd::NullaryExpr(
       shapes.cols(), samples, [&] { return generator() > generator.max() / 2 ? 1.0 : -1.0; });
-  const Eigen::MatrixXd product = shapes.transpose() * (matrix * (shapes * signs));
-  return (product - diagonal.asDiagonal() * signs).norm() / std::sqrt(double(samples));
+  const Eigen::MatrixXd form = detail::transposed_product(shapes, matrix * detail::product(shapes, signs));
+  return (form - diagonal.asDiagonal() * signs).norm() / std::sqrt(double(samples));
 }
 
 // L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its own entry.
@@ -68,7 +68,7 @@ std::optional<Modes> decouple(const LinearStructure& structure) {
   } else {
     return std::nullopt;
   }
-  const Eigen::MatrixXd damping = modes.shapes.transpose() * (structure.damping * modes.shapes);
+  const Eigen::MatrixXd damping = detail::transposed_product(modes.shapes, structure.damping * modes.shapes);
   modes.damping = damping.diagonal();
   Eigen::MatrixXd coupling = damping;
   coupling.diagonal().setZero();
@@ -115,7 +115,7 @@ class ModalMethod final : public Condensation::Method {
     weighted << contacts_ * compliance.real().matrix().asDiagonal(),
         contacts_ * compliance.imag().matrix().asDiagonal(), contacts_ * slope.real().matrix().asDiagonal(),
         contacts_ * slope.imag().matrix().asDiagonal();
-    const Eigen::MatrixXd parts = weighted * contacts_.transpose();
+    const Eigen::MatrixXd parts = detail::product_transposed(weighted, contacts_);
     const Eigen::VectorXd loaded = weighted * load_;
     CondensedPoint point;
     point.compliance = joined(parts.topRows(2 * count));

@@ -9,20 +9,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-// exp(A) by a Taylor polynomial of A / 2^s and s squarings. In the energy norm of a damped structure the
-// powers do not grow, so that squaring keeps the digits.
-Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& matrix) {
-  constexpr int degree = 14;
-  const double norm = matrix.cwiseAbs().rowwise().sum().maxCoeff();
-  const int squarings = norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
-  const Eigen::MatrixXd scaled = std::ldexp(1.0, -squarings) * matrix;
-  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
-  Eigen::MatrixXd result = one;
-  for (int k = degree; k >= 1; --k) result = (one + scaled * result / k).eval();
-  for (int i = 0; i < squarings; ++i) result = (result * result).eval();
-  return result;
-}
-
 Eigen::MatrixXd with_mass_everywhere(Eigen::MatrixXd mass) {
   const double least = 1e-9 * mass.diagonal().mean();
   for (Eigen::Index i = 0; i < mass.rows(); ++i)
@@ -52,19 +38,20 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   const Eigen::Index contacts = structure.contacts();
   ModalFlow flow;
   flow.shapes_ = eigen->vectors.leftCols(m);
-  flow.projection_ = flow.shapes_.transpose() * mass;
+  flow.projection_ = detail::transposed_product(flow.shapes_, mass);
   const Eigen::VectorXd stiffness = eigen->values.head(m);
   flow.sigma_ = stiffness.cwiseMax(0.0).cwiseSqrt().cwiseMax(2.0 * std::numbers::pi * frequency);
   const Eigen::MatrixXd contact = structure.contact_directions * eigen->vectors;
   flow.contact_ = contact.leftCols(m);
-  const Eigen::MatrixXd damping = flow.shapes_.transpose() * (structure.damping * flow.shapes_);
+  const Eigen::MatrixXd damping = detail::transposed_product(flow.shapes_, structure.damping * flow.shapes_);
   // Van Loan's block matrix for a force that is linear in time.
   const Eigen::Index states = 2 * m, size = states + 2 * contacts;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
   block.topLeftCorner(states, states) = step * first_order(flow.sigma_, stiffness, damping);
   block.block(m, states, m, contacts) = -step * flow.contact_.transpose();
   block.block(states, states + contacts, contacts, contacts).setIdentity();
-  const Eigen::MatrixXd exponential = matrix_exponential(block);
+  // In the energy norm of a damped structure the powers do not grow.
+  const Eigen::MatrixXd exponential = detail::exponential(block);
   flow.exponential_ = exponential.topLeftCorner(states, states);
   flow.end_ = exponential.block(0, states + contacts, states, contacts);
   flow.begin_ = exponential.block(0, states, states, contacts) - flow.end_;
@@ -72,8 +59,8 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   for (Eigen::Index c = 0; c < contacts; ++c)
     flow.step_compliance_.col(c) = -flow.contact_displacement(flow.end_.col(c));
   const Eigen::MatrixXd omitted = contact.rightCols(all - m);
-  flow.step_compliance_ +=
-      omitted * eigen->values.tail(all - m).cwiseInverse().asDiagonal() * omitted.transpose();
+  const Eigen::VectorXd flexibilities = eigen->values.tail(all - m).cwiseInverse();
+  flow.step_compliance_ += detail::product_transposed(omitted * flexibilities.asDiagonal(), omitted);
   return flow;
 }
 
