@@ -92,7 +92,9 @@ void Family::damping() {
   const double second = natural_frequency(scene({undamped}).structure, 2);
   says("resonance", bar, {undamped, set("forcing.frequency", second)}, "singular");
   says("resonance", bar, {undamped, set("forcing.frequency", second / 3.0)}, "singular");
+  // A motion with contact exists. Whether it is found beside a free response of 10 km depends on rounding.
   says("resonance", bar, {undamped, set("forcing.frequency", second * (1.0 + 1e-9))}, "stalled");
+  cases_.back().may_be_solved = true;
 }
 
 void Family::frequencies() {

@@ -17,7 +17,8 @@ std::string input_text(const Case& item) {
 }
 
 std::string must_text(const Case& item) {
-  return item.named.empty() ? to_string(item.must) : to_string(item.must) + ": " + item.named;
+  const std::string must = item.may_be_solved ? "solved or " + to_string(item.must) : to_string(item.must);
+  return item.named.empty() ? must : must + ": " + item.named;
 }
 
 std::string happened_text(const CheckResult& result) {

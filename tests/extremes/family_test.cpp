@@ -58,6 +58,14 @@ TEST(FamilyRow, OfAnErrorNeedsTheWordsThatTheErrorMustHold) {
   EXPECT_THROW(led_to_what_it_must(nameless, {Outcome::error, "anything", {}, 0.0}), std::invalid_argument);
 }
 
+TEST(FamilyRow, ThatMayBeSolvedHoldsEitherWayButNeverWithAWrongMotion) {
+  const Case either{"group", "bar.toml", {}, Outcome::not_converged, "stalled", true};
+  EXPECT_TRUE(led_to_what_it_must(either, {Outcome::solved, "", {}, 0.0}));
+  EXPECT_TRUE(led_to_what_it_must(either, {Outcome::not_converged, "stalled", {}, 0.0}));
+  EXPECT_FALSE(led_to_what_it_must(either, {Outcome::not_converged, "singular", {}, 0.0}));
+  EXPECT_FALSE(led_to_what_it_must(either, {Outcome::wrong, "", {}, 0.0}));
+}
+
 TEST(Units, DoNotChangeTheMotion) { EXPECT_LE(difference_between_units(scenes), 1e-9); }
 
 }  // namespace

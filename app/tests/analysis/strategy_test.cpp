@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, StrategyOf,
     ::testing::Values(StrategyCase{"newton", chain, {"contact.stiffness=1e5"}},
                       StrategyCase{"gap_continuation", chain, {}},
-                      StrategyCase{"settling", rigid_bar, {"time.trial=haar", "time.weight=bspline"}},
+                      StrategyCase{"settling", chain, {"contact.gap=-3e-3", "contact.stiffness=1e7"}},
                       StrategyCase{
                           "residual_homotopy", rigid_bar, {"time.trial=haar", "time.weight=fourier"}}),
     [](const auto& one) { return one.param.strategy; });

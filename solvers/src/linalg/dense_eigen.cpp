@@ -1,33 +1,46 @@
-#include <gsl/gsl_eigen.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <limits>
-#include <memory>
 
 #include "linalg/dense.hpp"
-#include "linalg/gsl_errors.hpp"
+#include "linalg/lapack.hpp"
 
 namespace wavebalance::solvers::detail {
+namespace {
+
+Eigen::MatrixXd solve_triangular(const Eigen::MatrixXd& lower, CBLAS_TRANSPOSE transpose,
+                                 Eigen::MatrixXd right) {
+  const lapack_int n = lapack_size(right.rows());
+  if (right.size() > 0)
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transpose, CblasNonUnit, n, lapack_size(right.cols()),
+                1.0, lower.data(), n, right.data(), n);
+  return right;
+}
+
+}  // namespace
 
 std::optional<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  return factor.matrixL();
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
+  lower.triangularView<Eigen::Lower>() = matrix;
+  const lapack_int n = lapack_size(matrix.rows());
+  if (n > 0 && LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, lower.data(), n) != 0) return std::nullopt;
+  return lower;
 }
 
 Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& right) {
-  return lower.triangularView<Eigen::Lower>().solve(right);
+  return solve_triangular(lower, CblasNoTrans, right);
 }
 
 Eigen::MatrixXd solve_lower_transposed(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& right) {
-  return lower.transpose().triangularView<Eigen::Upper>().solve(right);
+  return solve_triangular(lower, CblasTrans, right);
 }
 
 std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return SymmetricEigen{solver.eigenvalues(), solver.eigenvectors()};
+  const lapack_int n = lapack_size(matrix.rows());
+  SymmetricEigen result{Eigen::VectorXd(n), matrix};
+  if (n == 0) return result;
+  if (!matrix.allFinite() ||
+      LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'L', n, result.vectors.data(), n, result.values.data()) != 0)
+    return std::nullopt;
+  return result;
 }
 
 std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& metric) {
@@ -40,22 +53,17 @@ std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, con
   return result;
 }
 
-// By GSL, whose compiled QR iteration takes no time to compile here.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
-  const auto size = static_cast<std::size_t>(matrix.rows());
-  Eigen::VectorXcd values =
-      Eigen::VectorXcd::Constant(matrix.rows(), std::numeric_limits<double>::quiet_NaN());
-  if (size == 0 || !matrix.allFinite()) return values;
-  const SilencedGslErrors silenced;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> copy = matrix;
-  const std::unique_ptr<gsl_eigen_nonsymm_workspace, void (*)(gsl_eigen_nonsymm_workspace*)> workspace(
-      gsl_eigen_nonsymm_alloc(size), gsl_eigen_nonsymm_free);
-  gsl_eigen_nonsymm_params(0, 1, workspace.get());  // eigenvalues alone, of the balanced matrix
-  gsl_matrix_view matrix_view = gsl_matrix_view_array(copy.data(), size, size);
-  gsl_vector_complex_view values_view =
-      gsl_vector_complex_view_array(reinterpret_cast<double*>(values.data()), size);
-  if (gsl_eigen_nonsymm(&matrix_view.matrix, &values_view.vector, workspace.get()) != GSL_SUCCESS)
-    values.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const lapack_int n = lapack_size(matrix.rows());
+  Eigen::VectorXcd values = Eigen::VectorXcd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  if (n == 0 || !matrix.allFinite()) return values;
+  Eigen::MatrixXd copy = matrix;
+  Eigen::VectorXd real(n), imaginary(n);
+  if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, copy.data(), n, real.data(), imaginary.data(), nullptr, 1,
+                    nullptr, 1) != 0)
+    return values;
+  values.real() = real;
+  values.imag() = imaginary;
   return values;
 }
 

@@ -1,16 +1,54 @@
-#include "linalg/dense.hpp"
-
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "linalg/dense.hpp"
+#include "linalg/lapack.hpp"
 
 namespace wavebalance::solvers::detail {
+namespace {
+
+// The routines without LAPACKE's search for NaN.
+void factorize(lapack_int n, double* matrix, lapack_int* pivots) {
+  LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, matrix, n, pivots);
+}
+
+void factorize(lapack_int n, std::complex<double>* matrix, lapack_int* pivots) {
+  LAPACKE_zgetrf_work(LAPACK_COL_MAJOR, n, n, matrix, n, pivots);
+}
+
+void substitute(lapack_int n, lapack_int columns, const double* lu, const lapack_int* pivots, double* right) {
+  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, columns, lu, n, pivots, right, n);
+}
+
+void substitute(lapack_int n, lapack_int columns, const std::complex<double>* lu, const lapack_int* pivots,
+                std::complex<double>* right) {
+  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, 'N', n, columns, lu, n, pivots, right, n);
+}
+
+}  // namespace
 
 template <class Scalar>
 struct Lu<Scalar>::Factors {
-  explicit Factors(const Matrix& matrix) : lu(matrix) {}
-  Eigen::PartialPivLU<Matrix> lu;
+  explicit Factors(const Matrix& matrix)
+      : lu(matrix),
+        pivots(static_cast<std::size_t>(matrix.rows())),
+        norm(matrix.cwiseAbs().colwise().sum().maxCoeff()) {
+    factorize(rows(), lu.data(), pivots.data());
+  }
+
+  lapack_int rows() const { return static_cast<lapack_int>(lu.rows()); }
+
+  template <class Result>
+  Result solve(Result right) const {
+    substitute(rows(), static_cast<lapack_int>(right.cols()), lu.data(), pivots.data(), right.data());
+    return right;
+  }
+
+  Matrix lu;
+  std::vector<lapack_int> pivots;  // row that changed places with each row, from 1
+  double norm;                     // 1-norm of the matrix
 };
 
 template <class Scalar>
@@ -28,42 +66,51 @@ void Lu<Scalar>::compute(const Matrix& matrix) {
 
 template <class Scalar>
 Eigen::Index Lu<Scalar>::size() const {
-  return factors_ ? factors_->lu.rows() : 0;
+  return factors_ ? factors_->rows() : 0;
 }
 
 template <class Scalar>
 typename Lu<Scalar>::Matrix Lu<Scalar>::solve(const Matrix& right) const {
-  return factors_ ? Matrix(factors_->lu.solve(right)) : right;
+  return factors_ ? factors_->solve(right) : right;
 }
 
 template <class Scalar>
 typename Lu<Scalar>::Vector Lu<Scalar>::solve(const Vector& right) const {
-  return factors_ ? Vector(factors_->lu.solve(right)) : right;
+  return factors_ ? factors_->solve(right) : right;
 }
 
 template <class Scalar>
 typename Lu<Scalar>::Matrix Lu<Scalar>::inverse() const requires std::same_as<Scalar, double> {
-  return factors_ ? Matrix(factors_->lu.inverse()) : Matrix();
+  return factors_ ? factors_->solve(Matrix(Matrix::Identity(size(), size()))) : Matrix();
 }
 
 template <class Scalar>
 bool Lu<Scalar>::is_singular(double tolerance) const {
   if (!factors_) return false;
-  const auto pivots = factors_->lu.matrixLU().diagonal().cwiseAbs();
+  const auto pivots = factors_->lu.diagonal().cwiseAbs();
   const double least = std::max(std::numeric_limits<double>::min(), tolerance * pivots.maxCoeff());
   return !std::isfinite(pivots.sum()) || pivots.minCoeff() <= least;
 }
 
 template <class Scalar>
 double Lu<Scalar>::condition() const requires std::same_as<Scalar, double> {
-  return factors_ ? 1.0 / factors_->lu.rcond() : 1.0;
+  if (!factors_) return 1.0;
+  const lapack_int n = factors_->rows();
+  std::vector<double> work(4 * static_cast<std::size_t>(n));
+  std::vector<lapack_int> integers(static_cast<std::size_t>(n));
+  double reciprocal = 0.0;
+  LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_->lu.data(), n, factors_->norm, &reciprocal,
+                      work.data(), integers.data());
+  return 1.0 / reciprocal;
 }
 
 template <class Scalar>
 int Lu<Scalar>::determinant_sign() const requires std::same_as<Scalar, double> {
   if (!factors_) return 1;
-  const auto negative = (factors_->lu.matrixLU().diagonal().array() < 0.0).count();
-  return static_cast<int>(factors_->lu.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+  bool negative = (factors_->lu.diagonal().array() < 0.0).count() % 2 != 0;
+  for (std::size_t i = 0; i < factors_->pivots.size(); ++i)
+    if (factors_->pivots[i] != static_cast<lapack_int>(i) + 1) negative = !negative;
+  return negative ? -1 : 1;
 }
 
 template class Lu<double>;

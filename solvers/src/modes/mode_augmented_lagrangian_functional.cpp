@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -44,7 +45,7 @@ Eigen::VectorXd ModeLagrangian::gap_function(const Eigen::VectorXd& x) const {
   const Eigen::Map<const Eigen::MatrixXd> blocks(x.data(), shapes_.cols(), waves_.cols());
   Eigen::VectorXd g(constraints());
   Eigen::Map<RowMajor>(g.data(), gaps_.size(), samples()) =
-      (shapes_ * blocks * waves_.transpose()).colwise() - gaps_;
+      detail::product_transposed(detail::product(shapes_, blocks), waves_).colwise() - gaps_;
   return g;
 }
 
@@ -52,7 +53,7 @@ Eigen::VectorXd ModeLagrangian::generalised_force(const Eigen::VectorXd& force) 
   const Eigen::Map<const RowMajor> samples_of(force.data(), gaps_.size(), samples());
   Eigen::VectorXd result(unknowns());
   Eigen::Map<Eigen::MatrixXd>(result.data(), shapes_.cols(), waves_.cols()) =
-      shapes_.transpose() * (samples_of * waves_) / double(samples());
+      detail::transposed_product(shapes_, detail::product(samples_of, waves_)) / double(samples());
   return result;
 }
 
@@ -109,7 +110,7 @@ void ModeLagrangian::add_contact(Eigen::MatrixXd& hessian, const Eigen::VectorXd
         root * shapes_.row(i / samples()).transpose() * waves_.row(i % samples());
     ++column;
   }
-  hessian.noalias() += columns * columns.transpose();
+  hessian += detail::product_transposed(columns, columns);
 }
 
 }  // namespace wavebalance::solvers

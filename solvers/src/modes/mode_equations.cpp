@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "linalg/dense.hpp"
+
 namespace wavebalance::solvers {
 
 double ModeProblem::omega() const { return std::sqrt(model.omega_squared[mode]); }
@@ -32,10 +34,10 @@ void ModeEquations::set_compliance(double omega) {
       gains[j] = gain(k, j);
       slopes[j] = 2.0 * problem_.transform.inertia[k] * omega_ * problem_.omega() * gains[j] * gains[j];
     }
-    Eigen::MatrixXd both = shapes * gains.asDiagonal() * shapes.transpose();
+    Eigen::MatrixXd both = detail::product_transposed(shapes * gains.asDiagonal(), shapes);
     if (problem_.flexibility.size() > 0) both.diagonal() -= problem_.flexibility;
     compliance_.row(k) = both.reshaped().transpose();
-    both.noalias() = shapes * slopes.asDiagonal() * shapes.transpose();
+    both = detail::product_transposed(shapes * slopes.asDiagonal(), shapes);
     slope_.row(k) = both.reshaped().transpose();
   }
 }
@@ -43,13 +45,13 @@ void ModeEquations::set_compliance(double omega) {
 void ModeEquations::set_forces() {
   const int contacts = problem_.contacts(), rows = problem_.rows();
   const Eigen::Map<const Eigen::MatrixXd> coefficients(y_.data(), rows, contacts);
-  samples_.noalias() = problem_.unit * (problem_.transform.synthesis * coefficients);
+  samples_ = problem_.unit * detail::product(problem_.transform.synthesis, coefficients);
   const Eigen::Index points = samples_.rows();
   Eigen::VectorXd force(points * contacts), tangent(points * contacts);
   laws_.evaluate(contacts, samples_.reshaped(), force, tangent);
   force_ = force.reshaped(points, contacts);
   tangent_ = tangent.reshaped(points, contacts);
-  psi_.noalias() = problem_.transform.projection * force_;
+  psi_ = detail::product(problem_.transform.projection, force_);
 }
 
 // Factor of Re s^T psi(1) in the last equation, 1/N.
@@ -108,8 +110,8 @@ Eigen::MatrixXd ModeEquations::force_slope(int contact) const {
     if (tangent_(l, contact) != 0.0) active.push_back(l);
   const Eigen::VectorXd slopes = tangent_.col(contact)(active);
   const PairTransform& transform = problem_.transform;
-  return transform.projection(Eigen::all, active) * slopes.asDiagonal() *
-         transform.synthesis(active, Eigen::all);
+  return detail::product(transform.projection(Eigen::all, active) * slopes.asDiagonal(),
+                         transform.synthesis(active, Eigen::all));
 }
 
 Eigen::MatrixXd ModeEquations::jacobian() const {
@@ -138,7 +140,7 @@ Eigen::MatrixXd ModeEquations::jacobian() const {
 
 Eigen::MatrixXd ModeEquations::displacement() const {
   if (problem_.flexibility.size() == 0) return samples_;
-  return samples_ - problem_.transform.synthesis * psi_ * problem_.flexibility.asDiagonal();
+  return samples_ - detail::product(problem_.transform.synthesis, psi_) * problem_.flexibility.asDiagonal();
 }
 
 Eigen::MatrixXd ModeEquations::displacement_of_laws() const {
@@ -148,7 +150,7 @@ Eigen::MatrixXd ModeEquations::displacement_of_laws() const {
 
 Eigen::MatrixXd ModeEquations::modal_coefficients() const {
   const PairTransform& transform = problem_.transform;
-  Eigen::MatrixXd result = psi_ * problem_.model.contact_shapes;
+  Eigen::MatrixXd result = detail::product(psi_, problem_.model.contact_shapes);
   for (int row = 0; row < problem_.rows(); ++row)
     for (int j = 0; j < problem_.model.modes(); ++j)
       result(row, j) *= -gain(transform.order[static_cast<std::size_t>(row)], j);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -28,7 +29,7 @@ Eigen::VectorXd HarmonicForm::apply(const Eigen::VectorXd& x) const {
   Eigen::VectorXd result(x.size());
   const Eigen::Map<const Eigen::MatrixXd> blocks(x.data(), matrix_.rows(), factors_.size());
   Eigen::Map<Eigen::MatrixXd>(result.data(), matrix_.rows(), factors_.size()).noalias() =
-      matrix_ * blocks * factors_.asDiagonal();
+      detail::product(matrix_, blocks) * factors_.asDiagonal();
   return result;
 }
 

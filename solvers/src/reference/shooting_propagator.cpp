@@ -1,11 +1,13 @@
 #include "reference/shooting_propagator.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <utility>
+
+#include "linalg/dense.hpp"
+#include "linalg/lapack.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -14,6 +16,15 @@ constexpr int finest_level = 30;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 using NodeVector = StepTable::NodeVector;
 using NodeMatrix = StepTable::NodeMatrix;
+
+// Replaces `columns` columns at the nodes by their solutions; by numbers that are not finite if the matrix is
+// singular.
+void solve_at_nodes(NodeMatrix matrix, double* right, Eigen::Index columns) {
+  constexpr lapack_int n = StepTable::nodes;
+  lapack_int pivots[n];
+  LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, matrix.data(), n, pivots);
+  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, lapack_size(columns), matrix.data(), n, pivots, right, n);
+}
 
 }  // namespace
 
@@ -46,11 +57,12 @@ bool ContactPropagator::solve_nodes(const StepTable& step, NodeVector& displacem
   for (int i = 0; i < iterations; ++i) {
     law_.evaluate({displacement.data(), StepTable::nodes}, {attempt_.force.data(), StepTable::nodes},
                   {attempt_.tangent.data(), StepTable::nodes});
-    const NodeVector residual = displacement - free - step.node_force * attempt_.force;
+    NodeVector residual = displacement - free - step.node_force * attempt_.force;
     if (!residual.allFinite()) return false;
     if (residual.cwiseAbs().maxCoeff() <= 1e-15 * displacement.cwiseAbs().maxCoeff()) return true;
     const NodeMatrix jacobian = NodeMatrix::Identity() - step.node_force * attempt_.tangent.asDiagonal();
-    displacement -= jacobian.partialPivLu().solve(residual);
+    solve_at_nodes(jacobian, residual.data(), 1);
+    displacement -= residual;
   }
   return false;
 }
@@ -79,17 +91,19 @@ void ContactPropagator::attempt_step(const StepTable& step, double begin, double
 void ContactPropagator::propagate_sensitivity(const StepTable& step, Eigen::MatrixXd& sensitivity) const {
   const int n = modes_.size();
   const bool contact = (attempt_.tangent.array() != 0.0).any();
-  Eigen::Matrix<double, StepTable::nodes, Eigen::Dynamic> force;
+  Eigen::MatrixXd force;
   if (contact) {
     const NodeMatrix jacobian = NodeMatrix::Identity() - step.node_force * attempt_.tangent.asDiagonal();
-    force = attempt_.tangent.asDiagonal() * jacobian.partialPivLu().solve(step.node_state * sensitivity);
+    force = product(step.node_state, sensitivity);
+    solve_at_nodes(jacobian, force.data(), force.cols());
+    force.array().colwise() *= Eigen::VectorXd(attempt_.tangent).array();
   }
   const Eigen::MatrixXd q = sensitivity.topRows(n);
   sensitivity.topRows(n) =
       step.from_q_to_q.asDiagonal() * q + step.from_v_to_q.asDiagonal() * sensitivity.bottomRows(n);
   sensitivity.bottomRows(n) =
       (step.from_v_to_v.asDiagonal() * sensitivity.bottomRows(n) + step.from_q_to_v.asDiagonal() * q).eval();
-  if (contact) sensitivity.noalias() += step.end_force * force;
+  if (contact) sensitivity += product(step.end_force, force);
 }
 
 bool ContactPropagator::propagate_period(Eigen::VectorXd& state, Eigen::MatrixXd* sensitivity,
