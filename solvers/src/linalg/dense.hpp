@@ -37,6 +37,8 @@ class Lu {
   double condition() const requires std::same_as<Scalar, double>;
   /// 1 or -1, of a real matrix; 1 of a matrix without rows.
   int determinant_sign() const requires std::same_as<Scalar, double>;
+  /// A logarithm of the determinant, with any multiple of 2 pi i. O(n).
+  std::complex<double> log_determinant() const requires std::same_as<Scalar, std::complex<double>>;
 
  private:
   struct Factors;
@@ -79,5 +81,14 @@ std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, con
 
 /// The eigenvalues of a square matrix, in no order; NaN if the iteration does not converge. O(n^3).
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// Eigenvalues in no order, and eigenvectors as columns.
+struct GeneralEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+
+/// A x = value x of a square A; nothing if the iteration does not converge. O(n^3).
+std::optional<GeneralEigen> general_eigen(const Eigen::MatrixXd& matrix);
 
 }  // namespace wavebalance::solvers::detail

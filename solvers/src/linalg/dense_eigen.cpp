@@ -67,4 +67,24 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   return values;
 }
 
+std::optional<GeneralEigen> general_eigen(const Eigen::MatrixXd& matrix) {
+  const lapack_int n = lapack_size(matrix.rows());
+  if (n == 0 || !matrix.allFinite()) return std::nullopt;
+  Eigen::MatrixXd copy = matrix, packed(n, n);
+  Eigen::VectorXd real(n), imaginary(n);
+  if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', n, copy.data(), n, real.data(), imaginary.data(), nullptr, 1,
+                    packed.data(), n) != 0)
+    return std::nullopt;
+  GeneralEigen result{Eigen::VectorXcd(n), packed.cast<std::complex<double>>()};
+  result.values.real() = real;
+  result.values.imag() = imaginary;
+  // Of a conjugate pair LAPACK stores the real and the imaginary part of the first vector.
+  for (lapack_int i = 0; i + 1 < n; ++i) {
+    if (!(imaginary[i] > 0.0)) continue;
+    result.vectors.col(i).imag() = packed.col(i + 1);
+    result.vectors.col(i + 1) = result.vectors.col(i).conjugate();
+  }
+  return result;
+}
+
 }  // namespace wavebalance::solvers::detail

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "linalg/dense.hpp"
@@ -111,6 +112,16 @@ int Lu<Scalar>::determinant_sign() const requires std::same_as<Scalar, double> {
   for (std::size_t i = 0; i < factors_->pivots.size(); ++i)
     if (factors_->pivots[i] != static_cast<lapack_int>(i) + 1) negative = !negative;
   return negative ? -1 : 1;
+}
+
+template <class Scalar>
+std::complex<double> Lu<Scalar>::log_determinant() const requires std::same_as<Scalar, std::complex<double>> {
+  if (!factors_) return 0.0;
+  bool odd = false;
+  for (std::size_t i = 0; i < factors_->pivots.size(); ++i)
+    if (factors_->pivots[i] != static_cast<lapack_int>(i) + 1) odd = !odd;
+  const std::complex<double> sign(0.0, odd ? std::numbers::pi : 0.0);
+  return sign + factors_->lu.diagonal().array().log().sum();
 }
 
 template class Lu<double>;

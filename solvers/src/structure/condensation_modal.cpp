@@ -1,89 +1,17 @@
-#include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <random>
 
 #include "linalg/dense.hpp"
 #include "structure/condensation_method.hpp"
+#include "structure/modal_form.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
 
-/// Columns of `shapes` with shapes^T (M, C, K) shapes = diag(mass), diag(damping), diag(stiffness).
-struct Modes {
-  Eigen::MatrixXd shapes;  // n x n
-  Eigen::VectorXd mass, damping, stiffness;
-  // Frobenius norms of the errors of the three diagonal forms, off the diagonal too.
-  std::array<double, 3> errors = {};
-};
-
-// The norm of shapes^T A shapes - diag(diagonal) from its products with random signs, whose mean square it
-// is. O(n^2).
-double diagonal_error(const Eigen::MatrixXd& shapes, const Eigen::SparseMatrix<double>& matrix,
-                      const Eigen::VectorXd& diagonal) {
-  constexpr int samples = 8;
-  std::minstd_rand generator(1);
-  const Eigen::MatrixXd signs = Eigen::MatrixXd::NullaryExpr(
-      shapes.cols(), samples, [&] { return generator() > generator.max() / 2 ? 1.0 : -1.0; });
-  const Eigen::MatrixXd form = detail::transposed_product(shapes, matrix * detail::product(shapes, signs));
-  return (form - diagonal.asDiagonal() * signs).norm() / std::sqrt(double(samples));
-}
-
-// L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its own entry.
-std::optional<Eigen::MatrixXd> definite_factor(const Eigen::MatrixXd& matrix) {
-  auto factor = detail::cholesky(matrix);
-  if (!factor) return std::nullopt;
-  const double rounding = 100.0 * double(matrix.rows()) * std::numeric_limits<double>::epsilon();
-  const Eigen::ArrayXd pivots = factor->diagonal().array().square();
-  if (!(pivots > rounding * matrix.diagonal().array()).all()) return std::nullopt;
-  return factor;
-}
-
-// Modes of numerator x = ratio denominator x, normalised by the denominator.
-bool solve_modes(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denominator,
-                 Eigen::MatrixXd& shapes, Eigen::VectorXd& ratios) {
-  const auto factor = definite_factor(denominator);
-  if (!factor) return false;
-  const Eigen::MatrixXd scaled = detail::solve_lower(*factor, numerator);
-  const auto modes = detail::symmetric_eigen(detail::solve_lower(*factor, scaled.transpose()));
-  if (!modes) return false;
-  shapes = detail::solve_lower_transposed(*factor, modes->vectors);
-  ratios = modes->values;
-  return true;
-}
-
-// If K is positive definite the ratios M/K are computed rather than K/M. The lowest modes are then the
-// accurate ones, and a contact without mass is a mode like any other.
-std::optional<Modes> decouple(const LinearStructure& structure) {
-  const Eigen::MatrixXd mass(structure.mass), stiffness(structure.stiffness);
-  Modes modes;
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(structure.size());
-  if (solve_modes(mass, stiffness, modes.shapes, modes.mass)) {
-    modes.stiffness = ones;
-  } else if (solve_modes(stiffness, mass, modes.shapes, modes.stiffness)) {
-    modes.mass = ones;
-  } else {
-    return std::nullopt;
-  }
-  const Eigen::MatrixXd damping = detail::transposed_product(modes.shapes, structure.damping * modes.shapes);
-  modes.damping = damping.diagonal();
-  Eigen::MatrixXd coupling = damping;
-  coupling.diagonal().setZero();
-  // A modal damping matrix is computed from modes that are accurate to eps times the spread of their
-  // eigenvalues.
-  constexpr double tolerance = 1e-8;
-  if (coupling.cwiseAbs().maxCoeff() > tolerance * modes.damping.cwiseAbs().maxCoeff()) return std::nullopt;
-  modes.errors = {diagonal_error(modes.shapes, structure.mass, modes.mass), coupling.norm(),
-                  diagonal_error(modes.shapes, structure.stiffness, modes.stiffness)};
-  return modes;
-}
-
 class ModalMethod final : public Condensation::Method {
  public:
-  ModalMethod(const LinearStructure& structure, Modes modes)
+  ModalMethod(const LinearStructure& structure, ModalForm modes)
       : modes_(std::move(modes)),
         contacts_(structure.contact_directions * modes_.shapes),
         load_(modes_.shapes.transpose() * structure.load),
@@ -164,7 +92,7 @@ class ModalMethod final : public Condensation::Method {
         rounding_.tail(count) + error * (norms_.head(count) * norms_[count]).cwiseSqrt();
   }
 
-  Modes modes_;
+  ModalForm modes_;
   Eigen::MatrixXd contacts_;  // contacts x n, modes along the contact directions
   Eigen::VectorXd load_;      // n, modal load
   Eigen::ArrayXd sizes_;      // n, squared norms of the modes
@@ -179,7 +107,7 @@ class ModalMethod final : public Condensation::Method {
 }  // namespace
 
 std::unique_ptr<Condensation::Method> make_modal_method(const LinearStructure& structure) {
-  std::optional<Modes> modes = decouple(structure);
+  std::optional<ModalForm> modes = modal_form(structure);
   if (!modes) return nullptr;
   return std::make_unique<ModalMethod>(structure, *std::move(modes));
 }

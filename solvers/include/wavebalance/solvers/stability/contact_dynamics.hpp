@@ -1,0 +1,83 @@
+#pragma once
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+
+namespace wavebalance::solvers {
+
+/// How the modes of a structure are found.
+struct ContactDynamicsOptions {
+  /// Up to this many degrees of freedom all modes are computed; larger structures are reduced first.
+  int max_size = 400;
+  /// Vectors of the reduction; 0: 80, and at least 12 for each contact.
+  int reduced_size = 0;
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// An exponent lambda of a structure of its own, Im lambda >= 0, and what it contributes to the compliance of
+/// the contacts: residue shape shape^T / (s - lambda), and its conjugate where Im lambda > 0.
+struct ContactPole {
+  std::complex<double> exponent;  ///< 1/s
+  std::complex<double> residue;   ///< with the shape: m/(N s)
+  Eigen::VectorXcd shape;         ///< C, the mode along the contact directions
+};
+
+/// The compliance of the contacts, S (s^2 M + s C + K)^-1 S^T, at any complex exponent s, by the modes of the
+/// structure, and the exponents of the structure without contact.
+///
+/// Modes that decouple the damping are taken where they exist, otherwise the 2n complex ones. Structures of
+/// more than max_size degrees of freedom are projected on the block Krylov space of K^-1 M from the static
+/// deflections K^-1 S^T [R. R. Craig, A. L. Hale, J. Guid. Control Dyn. 11, 1988, doi:10.2514/3.20353].
+/// Statics are then exact. What is neglected is the dynamics of modes that the contacts hardly excite or that
+/// lie above the frequencies which the vectors span; exponents() has the others. reduced() tells, and a
+/// comparison with Condensation::dynamic_compliance() at the highest harmonic measures it.
+///
+/// Immutable; may be shared between threads.
+class ContactDynamics {
+ public:
+  /// Throws std::invalid_argument as LinearStructure::validate does, for options out of range, and where no
+  /// modes are found: neither mass nor stiffness positive definite and, with more than max_size degrees of
+  /// freedom or a damping that couples the modes, a stiffness that is not. O(n^3), or for a reduced structure
+  /// one factorization of K and O(n reduced_size^2).
+  explicit ContactDynamics(const LinearStructure& structure, const ContactDynamicsOptions& options = {});
+
+  int contacts() const { return static_cast<int>(constant_.rows()); }  ///< C
+  /// Whether the structure was reduced, so that exponents() is not complete.
+  bool reduced() const { return reduced_; }
+  /// The poles, each conjugate pair once.
+  const std::vector<ContactPole>& poles() const { return poles_; }
+  /// The limit of the compliance for |s| -> infinity, C x C, m/N: zero unless contacts have neither mass nor
+  /// damping.
+  const Eigen::MatrixXd& constant() const { return constant_; }
+
+  /// The compliance without constant(), and its derivative by s.
+  struct Values {
+    Eigen::MatrixXcd compliance;  ///< K x C^2, m/N: entry (c, d) in column c + C d
+    Eigen::MatrixXcd slope;       ///< K x C^2, m s/N
+  };
+  /// Both at K exponents s (1/s) of equal real part. O(K n C^2).
+  Values compliance(double real, const Eigen::VectorXd& imaginary) const;
+
+  /// A mode or a conjugate pair in the compliance, (linear s + constant) / (a2 s^2 + a1 s + a0).
+  struct Section {
+    Eigen::Vector3d denominator;  // (a2, a1, a0)
+    Eigen::MatrixXd constant;     // C x C
+    Eigen::MatrixXd linear;       // C x C; empty where zero
+  };
+
+ private:
+  void set_sections(const std::vector<Section>& sections);
+
+  std::vector<ContactPole> poles_;
+  Eigen::MatrixXd constant_;
+  bool reduced_ = false;
+  Eigen::MatrixX3d denominator_;        // one row per section
+  Eigen::MatrixXd constant_numerator_;  // sections x C^2
+  Eigen::MatrixXd linear_numerator_;    // sections x C^2; empty where all are zero
+};
+
+}  // namespace wavebalance::solvers

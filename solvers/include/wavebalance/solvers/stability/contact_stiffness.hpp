@@ -1,0 +1,57 @@
+#pragma once
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/response/periodic_response.hpp"
+
+namespace wavebalance::solvers {
+
+/// Whether the stability of a motion is known, or why it is not.
+enum class StabilityStatus {
+  converged,            ///< it is known
+  no_response,          ///< the response has not converged
+  no_finite_stiffness,  ///< a law in contact has no finite stiffness: rigid contact
+  too_few_samples,    ///< an interval of contact lies between two samples, so that the response has no force
+  too_few_harmonics,  ///< contact is so stiff that max_harmonics do not resolve it
+  undamped,           ///< an exponent of the structure without contact lies on the imaginary axis
+  coupled_massless,   ///< contacts without mass and damping that deflect each other at once
+  effort_limit        ///< max_evaluations were not enough
+};
+
+std::string_view to_string(StabilityStatus status);
+
+/// An interval of contact in fractions of the period: 0 <= begin < 1, begin < end <= begin + 1. Contact that
+/// lasts the whole period has end = begin + 1.
+struct ContactInterval {
+  int contact = 0;
+  double begin = 0.0;
+  double end = 0.0;
+
+  double length() const { return end - begin; }
+  bool always() const { return end - begin >= 1.0; }
+};
+
+/// The stiffness D(t) of the contacts over one period: smooth within intervals of contact, zero outside.
+struct PeriodicStiffness {
+  StabilityStatus status = StabilityStatus::converged;
+  std::vector<ContactInterval> intervals;  ///< by contact, then by begin
+  /// The slope of the law, N/m, of a contact at a time (in periods) within one of its intervals.
+  std::function<double(int contact, double time)> tangent;
+};
+
+/// D(t) = f_c'(u(t)) of the laws along the motion of a response, whose instants of opening and closing are
+/// roots of u(t) - gap to rounding. The motion is the sum of the trial functions: of their harmonics where
+/// both bases are band-limited, otherwise a cubic through the samples, or for trial functions without a
+/// derivative a line. In the force form u is the displacement at which the law has the force, v - rho(v) /
+/// epsilon. A law that also acts below its gap has the intervals on both sides.
+///
+/// The result refers to `laws` no more than by copies. O(C (N + intervals M)).
+/// Throws std::invalid_argument for laws that are neither one nor one per contact, and for samples of another
+/// length than the problem's.
+PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const ContactLaws& laws,
+                                    const PeriodicResponse& response);
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,84 @@
+#pragma once
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "wavebalance/solvers/stability/contact_stiffness.hpp"
+
+namespace wavebalance::solvers {
+
+/// How the determinant of a perturbation is evaluated and its argument followed.
+struct StabilityOptions {
+  /// Harmonics H of the perturbation on either side; 0: those of the trial functions, (M - 1) / 2.
+  int harmonics = 0;
+  /// How far contact may matter beyond H: the largest |S Z(i n omega)^-1 S^T| D at harmonics n > H, times the
+  /// cycles that the contact's stiffness goes through on the mass beside it while the contact lasts, if these
+  /// are more than one. Where it is larger, H harmonics do not represent perturbations: stable motions of
+  /// stiff contacts look unstable, in random structures from 0.4 on. Count and signs are then those of
+  /// monodromy().
+  double max_omitted = 0.33;
+  /// States up to which the monodromy may be taken, at O(states^3); 0: never.
+  int max_states = 400;
+  int max_evaluations = 2000;  ///< of the determinant in one call
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// The Floquet multipliers outside the unit circle.
+struct UnstableMultipliers {
+  StabilityStatus status = StabilityStatus::converged;
+  int count = -1;        ///< -1 unless converged
+  int harmonics = 0;     ///< H taken
+  int evaluations = 0;   ///< of the determinant
+  double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
+};
+
+/// The number of Floquet multipliers outside the unit circle, of perturbations v of
+///
+///   M v'' + C v' + K v + S^T D(t) S v = 0,   D periodic with `frequency` (Hz).
+///
+/// With v = exp(sigma t) p(t) and the compliance G_sigma(t) = sum_{|n| <= H} S Z(sigma + i n omega)^-1 S^T
+/// exp(i n omega t) the contacts alone remain. At Gauss nodes t_j with weights w_j, ceil(1.8 H length) + 7 on
+/// each interval of contact, the determinant
+///
+///   Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j))
+///
+/// is the quotient of the characteristic polynomials with and without contact, prod (z - mu_j) / (z -
+/// exp(lambda_j T)), z = exp(sigma T). The count is that of the poles lambda_j with a positive real part less
+/// [arg Delta(i nu)] / pi over nu = 0..omega/2: the generalised Nyquist criterion [N. M. Wereley, S. R. Hall,
+/// Frequency response of linear time periodic systems, CDC 1990, doi:10.1109/CDC.1990.203516]. The argument
+/// is followed from points around the natural frequencies, folded into that range, and steps are halved until
+/// it changes by less than a third of pi and as its derivative says.
+///
+/// `options.harmonics` must be set. O(evaluations (H n C^2 + nodes^2 H + nodes^3)), some ten evaluations at
+/// ordinary and fifty at light damping. Throws std::invalid_argument for a frequency that is not positive and
+/// finite, a stiffness for other contacts, and options out of range.
+UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                         double frequency, const StabilityOptions& options);
+
+/// The same of a response of `problem` to `laws`. `dynamics` must be that of problem.structure(); a sweep
+/// makes it once.
+UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const CondensedProblem& problem,
+                                         const ContactLaws& laws, const PeriodicResponse& response,
+                                         const StabilityOptions& options = {});
+
+/// The same with the dynamics computed for this call, O(n^3).
+UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const ContactLaws& laws,
+                                         const PeriodicResponse& response,
+                                         const StabilityOptions& options = {});
+
+/// The signs of two real determinants: 1, -1, or 0 unless converged.
+struct StabilitySigns {
+  StabilityStatus status = StabilityStatus::converged;
+  int fold = 0;  ///< of Delta(0): -1 for an odd number of real multipliers above 1
+  int flip = 0;  ///< of Delta(i omega / 2): -1 for an odd number of real multipliers below -1
+};
+
+/// Where `fold` changes along a curve there is a fold or a branch point, where `flip` does a period doubling.
+/// Two real determinants, whatever the damping. Signs refer to a structure that is stable without contact.
+/// Throws as unstable_multipliers does.
+StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                               double frequency, const StabilityOptions& options);
+StabilitySigns stability_signs(const ContactDynamics& dynamics, const CondensedProblem& problem,
+                               const ContactLaws& laws, const PeriodicResponse& response,
+                               const StabilityOptions& options = {});
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,219 @@
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "linalg/dense.hpp"
+#include "linalg/option_checks.hpp"
+#include "stability/contact_dynamics_reduced.hpp"
+#include "structure/modal_form.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// Entries that are rounding of the largest, as zeros.
+Eigen::VectorXd without_rounding(const Eigen::VectorXd& values) {
+  const double least = 4.0 * eps * double(values.size()) * values.cwiseAbs().maxCoeff();
+  return (values.array().abs() > least).select(values, 0.0);
+}
+
+// What the modes contribute to the compliance of the contacts.
+struct Parts {
+  Eigen::MatrixXd constant;
+  std::vector<ContactPole> poles;
+  std::vector<ContactDynamics::Section> sections;
+};
+
+struct ComplexModes {
+  Eigen::VectorXcd exponents;
+  Eigen::MatrixXcd shapes;  // n x modes
+};
+
+// Eigenvalues of the first-order form, by its inverse where K is definite, so that the lowest modes are the
+// accurate ones.
+ComplexModes complex_modes(const LinearStructure& structure) {
+  const Eigen::MatrixXd mass(structure.mass), damping(structure.damping), stiffness(structure.stiffness);
+  const Eigen::Index n = mass.rows();
+  const bool inverse = detail::cholesky(stiffness).has_value();
+  const detail::Lu<double> metric(inverse ? stiffness : mass);
+  if (metric.is_singular(1e-14))
+    throw std::invalid_argument(
+        "ContactDynamics: neither mass nor stiffness is positive definite; one of them must be");
+  Eigen::MatrixXd first_order = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  if (inverse) {
+    first_order.topLeftCorner(n, n) = -metric.solve(damping);
+    first_order.topRightCorner(n, n) = -metric.solve(mass);
+    first_order.bottomLeftCorner(n, n).setIdentity();
+  } else {
+    first_order.topRightCorner(n, n).setIdentity();
+    first_order.bottomLeftCorner(n, n) = -metric.solve(stiffness);
+    first_order.bottomRightCorner(n, n) = -metric.solve(damping);
+  }
+  const auto eigen = detail::general_eigen(first_order);
+  if (!eigen) throw std::invalid_argument("ContactDynamics: no modes found; matrices must be finite");
+  ComplexModes modes{Eigen::VectorXcd(2 * n), eigen->vectors.topRows(n)};
+  Eigen::Index count = 0;
+  const double largest = eigen->values.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const Complex value = eigen->values[i];
+    if (value.imag() < 0.0 || (inverse && std::abs(value) <= 1e-13 * largest)) continue;
+    const Complex exponent = inverse ? 1.0 / value : value;
+    modes.exponents[count] = exponent;
+    modes.shapes.col(count++) = eigen->vectors.col(i).head(n);
+  }
+  modes.exponents.conservativeResize(count);
+  modes.shapes.conservativeResize(Eigen::NoChange, count);
+  // 1 / value of the upper half plane lies in the lower one.
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (modes.exponents[i].imag() < 0.0) {
+      modes.exponents[i] = std::conj(modes.exponents[i]);
+      modes.shapes.col(i) = modes.shapes.col(i).conjugate().eval();
+    }
+  return modes;
+}
+
+// The poles of 1 / (m s^2 + c s + k), m and c not both zero.
+void add_poles(double m, double c, double k, const Eigen::VectorXd& shape, std::vector<ContactPole>& poles) {
+  if (m == 0.0) {
+    poles.push_back({-k / c, 1.0 / c, shape});
+    return;
+  }
+  double discriminant = 0.25 * c * c - m * k;
+  // Equal exponents have no residues; a change by 5e-7 of them does not matter.
+  const double least = 2.5e-13 * c * c;
+  if (std::abs(discriminant) < least) discriminant = -least;
+  if (discriminant < 0.0) {
+    const Complex exponent(-0.5 * c / m, std::sqrt(-discriminant) / m);
+    poles.push_back({exponent, 1.0 / (2.0 * m * Complex(0.0, exponent.imag())), shape});
+    return;
+  }
+  const double sum = 0.5 * std::abs(c) + std::sqrt(discriminant), sign = c < 0.0 ? 1.0 : -1.0;
+  const double fast = sign * sum / m, slow = sign * k / sum;
+  poles.push_back({fast, 1.0 / (m * (fast - slow)), shape});
+  poles.push_back({slow, 1.0 / (m * (slow - fast)), shape});
+}
+
+Parts decoupled_parts(const LinearStructure& structure, const ModalForm& modes) {
+  const Eigen::MatrixXd contacts = structure.contact_directions * modes.shapes;
+  const Eigen::VectorXd mass = without_rounding(modes.mass), damping = without_rounding(modes.damping),
+                        stiffness = without_rounding(modes.stiffness);
+  Parts parts{Eigen::MatrixXd::Zero(contacts.rows(), contacts.rows()), {}, {}};
+  for (Eigen::Index j = 0; j < mass.size(); ++j) {
+    const Eigen::VectorXd shape = contacts.col(j);
+    if (mass[j] == 0.0 && damping[j] == 0.0) {
+      parts.constant += shape * shape.transpose() / stiffness[j];
+      continue;
+    }
+    parts.sections.push_back({{mass[j], damping[j], stiffness[j]}, shape * shape.transpose(), {}});
+    add_poles(mass[j], damping[j], stiffness[j], shape, parts.poles);
+  }
+  return parts;
+}
+
+// An exponent lambda of the shape x has the residue 1 / x^T (2 lambda M + C) x.
+Parts complex_parts(const LinearStructure& structure) {
+  StaticCondensation condensed = without_massless(structure);
+  const LinearStructure& own = condensed.structure;
+  const ComplexModes modes = complex_modes(own);
+  Parts parts{std::move(condensed.compliance), {}, {}};
+  for (Eigen::Index j = 0; j < modes.exponents.size(); ++j) {
+    const Complex exponent = modes.exponents[j];
+    const Eigen::VectorXcd mode = modes.shapes.col(j);
+    const Eigen::VectorXcd momentum = own.mass * (2.0 * exponent * mode) + own.damping * mode;
+    const Complex residue = 1.0 / (mode.transpose() * momentum).value();
+    const Eigen::VectorXcd shape = own.contact_directions * mode;
+    parts.poles.push_back({exponent, residue, shape});
+    const Eigen::MatrixXcd matrix = residue * shape * shape.transpose();
+    if (exponent.imag() == 0.0)
+      parts.sections.push_back({{0.0, 1.0, -exponent.real()}, matrix.real(), {}});
+    else
+      parts.sections.push_back({{1.0, -2.0 * exponent.real(), std::norm(exponent)},
+                                -2.0 * (matrix * std::conj(exponent)).real(),
+                                2.0 * matrix.real()});
+  }
+  return parts;
+}
+
+}  // namespace
+
+void ContactDynamicsOptions::validate() const {
+  detail::require_at_least("ContactDynamicsOptions", "max_size", max_size, 1);
+  detail::require_at_least("ContactDynamicsOptions", "reduced_size", reduced_size, 0);
+}
+
+ContactDynamics::ContactDynamics(const LinearStructure& structure, const ContactDynamicsOptions& options) {
+  options.validate();
+  structure.validate();
+  const int contacts = structure.contacts();
+  reduced_ = structure.size() > options.max_size;
+  const int vectors = options.reduced_size > 0 ? options.reduced_size : std::max(80, 12 * contacts);
+  const LinearStructure own = reduced_ ? krylov_reduction(structure, vectors) : structure;
+  const auto modes = modal_form(own);
+  Parts parts = modes ? decoupled_parts(own, *modes) : complex_parts(own);
+  constant_ = std::move(parts.constant);
+  poles_ = std::move(parts.poles);
+  set_sections(parts.sections);
+}
+
+// Those that no contact excites are left out.
+void ContactDynamics::set_sections(const std::vector<Section>& sections) {
+  const auto count = static_cast<Eigen::Index>(sections.size());
+  denominator_.resize(count, 3);
+  constant_numerator_.resize(count, constant_.size());
+  linear_numerator_.setZero(count, constant_.size());
+  Eigen::Index used = 0;
+  for (const Section& section : sections) {
+    if (section.constant.isZero(0.0) && section.linear.isZero(0.0)) continue;
+    denominator_.row(used) = section.denominator.transpose();
+    constant_numerator_.row(used) = section.constant.reshaped().transpose();
+    if (section.linear.size() > 0) linear_numerator_.row(used) = section.linear.reshaped().transpose();
+    ++used;
+  }
+  denominator_.conservativeResize(used, Eigen::NoChange);
+  constant_numerator_.conservativeResize(used, Eigen::NoChange);
+  linear_numerator_.conservativeResize(used, Eigen::NoChange);
+  if (linear_numerator_.isZero(0.0)) linear_numerator_.resize(0, constant_.size());
+}
+
+ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::VectorXd& imaginary) const {
+  const Eigen::Index points = imaginary.size(), sections = denominator_.rows();
+  const Eigen::ArrayXd y = imaginary.array();
+  // Real and imaginary parts of 1 / d(s) below each other, and of its derivative by s.
+  Eigen::MatrixXd weight(2 * points, sections), slope(2 * points, sections);
+  for (Eigen::Index j = 0; j < sections; ++j) {
+    const double a2 = denominator_(j, 0), a1 = denominator_(j, 1), a0 = denominator_(j, 2);
+    const double rise = 2.0 * a2 * real + a1, static_part = (a2 * real + a1) * real + a0;
+    const double* at = y.data();
+    double *wr = &weight(0, j), *wi = wr + points, *sr = &slope(0, j), *si = sr + points;
+    for (Eigen::Index k = 0; k < points; ++k) {
+      const double re = static_part - a2 * at[k] * at[k], im = rise * at[k];
+      const double scale = 1.0 / (re * re + im * im), vr = re * scale, vi = -im * scale;
+      const double square_re = vr * vr - vi * vi, square_im = 2.0 * vr * vi;
+      const double turn = 2.0 * a2 * at[k];
+      wr[k] = vr;
+      wi[k] = vi;
+      sr[k] = turn * square_im - rise * square_re;
+      si[k] = -turn * square_re - rise * square_im;
+    }
+  }
+  const auto joined = [&](const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) -> Eigen::MatrixXcd {
+    const Eigen::MatrixXd parts = detail::product(left, right);
+    return parts.topRows(points) + Complex(0.0, 1.0) * parts.bottomRows(points);
+  };
+  Values values{joined(weight, constant_numerator_), joined(slope, constant_numerator_)};
+  if (linear_numerator_.rows() == 0) return values;
+  const Eigen::VectorXcd exponents = real + Complex(0.0, 1.0) * y;
+  const Eigen::MatrixXcd ramp = joined(weight, linear_numerator_);
+  values.compliance += exponents.asDiagonal() * ramp;
+  values.slope += ramp + exponents.asDiagonal() * joined(slope, linear_numerator_);
+  return values;
+}
+
+}  // namespace wavebalance::solvers

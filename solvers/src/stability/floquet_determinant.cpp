@@ -1,0 +1,264 @@
+#include "stability/floquet_determinant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linalg/dense.hpp"
+#include "stability/gauss_rule.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// Equal weights where contact lasts the whole period, since the integrand is then periodic.
+QuadratureRule rule_for(const ContactInterval& interval, int harmonics) {
+  if (!interval.always()) return gauss_rule(int(std::ceil(1.8 * harmonics * interval.length())) + 7);
+  const int count = 3 * harmonics + 8;
+  return {Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / count),
+          Eigen::VectorXd::Constant(count, 1.0 / count)};
+}
+
+}  // namespace
+
+FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                       double frequency, int harmonics)
+    : dynamics_(dynamics), omega_(two_pi * frequency), harmonics_(harmonics) {
+  place_nodes(stiffness);
+  const Eigen::Index count = harmonics_ + 2;
+  waves_.resize(nodes(), 2 * count);
+  for (Eigen::Index i = 0; i < waves_.rows(); ++i) {
+    const Complex turn = std::polar(1.0, two_pi * time_[i]);
+    Complex phase = 1.0;
+    for (Eigen::Index n = 0; n < count; ++n, phase *= turn) {
+      waves_(i, n) = phase.real();
+      waves_(i, count + n) = phase.imag();
+    }
+  }
+}
+
+void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness) {
+  std::vector<double> times, weights;
+  for (const ContactInterval& interval : stiffness.intervals) {
+    const QuadratureRule rule = rule_for(interval, harmonics_);
+    const auto begin = static_cast<Eigen::Index>(times.size());
+    if (ranges_.empty() || ranges_.back().contact != interval.contact)
+      ranges_.push_back({interval.contact, begin, 0});
+    ranges_.back().count += rule.points.size();
+    const double yielding = dynamics_.constant()(interval.contact, interval.contact);
+    for (Eigen::Index i = 0; i < rule.points.size(); ++i) {
+      const double time = interval.begin + interval.length() * rule.points[i];
+      const double tangent = stiffness.tangent(interval.contact, time);
+      times.push_back(time);
+      weights.push_back(interval.length() * rule.weights[i] * tangent / (1.0 + yielding * tangent));
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(times.size());
+  time_ = Eigen::Map<const Eigen::VectorXd>(times.data(), count);
+  weighted_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
+}
+
+// At the harmonics n = -H - 1..H, the first with its weight.
+ContactDynamics::Values FloquetDeterminant::compliance(Complex sigma) const {
+  const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(2 * harmonics_ + 2, -harmonics_ - 1, harmonics_);
+  ContactDynamics::Values values =
+      dynamics_.compliance(sigma.real(), (sigma.imag() + omega_ * orders.array()).matrix());
+  const double weight = 2.0 * sigma.imag() / omega_;
+  values.compliance.row(0) *= weight;
+  values.slope.row(0) *= weight;
+  return values;
+}
+
+// nodes x (2H + 2), exp(2 pi i n t), n = -H - 1..H.
+Eigen::MatrixXcd FloquetDeterminant::phases() const {
+  const Eigen::Index count = harmonics_ + 2;
+  const Eigen::MatrixXcd upper = waves_.leftCols(count) + Complex(0.0, 1.0) * waves_.rightCols(count);
+  Eigen::MatrixXcd all(nodes(), 2 * harmonics_ + 2);
+  all << upper.rightCols(count - 1).conjugate().rowwise().reverse(), upper.leftCols(count - 1);
+  return all;
+}
+
+// sum_n g_n exp(2 pi i n (t_i - t_j)) w_j D(t_j), g_n the compliances of compliance(). With p_n = g_n + g_-n
+// and q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), a real product for each part.
+Eigen::MatrixXcd FloquetDeterminant::kernel(const Eigen::MatrixXcd& compliance) const {
+  const Eigen::Index count = harmonics_ + 2;
+  Eigen::MatrixXcd result(nodes(), nodes());
+  Eigen::VectorXcd p(count), q(count);
+  for (const Range& row : ranges_)
+    for (const Range& column : ranges_) {
+      const auto g = compliance.col(pair(row, column));
+      p << g[harmonics_ + 1], g.tail(harmonics_) + g.segment(1, harmonics_).reverse(), g[0];
+      q << 0.0, Complex(0.0, 1.0) * (g.tail(harmonics_) - g.segment(1, harmonics_).reverse()),
+          Complex(0.0, -1.0) * g[0];
+      const auto cosines = waves_.block(row.begin, 0, row.count, count);
+      const auto sines = waves_.block(row.begin, count, row.count, count);
+      Eigen::MatrixXd left(2 * row.count, 2 * count);
+      left.topLeftCorner(row.count, count) = cosines * p.real().asDiagonal() + sines * q.real().asDiagonal();
+      left.topRightCorner(row.count, count) = sines * p.real().asDiagonal() - cosines * q.real().asDiagonal();
+      left.bottomLeftCorner(row.count, count) =
+          cosines * p.imag().asDiagonal() + sines * q.imag().asDiagonal();
+      left.bottomRightCorner(row.count, count) =
+          sines * p.imag().asDiagonal() - cosines * q.imag().asDiagonal();
+      const Eigen::MatrixXd parts =
+          detail::product_transposed(left, waves_.middleRows(column.begin, column.count));
+      auto block = result.block(row.begin, column.begin, row.count, column.count);
+      block.real() = parts.topRows(row.count);
+      block.imag() = parts.bottomRows(row.count);
+    }
+  return result * weighted_.asDiagonal();
+}
+
+Eigen::MatrixXcd FloquetDeterminant::matrix(const Eigen::MatrixXcd& compliance) const {
+  Eigen::MatrixXcd result = kernel(compliance);
+  result.diagonal().array() += 1.0;
+  return result;
+}
+
+FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
+  if (sigma.imag() < 0.0) {
+    const Value mirrored = (*this)(std::conj(sigma));
+    return {std::conj(mirrored.log), std::conj(mirrored.derivative)};
+  }
+  ++evaluations_;
+  if (nodes() == 0) return {};
+  const ContactDynamics::Values values = compliance(sigma);
+  const detail::Lu<Complex> lu(matrix(values.compliance));
+  return {lu.log_determinant(), lu.solve(kernel(values.slope)).trace()};
+}
+
+Complex FloquetDeterminant::log(Complex sigma) {
+  if (sigma.imag() < 0.0) return std::conj(log(std::conj(sigma)));
+  ++evaluations_;
+  return nodes() == 0 ? 0.0 : detail::Lu<Complex>(matrix(compliance(sigma).compliance)).log_determinant();
+}
+
+// Re sum over the harmonics first..H of weight * g_n exp(2 pi i (n + shift)(t_i - t_j)), whose other half is
+// the complex conjugate.
+int FloquetDeterminant::real_sign(double shift, int first) {
+  ++evaluations_;
+  if (nodes() == 0) return 1;
+  const Eigen::Index count = harmonics_ + 1;
+  const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(count, shift, harmonics_ + shift);
+  Eigen::MatrixXcd compliance = 2.0 * dynamics_.compliance(0.0, omega_ * orders).compliance;
+  if (first == 0) compliance.row(0) *= 0.5;
+  Eigen::MatrixXcd turned = phases().rightCols(count);
+  for (Eigen::Index i = 0; i < turned.rows() && shift != 0.0; ++i)
+    turned.row(i) *= std::polar(1.0, two_pi * shift * time_[i]);
+  Eigen::MatrixXd result(nodes(), nodes()), left, right;
+  for (const Range& column : ranges_) {
+    const auto at = turned.middleRows(column.begin, column.count);
+    right.resize(column.count, 2 * count);
+    right << at.real(), at.imag();
+    right = weighted_.segment(column.begin, column.count).asDiagonal() * right;
+    for (const Range& row : ranges_) {
+      const Eigen::MatrixXcd moved =
+          turned.middleRows(row.begin, row.count) * compliance.col(pair(row, column)).asDiagonal();
+      left.resize(row.count, 2 * count);
+      left << moved.real(), moved.imag();
+      result.block(row.begin, column.begin, row.count, column.count) =
+          detail::product_transposed(left, right);
+    }
+  }
+  result.diagonal().array() += 1.0;
+  return detail::Lu<double>(result).determinant_sign();
+}
+
+int FloquetDeterminant::sign_at_zero() { return real_sign(0.0, 0); }
+int FloquetDeterminant::sign_at_half() { return real_sign(0.5, 1); }
+
+FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
+  const Eigen::Index count = 2 * harmonics_ + 1;
+  Mode mode{Eigen::MatrixXcd::Zero(dynamics_.contacts(), count), {}};
+  mode.force = mode.displacement;
+  if (nodes() == 0) return mode;
+  const ContactDynamics::Values values = compliance(sigma);
+  const Eigen::MatrixXcd singular = matrix(values.compliance);
+  const detail::Lu<Complex> lu(singular);
+  Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(nodes());
+  for (int step = 0; step < 3; ++step) {
+    const Eigen::VectorXcd next = lu.solve(vector);
+    if (!next.allFinite()) break;
+    vector = next / next.norm();
+  }
+  if (!((singular * vector).norm() < 1e-4 * singular.cwiseAbs().maxCoeff())) return mode;
+  const Eigen::MatrixXcd waves = phases().rightCols(count).conjugate();
+  const Eigen::MatrixXcd responses = values.compliance.bottomRows(count);
+  for (const Range& column : ranges_) {
+    const Eigen::VectorXcd force = weighted_.segment(column.begin, column.count)
+                                       .cwiseProduct(vector.segment(column.begin, column.count));
+    mode.force.row(column.contact) = force.transpose() * waves.middleRows(column.begin, column.count);
+  }
+  for (int c = 0; c < dynamics_.contacts(); ++c)
+    for (int d = 0; d < dynamics_.contacts(); ++d)
+      mode.displacement.row(c) -=
+          responses.col(c + dynamics_.contacts() * d).transpose().cwiseProduct(mode.force.row(d)) +
+          dynamics_.constant()(c, d) * mode.force.row(d);
+  Eigen::Index row = 0, column = 0;
+  const double largest = mode.displacement.cwiseAbs().maxCoeff(&row, &column);
+  if (!(largest > 0.0)) return mode;
+  const Complex scale = 1.0 / mode.displacement(row, column);
+  mode.displacement *= scale;
+  mode.force *= scale;
+  return mode;
+}
+
+namespace {
+
+// How far the contacts matter at the harmonics H < n <= 2 H: |G(i n omega)| D, times the cycles that the
+// contact's stiffness goes through on the mass beside it in the longest contact, since errors of its
+// frequency add up.
+double omitted(const ContactDynamics& dynamics, const Eigen::VectorXd& stiffness,
+               const Eigen::VectorXd& longest, double angular_frequency, int harmonics) {
+  constexpr int samples = 9;
+  const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(samples, harmonics + 1, 2.0 * harmonics);
+  const Eigen::MatrixXd sizes = dynamics.compliance(0.0, angular_frequency * orders).compliance.cwiseAbs();
+  double worst = 0.0;
+  for (int c = 0; c < dynamics.contacts(); ++c) {
+    const double relative = stiffness[c] * sizes.col(c * (dynamics.contacts() + 1)).maxCoeff() /
+                            (1.0 + stiffness[c] * dynamics.constant()(c, c));
+    const double cycles = std::sqrt(relative) * (harmonics + 1) * longest[c];
+    worst = std::max(worst, relative * std::max(1.0, cycles));
+  }
+  return worst;
+}
+
+}  // namespace
+
+int resolving_harmonics(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                        double angular_frequency, int harmonics, int most, double max_omitted) {
+  constexpr int samples = 8;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(dynamics.contacts()), longest = largest;
+  for (const ContactInterval& interval : stiffness.intervals) {
+    longest[interval.contact] = std::max(longest[interval.contact], interval.length());
+    for (int i = 0; i <= samples; ++i) {
+      const double time = interval.begin + interval.length() * i / samples;
+      double& entry = largest[interval.contact];
+      entry = std::max(entry, std::abs(stiffness.tangent(interval.contact, time)));
+    }
+  }
+  for (; harmonics <= most; harmonics += (harmonics + 1) / 2)
+    if (omitted(dynamics, largest, longest, angular_frequency, harmonics) <= max_omitted) return harmonics;
+  return 0;
+}
+
+StabilityStatus require_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {
+  if (stiffness.status != StabilityStatus::converged) return stiffness.status;
+  Eigen::MatrixXd coupling = dynamics.constant();
+  const double own = coupling.diagonal().cwiseAbs().maxCoeff();
+  coupling.diagonal().setZero();
+  const bool coupled = coupling.cwiseAbs().maxCoeff() > 1e-9 * own;
+  return coupled ? StabilityStatus::coupled_massless : StabilityStatus::converged;
+}
+
+StabilityStatus require_countable(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                  double angular_frequency) {
+  constexpr double least = 1e-10;
+  for (const ContactPole& pole : dynamics.poles())
+    if (std::abs(pole.exponent.real()) <= least * std::max(std::abs(pole.exponent), angular_frequency))
+      return StabilityStatus::undamped;
+  return require_stiffness(dynamics, stiffness);
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,241 @@
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "linalg/dense.hpp"
+#include "linalg/option_checks.hpp"
+#include "stability/floquet_determinant.hpp"
+#include "stability/stability_checks.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+constexpr int max_points = 1024;  // of the unit circle
+
+// log(1 - exp((zero - sigma) T)) and its derivative by sigma: a factor of the characteristic polynomial.
+FloquetDeterminant::Value factor(Complex zero, Complex sigma, double period) {
+  const Complex decay = std::exp((zero - sigma) * period);
+  return {std::log(1.0 - decay), period * decay / (1.0 - decay)};
+}
+
+// log of F = Delta(sigma) prod (1 - exp((lambda_j - sigma) T)) = prod (1 - mu_j / z) up to a factor that
+// hardly varies, of which the zeros in `found` are divided out.
+class CharacteristicPolynomial {
+ public:
+  explicit CharacteristicPolynomial(FloquetDeterminant& determinant)
+      : determinant_(determinant), period_(2.0 * pi / determinant.angular_frequency()) {}
+
+  double period() const { return period_; }
+  std::vector<Complex>& found() { return found_; }
+  // How many multipliers outside the unit circle are among those found.
+  int unstable() const {
+    int count = 0;
+    for (const Complex zero : found_)
+      if (zero.real() > 0.0) count += is_pair(zero) ? 2 : 1;
+    return count;
+  }
+
+  // Points of the unit circle that resolve the polynomial: four times the multipliers that have not decayed.
+  int points() const {
+    int lasting = 0, count = 32;
+    for (const ContactPole& pole : determinant_.dynamics().poles())
+      if (pole.exponent.real() * period_ > -3.5) lasting += pole.exponent.imag() == 0.0 ? 1 : 2;
+    while (count < 4 * lasting && count < max_points) count *= 2;
+    return count;
+  }
+
+  // The logarithm of F without `found`.
+  Complex log(Complex sigma) const {
+    FloquetDeterminant::Value value{determinant_.log(sigma), 0.0};
+    for (const ContactPole& pole : determinant_.dynamics().poles()) add(pole.exponent, sigma, 1.0, value);
+    return value.log;
+  }
+
+  FloquetDeterminant::Value operator()(Complex sigma) const {
+    FloquetDeterminant::Value value = determinant_(sigma);
+    for (const ContactPole& pole : determinant_.dynamics().poles()) add(pole.exponent, sigma, 1.0, value);
+    for (const Complex zero : found_) add(zero, sigma, -1.0, value);
+    return value;
+  }
+
+ private:
+  bool is_pair(Complex zero) const {
+    const double angle = std::remainder(zero.imag() * period_, 2.0 * pi);
+    return std::abs(angle) > 1e-9 && std::abs(angle) < pi - 1e-9;
+  }
+  void add(Complex zero, Complex sigma, double times, FloquetDeterminant::Value& value) const {
+    const bool pair = times > 0.0 ? zero.imag() != 0.0 : is_pair(zero);
+    for (const Complex each : {zero, std::conj(zero)}) {
+      const FloquetDeterminant::Value one = factor(each, sigma, period_);
+      value.log += times * one.log;
+      value.derivative += times * one.derivative;
+      if (!pair) return;
+    }
+  }
+
+  FloquetDeterminant& determinant_;
+  double period_;
+  std::vector<Complex> found_;
+};
+
+// Coefficients of F as a polynomial in 1 / z from `count` (even) points of the unit circle.
+Eigen::VectorXd polynomial(const CharacteristicPolynomial& characteristic, int count) {
+  const int half = count / 2;
+  Eigen::VectorXcd values(half + 1);
+  const double step = 2.0 * pi / characteristic.period() / count;
+  for (int k = 0; k <= half; ++k) values[k] = characteristic.log({0.0, k * step});
+  const double scale = values.real().maxCoeff();
+  Eigen::VectorXd coefficients(half);
+  for (int j = 0; j < half; ++j) {
+    double sum = 0.0;
+    for (int k = 0; k <= half; ++k) {
+      const double angle = 2.0 * pi * double((long(j) * k) % count) / count;
+      sum +=
+          (k == 0 || k == half ? 1.0 : 2.0) * std::real(std::exp(values[k] - scale) * std::polar(1.0, angle));
+    }
+    coefficients[j] = sum / count;
+  }
+  return coefficients;
+}
+
+// How many coefficients exceed the noise of the truncated harmonics, that of the upper half of them.
+Eigen::Index significant(const Eigen::VectorXd& coefficients) {
+  const Eigen::VectorXd sizes = coefficients.cwiseAbs();
+  const double noise = 4.0 * sizes.tail(sizes.size() / 2).maxCoeff();
+  Eigen::Index count = sizes.size();
+  while (count > 1 && sizes[count - 1] <= std::max(noise, 1e-13 * sizes.maxCoeff())) --count;
+  return count;
+}
+
+// The multipliers above `least` in modulus as roots of the polynomial, by falling modulus, of each conjugate
+// pair the upper one.
+std::vector<Complex> approximate_multipliers(const CharacteristicPolynomial& characteristic, double least) {
+  Eigen::VectorXd coefficients;
+  Eigen::Index count = 0;
+  for (int points = characteristic.points(); points <= max_points; points *= 2) {
+    coefficients = polynomial(characteristic, points);
+    count = significant(coefficients);
+    if (count < coefficients.size() / 2) break;
+  }
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(count - 1, count - 1);
+  if (count < 2) return {};
+  companion.row(0) = -coefficients.segment(1, count - 1).transpose() / coefficients[0];
+  companion.diagonal(-1).setOnes();
+  const Eigen::VectorXcd roots = detail::eigenvalues(companion);
+  std::vector<Complex> multipliers;
+  for (const Complex root : roots)
+    if (root.imag() >= 0.0 && std::abs(root) >= least) multipliers.push_back(root);
+  std::sort(multipliers.begin(), multipliers.end(),
+            [](Complex a, Complex b) { return std::abs(a) > std::abs(b); });
+  return multipliers;
+}
+
+// The exponent with 0 <= Im sigma <= omega / 2 of a multiplier or of its conjugate.
+Complex folded(Complex sigma, double period) {
+  return {sigma.real(), std::abs(std::remainder(sigma.imag() * period, 2.0 * pi)) / period};
+}
+
+std::optional<Complex> newton_exponent(const CharacteristicPolynomial& characteristic, Complex sigma,
+                                       const FloquetOptions& options) {
+  const double period = characteristic.period();
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    Complex step = 1.0 / characteristic(sigma).derivative;
+    if (!std::isfinite(std::abs(step))) return std::nullopt;
+    const double longest = 0.5 / period;
+    if (std::abs(step) > longest) step *= longest / std::abs(step);
+    sigma -= step;
+    if (std::abs(sigma.real() * period) > 20.0) return std::nullopt;
+    if (std::abs(step) * period <= options.tolerance) return sigma;
+  }
+  return std::nullopt;
+}
+
+// Into found(). Without starts of the caller's the approximate multipliers are not in the order of the exact
+// ones, so that twice as many are sought as are asked for.
+void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptions& options) {
+  const double period = characteristic.period();
+  std::vector<Complex> starts = options.starts;
+  std::size_t wanted = starts.size();
+  if (starts.empty()) {
+    wanted = 2 * std::size_t(options.max_exponents) + 2;
+    for (const Complex multiplier : approximate_multipliers(characteristic, 1e-2))
+      starts.push_back(std::log(multiplier) / period);
+  }
+  std::vector<Complex>& found = characteristic.found();
+  for (const Complex start : starts) {
+    if (found.size() == wanted) break;
+    const auto sigma = newton_exponent(characteristic, folded(start, period), options);
+    if (!sigma) continue;
+    const Complex exponent = folded(*sigma, period);
+    const bool known = std::any_of(found.begin(), found.end(),
+                                   [&](Complex other) { return std::abs(other - exponent) * period < 1e-8; });
+    if (!known) found.push_back(exponent);
+  }
+}
+
+}  // namespace
+
+void FloquetOptions::validate() const {
+  stability.validate();
+  detail::require_at_least("FloquetOptions", "max_raise", max_raise, 1);
+  detail::require_at_least("FloquetOptions", "max_exponents", max_exponents, 1);
+  detail::require_at_least("FloquetOptions", "max_iterations", max_iterations, 1);
+  detail::require_positive("FloquetOptions", "tolerance", tolerance);
+}
+
+FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                   double frequency, const FloquetOptions& options) {
+  options.validate();
+  FloquetExponents result;
+  result.status = stiffness.status;
+  if (result.status != StabilityStatus::converged) return result;
+  require_stability_arguments("floquet_exponents", dynamics, stiffness, frequency,
+                              options.stability.harmonics);
+  result.status = options.starts.empty() ? require_countable(dynamics, stiffness, 2.0 * pi * frequency)
+                                         : require_stiffness(dynamics, stiffness);
+  if (result.status != StabilityStatus::converged) return result;
+  result.harmonics =
+      resolving_harmonics(dynamics, stiffness, 2.0 * pi * frequency, options.stability.harmonics,
+                          options.max_raise * options.stability.harmonics, options.stability.max_omitted);
+  if (result.harmonics == 0) {
+    result.status = StabilityStatus::too_few_harmonics;
+    return result;
+  }
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, result.harmonics);
+  CharacteristicPolynomial characteristic(determinant);
+  const double period = characteristic.period();
+  find_exponents(characteristic, options);
+  std::vector<Complex>& found = characteristic.found();
+  std::sort(found.begin(), found.end(), [](Complex a, Complex b) { return a.real() > b.real(); });
+  if (options.starts.empty()) {
+    StabilityOptions counting = options.stability;
+    counting.harmonics = result.harmonics;
+    const UnstableMultipliers all = unstable_multipliers(dynamics, stiffness, frequency, counting);
+    result.evaluations = all.evaluations;
+    if (all.count != characteristic.unstable()) result.status = StabilityStatus::effort_limit;
+  }
+  if (int(found.size()) > options.max_exponents) found.resize(std::size_t(options.max_exponents));
+  for (const Complex sigma : found) {
+    FloquetDeterminant::Mode mode = determinant.mode(sigma);
+    result.values.push_back(
+        {sigma, std::exp(sigma * period), std::move(mode.displacement), std::move(mode.force)});
+  }
+  result.evaluations += determinant.evaluations();
+  return result;
+}
+
+FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const CondensedProblem& problem,
+                                   const ContactLaws& laws, const PeriodicResponse& response,
+                                   const FloquetOptions& options) {
+  FloquetOptions own = options;
+  own.stability = with_harmonics_of(problem.pair(), options.stability);
+  return floquet_exponents(dynamics, contact_stiffness(problem, laws, response), response.frequency, own);
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,262 @@
+#include "wavebalance/solvers/stability/monodromy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "linalg/dense.hpp"
+#include "linalg/option_checks.hpp"
+#include "stability/gauss_rule.hpp"
+#include "stability/stability_checks.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// A piece of the period in which the same contacts are closed, in periods.
+struct Piece {
+  double begin, end;
+  std::vector<int> closed;
+};
+
+bool holds(const ContactInterval& interval, double time) {
+  const double since = time - interval.begin - std::floor(time - interval.begin);
+  return since < interval.length();
+}
+
+// Pieces between all instants of opening and closing, none longer than `longest` while a contact is closed.
+std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest) {
+  std::vector<double> ends{0.0, 1.0};
+  for (const ContactInterval& interval : stiffness.intervals)
+    for (const double time : {interval.begin, interval.end}) ends.push_back(time - std::floor(time));
+  std::sort(ends.begin(), ends.end());
+  std::vector<Piece> result;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    const double length = ends[i] - ends[i - 1], middle = 0.5 * (ends[i] + ends[i - 1]);
+    if (!(length > 0.0)) continue;
+    std::vector<int> closed;
+    for (const ContactInterval& interval : stiffness.intervals)
+      if (holds(interval, middle)) closed.push_back(interval.contact);
+    const int parts = closed.empty() ? 1 : std::max(1, int(std::ceil(length / longest)));
+    for (int part = 0; part < parts; ++part)
+      result.push_back(
+          {ends[i - 1] + length * part / parts, ends[i - 1] + length * (part + 1) / parts, closed});
+  }
+  return result;
+}
+
+// Row i: the values at points[i] of the polynomials that are 1 at one of the nodes and 0 at the others.
+Eigen::MatrixXd lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points) {
+  Eigen::MatrixXd values = Eigen::MatrixXd::Ones(points.size(), nodes.size());
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    for (Eigen::Index k = 0; k < nodes.size(); ++k)
+      for (Eigen::Index j = 0; j < nodes.size(); ++j)
+        if (j != k) values(i, k) *= (points[i] - nodes[j]) / (nodes[k] - nodes[j]);
+  return values;
+}
+
+// The states of a structure: of each pole its amplitude a, a' = lambda a - shape^T f, as one real number or
+// as its real and imaginary part. The contacts are displaced by sum Re(weight residue shape a), weight 2 for
+// a pair.
+class States {
+ public:
+  States(const ContactDynamics& dynamics, double period) : dynamics_(dynamics), period_(period) {
+    for (const ContactPole& pole : dynamics.poles()) {
+      begins_.push_back(size_);
+      size_ += pole.exponent.imag() == 0.0 ? 1 : 2;
+    }
+  }
+
+  Eigen::Index size() const { return size_; }
+
+  // C x size(): displacements of the contacts a time (in periods) after the states.
+  Eigen::MatrixXd free_motion(double time) const {
+    Eigen::MatrixXd motion(dynamics_.contacts(), size_);
+    for (std::size_t l = 0; l < begins_.size(); ++l) {
+      const ContactPole& pole = dynamics_.poles()[l];
+      const Eigen::VectorXcd shape = pole.residue * std::exp(pole.exponent * time * period_) * pole.shape;
+      if (pole.exponent.imag() == 0.0) {
+        motion.col(begins_[l]) = shape.real();
+      } else {
+        motion.col(begins_[l]) = 2.0 * shape.real();
+        motion.col(begins_[l] + 1) = -2.0 * shape.imag();
+      }
+    }
+    return motion;
+  }
+
+  // Takes the states of all columns on by `time`.
+  void advance(double time, Eigen::MatrixXd& states) const {
+    for (std::size_t l = 0; l < begins_.size(); ++l) {
+      const Complex growth = std::exp(dynamics_.poles()[l].exponent * time * period_);
+      if (dynamics_.poles()[l].exponent.imag() == 0.0) {
+        states.row(begins_[l]) *= growth.real();
+        continue;
+      }
+      const Eigen::RowVectorXd re = states.row(begins_[l]), im = states.row(begins_[l] + 1);
+      states.row(begins_[l]) = growth.real() * re - growth.imag() * im;
+      states.row(begins_[l] + 1) = growth.imag() * re + growth.real() * im;
+    }
+  }
+
+  // size() x C: the states a time after unit impulses (N s) at the contacts.
+  Eigen::MatrixXd after_impulse(double time) const {
+    Eigen::MatrixXd states(size_, dynamics_.contacts());
+    for (std::size_t l = 0; l < begins_.size(); ++l) {
+      const ContactPole& pole = dynamics_.poles()[l];
+      const Eigen::RowVectorXcd row = std::exp(pole.exponent * time * period_) * pole.shape.transpose();
+      states.row(begins_[l]) = row.real();
+      if (pole.exponent.imag() != 0.0) states.row(begins_[l] + 1) = row.imag();
+    }
+    return states;
+  }
+
+ private:
+  const ContactDynamics& dynamics_;
+  double period_;
+  Eigen::Index size_ = 0;
+  std::vector<Eigen::Index> begins_;
+};
+
+// The map of perturbations over the pieces of a period.
+class Propagator {
+ public:
+  Propagator(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double period, int nodes)
+      : dynamics_(dynamics),
+        stiffness_(stiffness),
+        states_(dynamics, period),
+        period_(period),
+        rule_(gauss_rule(nodes)) {
+    // Integrals up to node i of the polynomials of the nodes, by Gauss nodes below it.
+    for (Eigen::Index i = 0; i < rule_.points.size(); ++i)
+      below_.push_back(lagrange(rule_.points, rule_.points[i] * rule_.points));
+  }
+
+  const States& states() const { return states_; }
+
+  void pass(const Piece& piece, Eigen::MatrixXd& states) const {
+    if (piece.closed.empty()) return states_.advance(piece.end - piece.begin, states);
+    const double length = piece.end - piece.begin;
+    const Eigen::MatrixXd forces = contact_forces(piece, states);
+    states_.advance(length, states);
+    const auto closed = static_cast<Eigen::Index>(piece.closed.size());
+    for (Eigen::Index k = 0; k < rule_.points.size(); ++k) {
+      const Eigen::MatrixXd impulse = states_.after_impulse(length * (1.0 - rule_.points[k]));
+      const Eigen::MatrixXd on_closed = impulse(Eigen::all, piece.closed);
+      const Eigen::MatrixXd force = forces.middleRows(k * closed, closed);
+      states -= length * period_ * rule_.weights[k] * detail::product(on_closed, force);
+    }
+  }
+
+ private:
+  // Forces of the closed contacts at the nodes, node after node, one column per state: u + h * D u = free
+  // motion with f = D u.
+  Eigen::MatrixXd contact_forces(const Piece& piece, const Eigen::MatrixXd& states) const {
+    const auto closed = static_cast<Eigen::Index>(piece.closed.size());
+    const Eigen::Index nodes = rule_.points.size(), size = nodes * closed;
+    const double length = piece.end - piece.begin;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size), free(size, states.cols());
+    Eigen::VectorXd tangent(size);
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      const double time = length * rule_.points[i];
+      const Eigen::MatrixXd motion = states_.free_motion(time)(piece.closed, Eigen::all);
+      free.middleRows(i * closed, closed) = detail::product(motion, states);
+      for (Eigen::Index c = 0; c < closed; ++c)
+        tangent[i * closed + c] =
+            stiffness_.tangent(piece.closed[static_cast<std::size_t>(c)], piece.begin + time);
+      matrix.block(i * closed, i * closed, closed, closed) = dynamics_.constant()(piece.closed, piece.closed);
+      add_memory(piece, i, matrix);
+    }
+    matrix = matrix * tangent.asDiagonal();
+    matrix.diagonal().array() += 1.0;
+    return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(free);
+  }
+
+  // integral up to node i of h(t_i - s) times the polynomials of the nodes.
+  void add_memory(const Piece& piece, Eigen::Index i, Eigen::MatrixXd& matrix) const {
+    const auto closed = static_cast<Eigen::Index>(piece.closed.size());
+    const double reach = (piece.end - piece.begin) * rule_.points[i];
+    const Eigen::MatrixXd& polynomials = below_[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(piece.closed, Eigen::all);
+    for (Eigen::Index q = 0; q < rule_.points.size(); ++q) {
+      const Eigen::MatrixXd impulse =
+          states_.after_impulse(reach * (1.0 - rule_.points[q]))(Eigen::all, piece.closed);
+      const Eigen::MatrixXd memory = reach * period_ * rule_.weights[q] * detail::product(displaced, impulse);
+      for (Eigen::Index k = 0; k < rule_.points.size(); ++k)
+        matrix.block(i * closed, k * closed, closed, closed) += polynomials(q, k) * memory;
+    }
+  }
+
+  const ContactDynamics& dynamics_;
+  const PeriodicStiffness& stiffness_;
+  States states_;
+  double period_;
+  QuadratureRule rule_;
+  std::vector<Eigen::MatrixXd> below_;
+};
+
+double largest_exponent(const ContactDynamics& dynamics) {
+  double largest = 0.0;
+  for (const ContactPole& pole : dynamics.poles()) largest = std::max(largest, std::abs(pole.exponent));
+  return largest;
+}
+
+// The largest rate, 1/s, of the contact's stiffness on the mass or the damping beside it, which are those of
+// h(t) at t = 0.
+double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {
+  const int contacts = dynamics.contacts();
+  Eigen::VectorXd jump = Eigen::VectorXd::Zero(contacts), rise = jump;
+  for (const ContactPole& pole : dynamics.poles()) {
+    const double times = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
+    const Eigen::VectorXcd squares = times * pole.residue * pole.shape.cwiseProduct(pole.shape);
+    jump += squares.real();
+    rise += (pole.exponent * squares).real();
+  }
+  constexpr int samples = 8;
+  double fastest = 0.0;
+  for (const ContactInterval& interval : stiffness.intervals)
+    for (int i = 0; i <= samples; ++i) {
+      const double time = interval.begin + interval.length() * i / samples;
+      const double tangent = std::abs(stiffness.tangent(interval.contact, time));
+      fastest = std::max({fastest, std::abs(jump[interval.contact]) * tangent,
+                          std::sqrt(std::abs(rise[interval.contact]) * tangent)});
+    }
+  return fastest;
+}
+
+}  // namespace
+
+void MonodromyOptions::validate() const {
+  detail::require_at_least("MonodromyOptions", "nodes", nodes, 2);
+  detail::require_at_least("MonodromyOptions", "max_pieces", max_pieces, 1);
+  detail::require_positive("MonodromyOptions", "max_phase", max_phase);
+}
+
+Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                           double frequency, const MonodromyOptions& options) {
+  options.validate();
+  require_stability_arguments("monodromy", dynamics, stiffness, frequency, 1);
+  if (stiffness.status != StabilityStatus::converged)
+    throw std::invalid_argument("monodromy: the status of the stiffness is " +
+                                std::string(to_string(stiffness.status)) + "; it must be converged");
+  const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
+  const Eigen::Index size = propagator.states().size();
+  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
+  const double phase = options.max_phase * frequency, resolved = phase * options.max_pieces;
+  const double contact = contact_rate(dynamics, stiffness);
+  if (!(contact <= resolved)) return Eigen::VectorXcd::Constant(size, std::nan(""));
+  const double fastest = std::clamp(largest_exponent(dynamics), contact, resolved);
+  for (const Piece& piece : pieces(stiffness, phase / fastest)) propagator.pass(piece, map);
+  // States of overdamped modes decay to numbers that keep the QR iteration from converging.
+  const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
+  map = (map.array().abs() > vanishing).select(map, 0.0);
+  Eigen::VectorXcd multipliers = detail::eigenvalues(map);
+  std::sort(multipliers.begin(), multipliers.end(),
+            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  return multipliers;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,14 @@
+#pragma once
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+
+namespace wavebalance::solvers {
+
+/// `options` with the harmonics of the trial functions where it leaves them open.
+StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions options);
+
+/// Throws std::invalid_argument for a frequency that is not positive and finite, for no harmonics, and for
+/// intervals of contacts that the structure does not have.
+void require_stability_arguments(const char* who, const ContactDynamics& dynamics,
+                                 const PeriodicStiffness& stiffness, double frequency, int harmonics);
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,217 @@
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "linalg/option_checks.hpp"
+#include "stability/floquet_determinant.hpp"
+#include "stability/stability_checks.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using std::numbers::pi;
+
+// nu and the argument of Delta(i nu) up to 2 pi, with its derivative by nu.
+struct Sample {
+  double nu, argument, slope;
+};
+
+// Where the argument may turn quickly: beside each natural frequency, folded into [0, omega / 2], at
+// distances of its damping rate.
+std::vector<double> first_points(const FloquetDeterminant& determinant) {
+  const double omega = determinant.angular_frequency(), half = 0.5 * omega;
+  const double highest = omega * (determinant.harmonics() + 1.5);
+  std::vector<double> points{0.0, 0.25 * half, 0.5 * half, 0.75 * half, half};
+  for (const ContactPole& pole : determinant.dynamics().poles()) {
+    if (pole.exponent.imag() == 0.0 || pole.exponent.imag() > highest || pole.shape.isZero(0.0)) continue;
+    const double rest = std::fmod(pole.exponent.imag(), omega), folded = std::min(rest, omega - rest);
+    for (const double distance : {-2.0, -0.7, 0.7, 2.0}) {
+      const double nu = folded + distance * std::abs(pole.exponent.real());
+      if (nu > 0.0 && nu < half) points.push_back(nu);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+// Follows the argument of the determinant from nu = 0 to omega / 2.
+class Winding {
+ public:
+  Winding(FloquetDeterminant& determinant, int max_evaluations)
+      : determinant_(determinant), max_evaluations_(max_evaluations) {}
+
+  // The change of the argument; nothing where max_evaluations are not enough.
+  std::optional<double> operator()() {
+    const std::vector<double> points = first_points(determinant_);
+    Sample before = at(points.front());
+    double turned = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Sample after = at(points[i]);
+      if (!add(before, after, turned)) return std::nullopt;
+      before = after;
+    }
+    return turned;
+  }
+
+ private:
+  Sample at(double nu) {
+    const FloquetDeterminant::Value value = determinant_({0.0, nu});
+    return {nu, value.log.imag(), value.derivative.real()};
+  }
+
+  // Adds the change from one sample to the next, through samples between them where it is not certain.
+  bool add(const Sample& from, const Sample& to, double& turned) {
+    const double change = std::remainder(to.argument - from.argument, 2.0 * pi);
+    const double expected = 0.5 * (from.slope + to.slope) * (to.nu - from.nu);
+    if (std::abs(change) <= pi / 3.0 && std::abs(change - expected) <= 0.6) {
+      turned += change;
+      return true;
+    }
+    const double middle = 0.5 * (from.nu + to.nu);
+    if (determinant_.evaluations() >= max_evaluations_ || !(from.nu < middle && middle < to.nu)) return false;
+    const Sample between = at(middle);
+    return add(from, between, turned) && add(between, to, turned);
+  }
+
+  FloquetDeterminant& determinant_;
+  int max_evaluations_;
+};
+
+// Whether the harmonics represent perturbations in contact.
+bool is_resolved(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
+                 const StabilityOptions& options) {
+  return resolving_harmonics(dynamics, stiffness, 2.0 * pi * frequency, options.harmonics, options.harmonics,
+                             options.max_omitted) > 0;
+}
+
+// Nothing where there are too many states, contact is too stiff for this, too, or the structure is reduced.
+std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
+                                             const PeriodicStiffness& stiffness, double frequency,
+                                             const StabilityOptions& options) {
+  if (dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states) return std::nullopt;
+  const Eigen::VectorXcd multipliers = monodromy(dynamics, stiffness, frequency);
+  if (!multipliers.allFinite()) return std::nullopt;
+  return multipliers;
+}
+
+int unstable_poles(const ContactDynamics& dynamics) {
+  int count = 0;
+  for (const ContactPole& pole : dynamics.poles())
+    if (pole.exponent.real() > 0.0) count += pole.exponent.imag() == 0.0 ? 1 : 2;
+  return count;
+}
+
+}  // namespace
+
+void StabilityOptions::validate() const {
+  detail::require_at_least("StabilityOptions", "harmonics", harmonics, 0);
+  detail::require_at_least("StabilityOptions", "max_states", max_states, 0);
+  detail::require_positive("StabilityOptions", "max_omitted", max_omitted);
+  detail::require_at_least("StabilityOptions", "max_evaluations", max_evaluations, 1);
+}
+
+StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions options) {
+  if (options.harmonics == 0) options.harmonics = std::max(1, pair.solved_size() - 1);
+  return options;
+}
+
+void require_stability_arguments(const char* who, const ContactDynamics& dynamics,
+                                 const PeriodicStiffness& stiffness, double frequency, int harmonics) {
+  detail::require_positive(who, "frequency", frequency);
+  detail::require_at_least(who, "options.harmonics", harmonics, 1);
+  for (const ContactInterval& interval : stiffness.intervals)
+    if (interval.contact < 0 || interval.contact >= dynamics.contacts())
+      throw std::invalid_argument(std::string(who) + ": an interval belongs to contact " +
+                                  std::to_string(interval.contact) + "; the structure has " +
+                                  std::to_string(dynamics.contacts()));
+}
+
+UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                         double frequency, const StabilityOptions& options) {
+  options.validate();
+  UnstableMultipliers result;
+  result.status = stiffness.status;
+  if (result.status != StabilityStatus::converged) return result;
+  require_stability_arguments("unstable_multipliers", dynamics, stiffness, frequency, options.harmonics);
+  result.status = require_countable(dynamics, stiffness, 2.0 * pi * frequency);
+  if (result.status != StabilityStatus::converged) return result;
+  if (!is_resolved(dynamics, stiffness, frequency, options)) {
+    const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
+    if (multipliers)
+      result.count = static_cast<int>((multipliers->cwiseAbs().array() > 1.0).count());
+    else
+      result.status = StabilityStatus::too_few_harmonics;
+    result.winding = result.count;
+    return result;
+  }
+  result.harmonics = options.harmonics;
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, result.harmonics);
+  const int own = unstable_poles(dynamics);
+  if (determinant.nodes() == 0) {
+    result.count = own;
+    return result;
+  }
+  const auto turned = Winding(determinant, options.max_evaluations)();
+  result.evaluations = determinant.evaluations();
+  if (turned) result.winding = own - *turned / pi;
+  const double rounded = std::round(result.winding);
+  if (!turned || !(std::abs(result.winding - rounded) < 1e-3) || rounded < 0.0) {
+    result.status = StabilityStatus::effort_limit;
+    return result;
+  }
+  result.count = static_cast<int>(rounded);
+  return result;
+}
+
+UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const CondensedProblem& problem,
+                                         const ContactLaws& laws, const PeriodicResponse& response,
+                                         const StabilityOptions& options) {
+  return unstable_multipliers(dynamics, contact_stiffness(problem, laws, response), response.frequency,
+                              with_harmonics_of(problem.pair(), options));
+}
+
+UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const ContactLaws& laws,
+                                         const PeriodicResponse& response, const StabilityOptions& options) {
+  return unstable_multipliers(ContactDynamics(problem.structure()), problem, laws, response, options);
+}
+
+StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                               double frequency, const StabilityOptions& options) {
+  options.validate();
+  StabilitySigns signs;
+  signs.status = stiffness.status;
+  if (signs.status != StabilityStatus::converged) return signs;
+  require_stability_arguments("stability_signs", dynamics, stiffness, frequency, options.harmonics);
+  signs.status = require_countable(dynamics, stiffness, 2.0 * pi * frequency);
+  if (signs.status != StabilityStatus::converged) return signs;
+  if (!is_resolved(dynamics, stiffness, frequency, options)) {
+    const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
+    signs.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
+    if (multipliers) {
+      const auto real = multipliers->imag().array() == 0.0;
+      signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
+      signs.flip = (real && multipliers->real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
+    }
+    return signs;
+  }
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, options.harmonics);
+  signs.fold = determinant.sign_at_zero();
+  signs.flip = determinant.sign_at_half();
+  return signs;
+}
+
+StabilitySigns stability_signs(const ContactDynamics& dynamics, const CondensedProblem& problem,
+                               const ContactLaws& laws, const PeriodicResponse& response,
+                               const StabilityOptions& options) {
+  return stability_signs(dynamics, contact_stiffness(problem, laws, response), response.frequency,
+                         with_harmonics_of(problem.pair(), options));
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "constants.hpp"
+#include "support/oscillator.hpp"
+#include "support/stability_cases.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+struct Resolution {
+  int functions, points;
+  double tolerance;
+};
+
+class CaseTwoStability : public ::testing::TestWithParam<Resolution> {};
+
+// Against multipliers of a shooting computation.
+TEST_P(CaseTwoStability, MultipliersAndCountsAreThoseOfShooting) {
+  const Resolution& resolution = GetParam();
+  CondensedProblem problem(testing::fourier_pair(resolution.functions, resolution.points),
+                           testing::jl14_case_2.structure(), testing::cosine_load());
+  const ContactDynamics dynamics(problem.structure());
+  const ContactLaws laws = testing::jl14_case_2.law;
+  const auto responses = testing::case_2_responses(problem);
+  ASSERT_EQ(responses.size(), testing::case_2_curve.size());
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const testing::StabilityPoint& point = testing::case_2_curve[i];
+    SCOPED_TRACE(point.frequency);
+    const FloquetExponents exponents = floquet_exponents(dynamics, problem, laws, responses[i]);
+    ASSERT_EQ(exponents.status, StabilityStatus::converged);
+    ASSERT_FALSE(exponents.values.empty());
+    EXPECT_LT(std::abs(exponents.values[0].multiplier - point.multiplier), resolution.tolerance);
+    const UnstableMultipliers unstable = unstable_multipliers(dynamics, problem, laws, responses[i]);
+    EXPECT_EQ(unstable.status, StabilityStatus::converged);
+    EXPECT_EQ(unstable.count, point.unstable);
+    EXPECT_NEAR(unstable.winding, point.unstable, 1e-6);
+    const StabilitySigns signs = stability_signs(dynamics, problem, laws, responses[i]);
+    EXPECT_EQ(signs.fold, point.unstable == 1 ? -1 : 1);
+    EXPECT_EQ(signs.flip, 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, CaseTwoStability,
+                         ::testing::Values(Resolution{63, 256, 1.5e-3}, Resolution{127, 1024, 1.5e-4},
+                                           Resolution{255, 4096, 2e-5}),
+                         [](const auto& size) { return "M" + std::to_string(size.param.functions); });
+
+TEST(ContactIntervals, OfCaseTwoAreThoseOfShooting) {
+  CondensedProblem problem(testing::fourier_pair(255, 4096), testing::jl14_case_2.structure(),
+                           testing::cosine_load());
+  const auto responses = testing::case_2_responses(problem);
+  ASSERT_EQ(responses.size(), testing::case_2_curve.size());
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const auto stiffness = contact_stiffness(problem, testing::jl14_case_2.law, responses[i]);
+    ASSERT_EQ(stiffness.intervals.size(), 1u);
+    EXPECT_NEAR(stiffness.intervals[0].length(), testing::case_2_curve[i].contact_fraction, 2e-5) << i;
+  }
+}
+
+class PrescribedStiffnessOfTwoContacts : public ::testing::TestWithParam<int> {};
+
+TEST_P(PrescribedStiffnessOfTwoContacts, MultipliersAndCountsAreTheReference) {
+  const ContactDynamics dynamics(testing::PrescribedStiffness::structure());
+  const PeriodicStiffness stiffness = testing::PrescribedStiffness::stiffness();
+  FloquetOptions options;
+  options.stability.harmonics = GetParam();
+  const double tolerance = GetParam() == 31 ? 2e-4 : GetParam() == 63 ? 5e-5 : 5e-6;
+  for (const testing::PrescribedStiffness& point : testing::prescribed_stiffness) {
+    SCOPED_TRACE(point.frequency);
+    EXPECT_EQ(unstable_multipliers(dynamics, stiffness, point.frequency, options.stability).count,
+              point.unstable);
+    if (GetParam() != 31)  // the search from nothing would take most of the time of this suite
+      options.starts = {std::log(point.multiplier) * point.frequency + Complex(1.0, 1.0)};
+    const FloquetExponents exponents = floquet_exponents(dynamics, stiffness, point.frequency, options);
+    ASSERT_EQ(exponents.status, StabilityStatus::converged);
+    ASSERT_FALSE(exponents.values.empty());
+    EXPECT_LT(std::abs(exponents.values[0].multiplier - point.multiplier), tolerance);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Harmonics, PrescribedStiffnessOfTwoContacts, ::testing::Values(31, 63, 127));
+
+TEST(Monodromy, OfPrescribedStiffnessIsTheReferenceTo1e9) {
+  const ContactDynamics dynamics(testing::PrescribedStiffness::structure());
+  const PeriodicStiffness stiffness = testing::PrescribedStiffness::stiffness();
+  for (const testing::PrescribedStiffness& point : testing::prescribed_stiffness) {
+    const Eigen::VectorXcd multipliers = monodromy(dynamics, stiffness, point.frequency);
+    EXPECT_EQ((multipliers.cwiseAbs().array() > 1.0).count(), point.unstable);
+    const Complex leading(multipliers[0].real(), std::abs(multipliers[0].imag()));
+    EXPECT_LT(std::abs(leading - point.multiplier), 1e-9) << point.frequency;
+  }
+}
+
+// m = k = 1, c = 0.1, a linear stop 10 at gap 0.1, 0.8 cos: multipliers of exact pieces.
+struct OscillatorPoint {
+  double omega;
+  Complex first, second;
+  double contact_fraction;
+};
+
+TEST(Monodromy, OfTheOscillatorWithAStopIsExactTo1e6) {
+  const std::array<OscillatorPoint, 4> points{
+      {{2.0, {-0.25616405, 0.81534206}, {-0.25616405, -0.81534206}, 0.2265369217},
+       {2.3, -1.77764006, -0.42806996, 0.2071673601},
+       {2.5, -2.55458961, -0.30445895, 0.1863299386},
+       {2.8, -2.56680525, -0.31128029, 0.1330697175}}};
+  const LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
+  const ContactLaws laws = testing::LinearContact{10.0, 0.1};
+  CondensedProblem problem(testing::fourier_pair(1023, 8192), structure, testing::cosine_load());
+  const ContactDynamics dynamics(structure);
+  for (const OscillatorPoint& point : points) {
+    problem.set_frequency(point.omega / two_pi);
+    const PeriodicResponse response = forced_response(problem, laws, {});
+    ASSERT_TRUE(response.converged());
+    const PeriodicStiffness stiffness = contact_stiffness(problem, laws, response);
+    ASSERT_EQ(stiffness.intervals.size(), 1u);
+    EXPECT_NEAR(stiffness.intervals[0].length(), point.contact_fraction, 1e-6);
+    Eigen::VectorXcd multipliers = monodromy(dynamics, stiffness, response.frequency);
+    ASSERT_EQ(multipliers.size(), 2);
+    if (multipliers[0].imag() < 0.0) multipliers.reverseInPlace();
+    EXPECT_LT(std::abs(multipliers[0] - point.first), 1e-6) << point.omega;
+    EXPECT_LT(std::abs(multipliers[1] - point.second), 1e-6) << point.omega;
+  }
+}
+
+// The frequency between `low` and `high` at which `holds` changes, on the branch that Newton's method finds
+// from one frequency to the next.
+template <class Holds>
+double locate(CondensedProblem& problem, const ContactLaws& laws, PeriodicResponse response, double low,
+              double high, Holds&& holds) {
+  ForcedResponseOptions options;
+  options.form = ContactForm::displacement;
+  options.fallbacks = false;
+  const auto at = [&](double frequency) {
+    problem.set_frequency(frequency);
+    response = forced_response(problem, laws, options, response.displacement);
+    EXPECT_TRUE(response.converged()) << frequency;
+    return holds(response);
+  };
+  const bool below = at(low), above = at(high);
+  EXPECT_NE(below, above);
+  while (high - low > 1e-4) {
+    const double middle = 0.5 * (low + high);
+    (at(middle) == below ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+struct SpecialPoint {
+  double beta, gap, from, low, high, exact;  // s, m, Hz
+  bool flip;
+};
+
+class SpecialPoints : public ::testing::TestWithParam<SpecialPoint> {};
+
+TEST_P(SpecialPoints, LieWhereShootingFindsThem) {
+  const SpecialPoint& point = GetParam();
+  const ContactLaws laws = testing::ExponentialLaw{1e8, 20.0, point.gap};
+  for (const Resolution& resolution : {Resolution{63, 256, 0.5}, Resolution{127, 1024, 0.02}}) {
+    CondensedProblem problem(testing::fourier_pair(resolution.functions, resolution.points),
+                             testing::jl14_bar(25, point.beta), testing::cosine_load());
+    const ContactDynamics dynamics(problem.structure());
+    const auto responses = testing::responses_along(problem, laws, point.from, {point.low});
+    ASSERT_EQ(responses.size(), 1u);
+    const double found =
+        locate(problem, laws, responses[0], point.low, point.high, [&](const auto& response) {
+          return point.flip ? stability_signs(dynamics, problem, laws, response).flip < 0
+                            : unstable_multipliers(dynamics, problem, laws, response).count == 2;
+        });
+    EXPECT_NEAR(found, point.exact, resolution.tolerance) << resolution.functions;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfTheBar, SpecialPoints,
+    ::testing::Values(SpecialPoint{5e-7, 14.5e-3, 1240.0, 1305.0, 1320.0, 1312.442975, false},
+                      SpecialPoint{5e-7, 14.5e-3, 1240.0, 1375.0, 1382.0, 1378.541283, false},
+                      SpecialPoint{1.25e-6, 1e-4, 2830.0, 2835.0, 2845.0, 2840.476702, true},
+                      SpecialPoint{1.25e-6, 1e-4, 2950.0, 2980.0, 2995.0, 2988.746353, true}));
+
+// The factors by which successive periods of a perturbed motion differ.
+std::vector<double> growth(const Motion& motion, double frequency) {
+  TimeSteppingOptions options;
+  options.max_periods = 18;
+  options.step_tolerance = 1e-11;
+  options.initial_displacement = 1.0001 * motion.displacement.col(0);
+  options.initial_velocity = 1.0001 * motion.velocity.col(0);
+  const TimeSteppingResult result =
+      integrate_to_periodic(testing::jl14_case_2.structure(), testing::jl14_case_2.law, frequency, options);
+  std::vector<double> factors;
+  for (std::size_t i = 11; i < result.period_error.size(); ++i)
+    factors.push_back(result.period_error[i] / result.period_error[i - 1]);
+  return factors;
+}
+
+TEST(PerturbedMotion, GrowsOrDecaysInTimeSteppingByTheLeadingMultiplier) {
+  CondensedProblem problem(testing::fourier_pair(255, 4096), testing::jl14_case_2.structure(),
+                           testing::cosine_load());
+  const auto responses = testing::case_2_responses(problem);
+  ASSERT_EQ(responses.size(), testing::case_2_curve.size());
+  for (const std::size_t i : {std::size_t(4), std::size_t(7)}) {  // 1335 Hz, stable, and 1330 Hz, unstable
+    problem.set_frequency(responses[i].frequency);
+    const Motion motion = structure_motion(problem, responses[i].contact_force, 4096);
+    const auto factors = growth(motion, responses[i].frequency);
+    ASSERT_GE(factors.size(), 4u);
+    for (const double factor : factors)
+      EXPECT_NEAR(factor, testing::case_2_curve[i].multiplier.real(), 0.02) << i;
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
