@@ -8,6 +8,7 @@
 
 #include "draw.hpp"
 #include "random_structures.hpp"
+#include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -26,7 +27,7 @@ struct Outcomes {
   void compare(std::uint64_t seed, const solvers::ContactDynamics& dynamics,
                const solvers::PeriodicStiffness& stiffness, double frequency) {
     const auto count =
-        solvers::unstable_multipliers(dynamics, stiffness, frequency, {.harmonics = 63, .max_states = 0});
+        solvers::unstable_multipliers(dynamics, stiffness, frequency, {.harmonics = 31, .max_states = 0});
     if (count.status != StabilityStatus::converged) {
       ++unknown;
       return;
@@ -59,29 +60,43 @@ int seeds(int usual) {
   return asked ? std::atoi(asked) : usual;
 }
 
-// Responses in 127 functions that Newton's method alone finds in the displacement form; few of these
-// structures have any.
+// Stops of 0.3 to 10 times the static stiffness in the way of the contact-free response.
+solvers::ContactLaws draw_stops(std::uint64_t seed, const solvers::ContactDynamics& dynamics,
+                                const solvers::CondensedProblem& problem) {
+  Draw draw(seed + 2000000);
+  const Eigen::MatrixXcd flexibility = dynamics.compliance(0.0, Eigen::VectorXd::Zero(1)).compliance;
+  const Eigen::MatrixXd free = solvers::by_contact(problem.contact_free_response(), dynamics.contacts());
+  std::vector<solvers::AnyContactLaw> laws;
+  for (int c = 0; c < dynamics.contacts(); ++c)
+    laws.emplace_back(
+        contact::LinearLaw(draw.magnitude(-0.5, 1.0) / flexibility(0, c * (dynamics.contacts() + 1)).real(),
+                           draw.uniform(0.3, 1.1) * free.row(c).maxCoeff()));
+  return laws;
+}
+
+// Responses in 63 functions that Newton's method alone finds.
 TEST(RandomStability, CountsOfResponsesAreThoseOfTheMonodromy) {
-  const spectral::FourierBasis basis(127);
+  const spectral::FourierBasis basis(63);
   solvers::ForcedResponseOptions options;
   options.fallbacks = false;
   options.newton.max_operations = 1e9;
-  options.form = solvers::ContactForm::displacement;
   Outcomes outcomes;
-  const int count = seeds(100);
+  const int count = seeds(60);
   for (int seed = 1; seed <= count; ++seed) {
-    const extremes::RandomStructure drawn = extremes::random_structure(static_cast<std::uint64_t>(seed));
-    solvers::CondensedProblem problem(solvers::TimePair(basis, basis, {.quadrature_points = 512}),
+    const auto drawn = extremes::random_structure(static_cast<std::uint64_t>(seed));
+    const solvers::ContactDynamics dynamics(drawn.structure);
+    solvers::CondensedProblem problem(solvers::TimePair(basis, basis, {.quadrature_points = 256}),
                                       drawn.structure, Eigen::Vector2cd(0.0, 1.0));
     problem.set_frequency(drawn.frequency);
-    const auto response = solvers::forced_response(problem, drawn.laws, options);
+    const auto laws = draw_stops(static_cast<std::uint64_t>(seed), dynamics, problem);
+    const auto response = solvers::forced_response(problem, laws, options);
     if (!response.converged()) continue;
     ++outcomes.drawn;
-    outcomes.compare(static_cast<std::uint64_t>(seed), solvers::ContactDynamics(drawn.structure),
-                     solvers::contact_stiffness(problem, drawn.laws, response), drawn.frequency);
+    outcomes.compare(static_cast<std::uint64_t>(seed), dynamics,
+                     solvers::contact_stiffness(problem, laws, response), drawn.frequency);
   }
   outcomes.print();
-  EXPECT_GE(outcomes.compared, count / 50);
+  EXPECT_GE(outcomes.compared, count / 3);
 }
 
 // Contacts that are closed for parts of the period with 0.1 to 10 times the static stiffness.
@@ -106,7 +121,7 @@ solvers::PeriodicStiffness draw_stiffness(std::uint64_t seed, const solvers::Con
 
 TEST(RandomStability, CountsOfPrescribedStiffnessAreThoseOfTheMonodromy) {
   Outcomes outcomes;
-  const int count = seeds(150);
+  const int count = seeds(60);
   for (int seed = 1; seed <= count; ++seed) {
     const extremes::RandomStructure drawn = extremes::random_structure(static_cast<std::uint64_t>(seed));
     const solvers::ContactDynamics dynamics(drawn.structure);
@@ -116,7 +131,7 @@ TEST(RandomStability, CountsOfPrescribedStiffnessAreThoseOfTheMonodromy) {
   }
   outcomes.print();
   EXPECT_GE(outcomes.compared, count / 3);
-  EXPECT_GE(outcomes.unstable, count / 50);
+  EXPECT_GE(outcomes.unstable, count / 30);
 }
 
 }  // namespace

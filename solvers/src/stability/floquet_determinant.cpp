@@ -206,18 +206,21 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
 
 namespace {
 
-// How far the contacts matter at the harmonics H < n <= 2 H: |G(i n omega)| D, times the cycles that the
-// contact's stiffness goes through on the mass beside it in the longest contact, since errors of its
-// frequency add up.
+// How far the contacts matter beyond the harmonics H: |G(i n omega)| D, times the cycles that the contact's
+// stiffness goes through on the mass beside it in the longest contact, since errors of its frequency add up.
+// The median over H < n <= 2 H leaves out resonances of single harmonics; it is reduced to n = H as for a
+// mass.
 double omitted(const ContactDynamics& dynamics, const Eigen::VectorXd& stiffness,
                const Eigen::VectorXd& longest, double angular_frequency, int harmonics) {
   constexpr int samples = 9;
   const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(samples, harmonics + 1, 2.0 * harmonics);
-  const Eigen::MatrixXd sizes = dynamics.compliance(0.0, angular_frequency * orders).compliance.cwiseAbs();
+  Eigen::MatrixXd sizes = dynamics.compliance(0.0, angular_frequency * orders).compliance.cwiseAbs();
   double worst = 0.0;
   for (int c = 0; c < dynamics.contacts(); ++c) {
-    const double relative = stiffness[c] * sizes.col(c * (dynamics.contacts() + 1)).maxCoeff() /
-                            (1.0 + stiffness[c] * dynamics.constant()(c, c));
+    auto own = sizes.col(c * (dynamics.contacts() + 1));
+    std::sort(own.begin(), own.end());
+    const double relative =
+        2.25 * own[samples / 2] * stiffness[c] / (1.0 + stiffness[c] * dynamics.constant()(c, c));
     const double cycles = std::sqrt(relative) * (harmonics + 1) * longest[c];
     worst = std::max(worst, relative * std::max(1.0, cycles));
   }

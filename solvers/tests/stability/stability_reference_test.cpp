@@ -40,6 +40,7 @@ TEST_P(CaseTwoStability, MultipliersAndCountsAreThoseOfShooting) {
     const UnstableMultipliers unstable = unstable_multipliers(dynamics, problem, laws, responses[i]);
     EXPECT_EQ(unstable.status, StabilityStatus::converged);
     EXPECT_EQ(unstable.count, point.unstable);
+    EXPECT_EQ(unstable.harmonics, resolution.functions / 2);  // by the determinant, not by the monodromy
     EXPECT_NEAR(unstable.winding, point.unstable, 1e-6);
     const StabilitySigns signs = stability_signs(dynamics, problem, laws, responses[i]);
     EXPECT_EQ(signs.fold, point.unstable == 1 ? -1 : 1);
@@ -74,8 +75,9 @@ TEST_P(PrescribedStiffnessOfTwoContacts, MultipliersAndCountsAreTheReference) {
   const double tolerance = GetParam() == 31 ? 2e-4 : GetParam() == 63 ? 5e-5 : 5e-6;
   for (const testing::PrescribedStiffness& point : testing::prescribed_stiffness) {
     SCOPED_TRACE(point.frequency);
-    EXPECT_EQ(unstable_multipliers(dynamics, stiffness, point.frequency, options.stability).count,
-              point.unstable);
+    const auto unstable = unstable_multipliers(dynamics, stiffness, point.frequency, options.stability);
+    EXPECT_EQ(unstable.count, point.unstable);
+    EXPECT_EQ(unstable.harmonics, GetParam());
     if (GetParam() != 31)  // the search from nothing would take most of the time of this suite
       options.starts = {std::log(point.multiplier) * point.frequency + Complex(1.0, 1.0)};
     const FloquetExponents exponents = floquet_exponents(dynamics, stiffness, point.frequency, options);

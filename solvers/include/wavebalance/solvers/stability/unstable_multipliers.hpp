@@ -11,9 +11,9 @@ struct StabilityOptions {
   /// How far contact may matter beyond H: the largest |S Z(i n omega)^-1 S^T| D at harmonics n > H, times the
   /// cycles that the contact's stiffness goes through on the mass beside it while the contact lasts, if these
   /// are more than one. Where it is larger, H harmonics do not represent perturbations: stable motions of
-  /// stiff contacts look unstable, in random structures from 0.4 on. Count and signs are then those of
+  /// stiff contacts look unstable. Count and signs are then those of
   /// monodromy().
-  double max_omitted = 0.33;
+  double max_omitted = 0.5;
   /// States up to which the monodromy may be taken, at O(states^3); 0: never.
   int max_states = 400;
   int max_evaluations = 2000;  ///< of the determinant in one call
