@@ -80,40 +80,45 @@ Eigen::MatrixXcd FloquetDeterminant::phases() const {
   return all;
 }
 
-// sum_n g_n exp(2 pi i n (t_i - t_j)) w_j D(t_j), g_n the compliances of compliance(). With p_n = g_n + g_-n
-// and q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), a real product for each part.
-Eigen::MatrixXcd FloquetDeterminant::kernel(const Eigen::MatrixXcd& compliance) const {
+// sum_n g_n exp(2 pi i n (t_i - t_j)) w_j D(t_j) for each g, as from compliance(). With p_n = g_n + g_-n and
+// q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), one real product for all parts.
+std::vector<Eigen::MatrixXcd> FloquetDeterminant::kernels(
+    const std::vector<const Eigen::MatrixXcd*>& compliances) const {
   const Eigen::Index count = harmonics_ + 2;
-  Eigen::MatrixXcd result(nodes(), nodes());
-  Eigen::VectorXcd p(count), q(count);
+  std::vector<Eigen::MatrixXcd> results(compliances.size(), Eigen::MatrixXcd(nodes(), nodes()));
   for (const Range& row : ranges_)
     for (const Range& column : ranges_) {
-      const auto g = compliance.col(pair(row, column));
-      p << g[harmonics_ + 1], g.tail(harmonics_) + g.segment(1, harmonics_).reverse(), g[0];
-      q << 0.0, Complex(0.0, 1.0) * (g.tail(harmonics_) - g.segment(1, harmonics_).reverse()),
-          Complex(0.0, -1.0) * g[0];
-      const auto cosines = waves_.block(row.begin, 0, row.count, count);
-      const auto sines = waves_.block(row.begin, count, row.count, count);
-      Eigen::MatrixXd left(2 * row.count, 2 * count);
-      left.topLeftCorner(row.count, count) = cosines * p.real().asDiagonal() + sines * q.real().asDiagonal();
-      left.topRightCorner(row.count, count) = sines * p.real().asDiagonal() - cosines * q.real().asDiagonal();
-      left.bottomLeftCorner(row.count, count) =
-          cosines * p.imag().asDiagonal() + sines * q.imag().asDiagonal();
-      left.bottomRightCorner(row.count, count) =
-          sines * p.imag().asDiagonal() - cosines * q.imag().asDiagonal();
+      Eigen::MatrixXd left(2 * row.count * Eigen::Index(compliances.size()), 2 * count);
+      for (std::size_t k = 0; k < compliances.size(); ++k)
+        left.middleRows(2 * row.count * Eigen::Index(k), 2 * row.count) =
+            weighted_waves(row, compliances[k]->col(pair(row, column)));
       const Eigen::MatrixXd parts =
-          detail::product_transposed(left, waves_.middleRows(column.begin, column.count));
-      auto block = result.block(row.begin, column.begin, row.count, column.count);
-      block.real() = parts.topRows(row.count);
-      block.imag() = parts.bottomRows(row.count);
+          detail::product_transposed(left, waves_.middleRows(column.begin, column.count)) *
+          weighted_.segment(column.begin, column.count).asDiagonal();
+      for (std::size_t k = 0; k < compliances.size(); ++k) {
+        auto block = results[k].block(row.begin, column.begin, row.count, column.count);
+        block.real() = parts.middleRows(2 * row.count * Eigen::Index(k), row.count);
+        block.imag() = parts.middleRows(2 * row.count * Eigen::Index(k) + row.count, row.count);
+      }
     }
-  return result * weighted_.asDiagonal();
+  return results;
 }
 
-Eigen::MatrixXcd FloquetDeterminant::matrix(const Eigen::MatrixXcd& compliance) const {
-  Eigen::MatrixXcd result = kernel(compliance);
-  result.diagonal().array() += 1.0;
-  return result;
+// Rows for the real parts and, below, for the imaginary parts of what kernels() sums at the nodes of `row`.
+Eigen::MatrixXd FloquetDeterminant::weighted_waves(const Range& row, const Eigen::VectorXcd& g) const {
+  const Eigen::Index count = harmonics_ + 2;
+  Eigen::VectorXcd p(count), q(count);
+  p << g[harmonics_ + 1], g.tail(harmonics_) + g.segment(1, harmonics_).reverse(), g[0];
+  q << 0.0, Complex(0.0, 1.0) * (g.tail(harmonics_) - g.segment(1, harmonics_).reverse()),
+      Complex(0.0, -1.0) * g[0];
+  const auto cosines = waves_.block(row.begin, 0, row.count, count);
+  const auto sines = waves_.block(row.begin, count, row.count, count);
+  Eigen::MatrixXd waves(2 * row.count, 2 * count);
+  waves.topLeftCorner(row.count, count) = cosines * p.real().asDiagonal() + sines * q.real().asDiagonal();
+  waves.topRightCorner(row.count, count) = sines * p.real().asDiagonal() - cosines * q.real().asDiagonal();
+  waves.bottomLeftCorner(row.count, count) = cosines * p.imag().asDiagonal() + sines * q.imag().asDiagonal();
+  waves.bottomRightCorner(row.count, count) = sines * p.imag().asDiagonal() - cosines * q.imag().asDiagonal();
+  return waves;
 }
 
 FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
@@ -124,14 +129,20 @@ FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
   ++evaluations_;
   if (nodes() == 0) return {};
   const ContactDynamics::Values values = compliance(sigma);
-  const detail::Lu<Complex> lu(matrix(values.compliance));
-  return {lu.log_determinant(), lu.solve(kernel(values.slope)).trace()};
+  auto matrices = kernels({&values.compliance, &values.slope});
+  matrices[0].diagonal().array() += 1.0;
+  const detail::Lu<Complex> lu(matrices[0]);
+  return {lu.log_determinant(), lu.solve(matrices[1]).trace()};
 }
 
 Complex FloquetDeterminant::log(Complex sigma) {
   if (sigma.imag() < 0.0) return std::conj(log(std::conj(sigma)));
   ++evaluations_;
-  return nodes() == 0 ? 0.0 : detail::Lu<Complex>(matrix(compliance(sigma).compliance)).log_determinant();
+  if (nodes() == 0) return 0.0;
+  const ContactDynamics::Values values = compliance(sigma);
+  Eigen::MatrixXcd matrix = kernels({&values.compliance}).front();
+  matrix.diagonal().array() += 1.0;
+  return detail::Lu<Complex>(matrix).log_determinant();
 }
 
 // Re sum over the harmonics first..H of weight * g_n exp(2 pi i (n + shift)(t_i - t_j)), whose other half is
@@ -174,7 +185,8 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
   mode.force = mode.displacement;
   if (nodes() == 0) return mode;
   const ContactDynamics::Values values = compliance(sigma);
-  const Eigen::MatrixXcd singular = matrix(values.compliance);
+  Eigen::MatrixXcd singular = kernels({&values.compliance}).front();
+  singular.diagonal().array() += 1.0;
   const detail::Lu<Complex> lu(singular);
   Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(nodes());
   for (int step = 0; step < 3; ++step) {

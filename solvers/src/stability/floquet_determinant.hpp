@@ -53,8 +53,8 @@ class FloquetDeterminant {
   void place_nodes(const PeriodicStiffness& stiffness);
   ContactDynamics::Values compliance(std::complex<double> sigma) const;
   Eigen::MatrixXcd phases() const;
-  Eigen::MatrixXcd kernel(const Eigen::MatrixXcd& compliance) const;
-  Eigen::MatrixXcd matrix(const Eigen::MatrixXcd& compliance) const;
+  std::vector<Eigen::MatrixXcd> kernels(const std::vector<const Eigen::MatrixXcd*>& compliances) const;
+  Eigen::MatrixXd weighted_waves(const Range& row, const Eigen::VectorXcd& g) const;
   int real_sign(double shift, int first);
   Eigen::Index pair(const Range& row, const Range& column) const {
     return row.contact + column.contact * dynamics_.contacts();
