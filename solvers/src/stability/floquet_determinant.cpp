@@ -24,8 +24,12 @@ QuadratureRule rule_for(const ContactInterval& interval, int harmonics) {
 }  // namespace
 
 FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                                       double frequency, int harmonics)
-    : dynamics_(dynamics), omega_(two_pi * frequency), harmonics_(harmonics) {
+                                       double frequency, const Truncation& truncation)
+    : dynamics_(dynamics),
+      omega_(two_pi * frequency),
+      harmonics_(truncation.harmonics),
+      at_once_(truncation.at_once) {
+  if (at_once_.size() == 0) at_once_ = Eigen::VectorXd::Zero(dynamics.contacts());
   place_nodes(stiffness);
   const Eigen::Index count = harmonics_ + 2;
   waves_.resize(nodes(), 2 * count);
@@ -47,7 +51,8 @@ void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness) {
     if (ranges_.empty() || ranges_.back().contact != interval.contact)
       ranges_.push_back({interval.contact, begin, 0});
     ranges_.back().count += rule.points.size();
-    const double yielding = dynamics_.constant()(interval.contact, interval.contact);
+    const double yielding =
+        dynamics_.constant()(interval.contact, interval.contact) + at_once_[interval.contact];
     for (Eigen::Index i = 0; i < rule.points.size(); ++i) {
       const double time = interval.begin + interval.length() * rule.points[i];
       const double tangent = stiffness.tangent(interval.contact, time);
@@ -65,10 +70,18 @@ ContactDynamics::Values FloquetDeterminant::compliance(Complex sigma) const {
   const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(2 * harmonics_ + 2, -harmonics_ - 1, harmonics_);
   ContactDynamics::Values values =
       dynamics_.compliance(sigma.real(), (sigma.imag() + omega_ * orders.array()).matrix());
+  values.compliance = decaying(std::move(values.compliance));
   const double weight = 2.0 * sigma.imag() / omega_;
   values.compliance.row(0) *= weight;
   values.slope.row(0) *= weight;
   return values;
+}
+
+// Compliances without what is taken at once.
+Eigen::MatrixXcd FloquetDeterminant::decaying(Eigen::MatrixXcd compliance) const {
+  for (int c = 0; c < dynamics_.contacts(); ++c)
+    compliance.col(c * (dynamics_.contacts() + 1)).array() -= at_once_[c];
+  return compliance;
 }
 
 // nodes x (2H + 2), exp(2 pi i n t), n = -H - 1..H.
@@ -152,7 +165,7 @@ int FloquetDeterminant::real_sign(double shift, int first) {
   if (nodes() == 0) return 1;
   const Eigen::Index count = harmonics_ + 1;
   const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(count, shift, harmonics_ + shift);
-  Eigen::MatrixXcd compliance = 2.0 * dynamics_.compliance(0.0, omega_ * orders).compliance;
+  Eigen::MatrixXcd compliance = 2.0 * decaying(dynamics_.compliance(0.0, omega_ * orders).compliance);
   if (first == 0) compliance.row(0) *= 0.5;
   Eigen::MatrixXcd turned = phases().rightCols(count);
   for (Eigen::Index i = 0; i < turned.rows() && shift != 0.0; ++i)
@@ -207,6 +220,7 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
       mode.displacement.row(c) -=
           responses.col(c + dynamics_.contacts() * d).transpose().cwiseProduct(mode.force.row(d)) +
           dynamics_.constant()(c, d) * mode.force.row(d);
+  mode.displacement -= at_once_.asDiagonal() * mode.force;
   Eigen::Index row = 0, column = 0;
   const double largest = mode.displacement.cwiseAbs().maxCoeff(&row, &column);
   if (!(largest > 0.0)) return mode;
@@ -218,22 +232,45 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
 
 namespace {
 
-// How far the contacts matter beyond the harmonics H: |G(i n omega)| D, times the cycles that the contact's
-// stiffness goes through on the mass beside it in the longest contact, since errors of its frequency add up.
-// The median over H < n <= 2 H leaves out resonances of single harmonics; it is reduced to n = H as for a
-// mass.
-double omitted(const ContactDynamics& dynamics, const Eigen::VectorXd& stiffness,
-               const Eigen::VectorXd& longest, double angular_frequency, int harmonics) {
-  constexpr int samples = 9;
-  const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(samples, harmonics + 1, 2.0 * harmonics);
-  Eigen::MatrixXd sizes = dynamics.compliance(0.0, angular_frequency * orders).compliance.cwiseAbs();
+// Of each contact, over the period.
+struct Contacts {
+  Eigen::VectorXd stiffness;  // the largest, N/m
+  Eigen::VectorXd longest;    // the longest interval, in periods
+};
+
+Contacts extremes(const PeriodicStiffness& stiffness, int contacts) {
+  constexpr int samples = 8;
+  Contacts result{Eigen::VectorXd::Zero(contacts), Eigen::VectorXd::Zero(contacts)};
+  for (const ContactInterval& interval : stiffness.intervals) {
+    double& longest = result.longest[interval.contact];
+    longest = std::max(longest, interval.length());
+    for (int i = 0; i <= samples; ++i) {
+      const double time = interval.begin + interval.length() * i / samples;
+      double& largest = result.stiffness[interval.contact];
+      largest = std::max(largest, std::abs(stiffness.tangent(interval.contact, time)));
+    }
+  }
+  return result;
+}
+
+double median(Eigen::VectorXd values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+// How far the contacts matter beyond the harmonics H: |G(i n omega) - g| D / (1 + g D), g the compliance at
+// once, times the cycles that the contact's stiffness goes through on the mass beside it in the longest
+// contact, since errors of its frequency add up. The median over H < n <= 2 H leaves out resonances of single
+// harmonics; it is reduced to n = H as for a mass, but not where high modes yield like springs.
+double omitted(const Contacts& contacts, const Eigen::MatrixXcd& beyond, const Eigen::VectorXd& at_once,
+               const Eigen::VectorXd& constant, int harmonics) {
+  const Eigen::Index count = contacts.stiffness.size();
   double worst = 0.0;
-  for (int c = 0; c < dynamics.contacts(); ++c) {
-    auto own = sizes.col(c * (dynamics.contacts() + 1));
-    std::sort(own.begin(), own.end());
-    const double relative =
-        2.25 * own[samples / 2] * stiffness[c] / (1.0 + stiffness[c] * dynamics.constant()(c, c));
-    const double cycles = std::sqrt(relative) * (harmonics + 1) * longest[c];
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const double typical = median((beyond.col(c * (count + 1)).array() - at_once[c]).abs().matrix());
+    const double yielding = 1.0 + contacts.stiffness[c] * (constant[c] + at_once[c]);
+    const double relative = (at_once.isZero(0.0) ? 2.25 : 1.0) * typical * contacts.stiffness[c] / yielding;
+    const double cycles = std::sqrt(relative) * (harmonics + 1) * contacts.longest[c];
     worst = std::max(worst, relative * std::max(1.0, cycles));
   }
   return worst;
@@ -241,21 +278,21 @@ double omitted(const ContactDynamics& dynamics, const Eigen::VectorXd& stiffness
 
 }  // namespace
 
-int resolving_harmonics(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                        double angular_frequency, int harmonics, int most, double max_omitted) {
-  constexpr int samples = 8;
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(dynamics.contacts()), longest = largest;
-  for (const ContactInterval& interval : stiffness.intervals) {
-    longest[interval.contact] = std::max(longest[interval.contact], interval.length());
-    for (int i = 0; i <= samples; ++i) {
-      const double time = interval.begin + interval.length() * i / samples;
-      double& entry = largest[interval.contact];
-      entry = std::max(entry, std::abs(stiffness.tangent(interval.contact, time)));
-    }
+Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                double angular_frequency, int harmonics, int most, double max_omitted) {
+  constexpr int samples = 9;
+  const int count = dynamics.contacts();
+  const Contacts contacts = extremes(stiffness, count);
+  const Eigen::VectorXd constant = dynamics.constant().diagonal(), none = Eigen::VectorXd::Zero(count);
+  for (; harmonics <= most; harmonics += (harmonics + 1) / 2) {
+    const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(samples, harmonics + 1, 2.0 * harmonics);
+    const Eigen::MatrixXcd beyond = dynamics.compliance(0.0, angular_frequency * orders).compliance;
+    if (omitted(contacts, beyond, none, constant, harmonics) <= max_omitted) return {harmonics, {}};
+    Eigen::VectorXd at_once(count);
+    for (int c = 0; c < count; ++c) at_once[c] = std::max(0.0, median(beyond.col(c * (count + 1)).real()));
+    if (omitted(contacts, beyond, at_once, constant, harmonics) <= max_omitted) return {harmonics, at_once};
   }
-  for (; harmonics <= most; harmonics += (harmonics + 1) / 2)
-    if (omitted(dynamics, largest, longest, angular_frequency, harmonics) <= max_omitted) return harmonics;
-  return 0;
+  return {};
 }
 
 StabilityStatus require_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {

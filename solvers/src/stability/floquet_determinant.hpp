@@ -8,15 +8,28 @@
 
 namespace wavebalance::solvers {
 
+/// How many harmonics represent perturbations, and with which compliances at once.
+struct Truncation {
+  int harmonics = 0;        ///< H; 0 where none of those tried are enough
+  Eigen::VectorXd at_once;  ///< C, m/N; empty for zero
+};
+
+/// The least number of harmonics, `harmonics` or more by steps of a half up to `most`, beyond which contact
+/// hardly matters, see StabilityOptions::max_omitted. Where high modes yield to contact like springs, the
+/// compliance beyond H does not decay; its mean there is then taken as a compliance at once.
+Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                double angular_frequency, int harmonics, int most, double max_omitted);
+
 /// Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j)) of unstable_multipliers(), and its derivative. Where
 /// Im sigma > 0 the harmonic n = -H - 1 is added with the weight 2 Im sigma / omega, so that Delta is real at
-/// Im sigma = omega / 2 as it is at 0; where Im sigma < 0 it is the complex conjugate. Compliances at once,
-/// ContactDynamics::constant(), are taken into D, D / (1 + G D), and leave a positive factor out.
+/// Im sigma = omega / 2 as it is at 0; where Im sigma < 0 it is the complex conjugate. Compliances g at once,
+/// ContactDynamics::constant() and those of the truncation, are taken into D, D / (1 + g D), which leaves a
+/// positive factor out.
 class FloquetDeterminant {
  public:
   /// Keeps a reference to `dynamics`. frequency in Hz.
   FloquetDeterminant(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
-                     int harmonics);
+                     const Truncation& truncation);
 
   int nodes() const { return static_cast<int>(time_.size()); }
   int harmonics() const { return harmonics_; }         ///< H
@@ -52,6 +65,7 @@ class FloquetDeterminant {
 
   void place_nodes(const PeriodicStiffness& stiffness);
   ContactDynamics::Values compliance(std::complex<double> sigma) const;
+  Eigen::MatrixXcd decaying(Eigen::MatrixXcd compliance) const;
   Eigen::MatrixXcd phases() const;
   std::vector<Eigen::MatrixXcd> kernels(const std::vector<const Eigen::MatrixXcd*>& compliances) const;
   Eigen::MatrixXd weighted_waves(const Range& row, const Eigen::VectorXcd& g) const;
@@ -63,17 +77,12 @@ class FloquetDeterminant {
   const ContactDynamics& dynamics_;
   double omega_;
   int harmonics_;
+  Eigen::VectorXd at_once_;  // C, m/N, taken out of the compliances
   int evaluations_ = 0;
   std::vector<Range> ranges_;
   Eigen::VectorXd time_, weighted_;  // nodes, in periods; w_j D(t_j)
   Eigen::MatrixXd waves_;            // nodes x 2 (H + 2), cos(2 pi n t), then sin, n = 0..H + 1
 };
-
-/// The least number of harmonics, `harmonics` or more by steps of a half, beyond which contact hardly
-/// matters: |G(i n omega)| D <= max_omitted for H < n <= 2 H, or a quarter of that where H is raised. 0 where
-/// `most` are not enough.
-int resolving_harmonics(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                        double angular_frequency, int harmonics, int most, double max_omitted);
 
 /// The first reason why `dynamics` and `stiffness` do not let the argument of the determinant be followed.
 StabilityStatus require_countable(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,

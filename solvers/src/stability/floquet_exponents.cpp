@@ -200,14 +200,15 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   result.status = options.starts.empty() ? require_countable(dynamics, stiffness, 2.0 * pi * frequency)
                                          : require_stiffness(dynamics, stiffness);
   if (result.status != StabilityStatus::converged) return result;
-  result.harmonics =
-      resolving_harmonics(dynamics, stiffness, 2.0 * pi * frequency, options.stability.harmonics,
-                          options.max_raise * options.stability.harmonics, options.stability.max_omitted);
+  const Truncation truncation =
+      resolving_truncation(dynamics, stiffness, 2.0 * pi * frequency, options.stability.harmonics,
+                           options.max_raise * options.stability.harmonics, options.stability.max_omitted);
+  result.harmonics = truncation.harmonics;
   if (result.harmonics == 0) {
     result.status = StabilityStatus::too_few_harmonics;
     return result;
   }
-  FloquetDeterminant determinant(dynamics, stiffness, frequency, result.harmonics);
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
   CharacteristicPolynomial characteristic(determinant);
   const double period = characteristic.period();
   find_exponents(characteristic, options);

@@ -84,11 +84,11 @@ class Winding {
   int max_evaluations_;
 };
 
-// Whether the harmonics represent perturbations in contact.
-bool is_resolved(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
-                 const StabilityOptions& options) {
-  return resolving_harmonics(dynamics, stiffness, 2.0 * pi * frequency, options.harmonics, options.harmonics,
-                             options.max_omitted) > 0;
+// Without harmonics where those of the options do not represent perturbations in contact.
+Truncation truncation_of(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                         double frequency, const StabilityOptions& options) {
+  return resolving_truncation(dynamics, stiffness, 2.0 * pi * frequency, options.harmonics, options.harmonics,
+                              options.max_omitted);
 }
 
 // Nothing where there are too many states, contact is too stiff for this, too, or the structure is reduced.
@@ -142,7 +142,8 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const 
   require_stability_arguments("unstable_multipliers", dynamics, stiffness, frequency, options.harmonics);
   result.status = require_countable(dynamics, stiffness, 2.0 * pi * frequency);
   if (result.status != StabilityStatus::converged) return result;
-  if (!is_resolved(dynamics, stiffness, frequency, options)) {
+  const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
+  if (truncation.harmonics == 0) {
     const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
     if (multipliers)
       result.count = static_cast<int>((multipliers->cwiseAbs().array() > 1.0).count());
@@ -152,7 +153,7 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const 
     return result;
   }
   result.harmonics = options.harmonics;
-  FloquetDeterminant determinant(dynamics, stiffness, frequency, result.harmonics);
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
   const int own = unstable_poles(dynamics);
   if (determinant.nodes() == 0) {
     result.count = own;
@@ -191,7 +192,8 @@ StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicSt
   require_stability_arguments("stability_signs", dynamics, stiffness, frequency, options.harmonics);
   signs.status = require_countable(dynamics, stiffness, 2.0 * pi * frequency);
   if (signs.status != StabilityStatus::converged) return signs;
-  if (!is_resolved(dynamics, stiffness, frequency, options)) {
+  const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
+  if (truncation.harmonics == 0) {
     const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
     signs.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
     if (multipliers) {
@@ -201,7 +203,7 @@ StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicSt
     }
     return signs;
   }
-  FloquetDeterminant determinant(dynamics, stiffness, frequency, options.harmonics);
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
   signs.fold = determinant.sign_at_zero();
   signs.flip = determinant.sign_at_half();
   return signs;

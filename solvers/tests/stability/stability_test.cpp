@@ -73,7 +73,8 @@ TEST(FloquetDeterminant, IsTheQuotientOfTheCharacteristicPolynomialsForOneToSixC
            {Complex(0.0), Complex(0.0, std::numbers::pi / period), Complex(0.2 / period, 1.1 / period)}) {
         const Complex exact = log_quotient(dynamics, multipliers, sigma, period);
         const auto error = [&](int harmonics) {
-          FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, harmonics);
+          FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency,
+                                         Truncation{harmonics, {}});
           return mismatch(determinant.log(sigma) +
                               omitted_trace(dynamics, random.stiffness, two_pi / period, sigma, harmonics),
                           exact);
@@ -89,7 +90,7 @@ TEST(FloquetDeterminant, HasTheDerivativeOfItsLogarithm) {
   std::mt19937 generator(12);
   const testing::RandomStiffness random(generator, 3);
   const ContactDynamics dynamics(random.structure);
-  FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, 20);
+  FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, Truncation{20, {}});
   const Complex sigma(0.03, 0.2);
   const double step = 1e-5;
   const Complex along = (determinant.log(sigma + step) - determinant.log(sigma - step)) / (2.0 * step);
@@ -101,7 +102,7 @@ TEST(FloquetDeterminant, HasRealSignsEqualToTheComplexDeterminant) {
   for (int trial = 0; trial < 20; ++trial) {
     const testing::RandomStiffness random(generator, 1 + trial % 4);
     const ContactDynamics dynamics(random.structure);
-    FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, 20);
+    FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, Truncation{20, {}});
     const double half = 0.5 * determinant.angular_frequency();
     for (const Complex sigma : {Complex(0.0), Complex(0.0, half)}) {
       const Complex direction = std::polar(1.0, determinant.log(sigma).imag());
@@ -207,6 +208,34 @@ TEST(FloquetExponents, WithoutContactAreThoseOfTheStructure) {
   EXPECT_LT(std::abs(std::exp(exact / frequency) - exponents.values[0].multiplier), 1e-9);
   EXPECT_TRUE(exponents.values[0].displacement.isZero(0.0));
   EXPECT_EQ(unstable_multipliers(dynamics, PeriodicStiffness{}, frequency, options.stability).count, 0);
+}
+
+// A contact on a light mass whose spring is as stiff as the contact: beyond the harmonics the compliance does
+// not decay before the mode of the light mass, at harmonic 140.
+TEST(FloquetExponents, OfAContactOnASpringAreThoseOfTheMonodromyInFewHarmonics) {
+  LinearStructure structure;
+  structure.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 1e-4).asDiagonal()).sparseView();
+  const Eigen::Matrix2d springs{{6.0, -5.0}, {-5.0, 5.0}};
+  structure.stiffness = springs.sparseView();
+  structure.damping = 1e-3 * structure.stiffness + 0.1 * structure.mass;
+  structure.load = Eigen::Vector2d(1.0, 0.0);
+  structure.contact_directions = contact_rows({1}, 2);
+  PeriodicStiffness stiffness;
+  stiffness.intervals = {{0, 0.1, 0.5}};
+  stiffness.tangent = [](int, double) { return 5.0; };
+  const ContactDynamics dynamics(structure);
+  FloquetOptions options;
+  options.stability.harmonics = 15;
+  options.max_raise = 1;
+  const Eigen::VectorXcd multipliers = monodromy(dynamics, stiffness, 0.25);
+  const auto exponents = floquet_exponents(dynamics, stiffness, 0.25, options);
+  ASSERT_EQ(exponents.status, StabilityStatus::converged);
+  ASSERT_FALSE(exponents.values.empty());
+  EXPECT_EQ(exponents.harmonics, 15);
+  EXPECT_NEAR(std::abs(exponents.values[0].multiplier), std::abs(multipliers[0]), 2e-3);
+  const auto found = unstable_multipliers(dynamics, stiffness, 0.25, options.stability);
+  EXPECT_EQ(found.harmonics, 15);
+  EXPECT_EQ(found.count, (multipliers.cwiseAbs().array() > 1.0).count());
 }
 
 // Negative damping makes the structure itself unstable: its own exponents are poles inside the contour.

@@ -10,9 +10,9 @@ struct StabilityOptions {
   int harmonics = 0;
   /// How far contact may matter beyond H: the largest |S Z(i n omega)^-1 S^T| D at harmonics n > H, times the
   /// cycles that the contact's stiffness goes through on the mass beside it while the contact lasts, if these
-  /// are more than one. Where it is larger, H harmonics do not represent perturbations: stable motions of
-  /// stiff contacts look unstable. Count and signs are then those of
-  /// monodromy().
+  /// are more than one. The compliance of modes that yield like springs beyond H does not count. Where it is
+  /// larger, H harmonics do not represent perturbations: stable motions of stiff contacts look unstable.
+  /// Count and signs are then those of monodromy().
   double max_omitted = 0.5;
   /// States up to which the monodromy may be taken, at O(states^3); 0: never.
   int max_states = 400;
