@@ -3,6 +3,7 @@
 #include <complex>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "wavebalance/spectral/fft.hpp"
 
@@ -19,39 +20,58 @@ struct ComplianceOperator {
   std::function<Eigen::MatrixXcd(int n)> response;
 };
 
-/// The harmonics |n| <= h of the samples of each contact, where the compliance is large: with W
-/// (C N x C (2h + 1)) their orthonormal synthesis (mean, cosines, sines), K is nearly W B W^T plus a part
-/// that decays as the harmonics beyond h do, like 1 / n^2. Owns a plan and buffers: one object per thread.
+/// How many unknowns a coarse space has. At most `largest`; of these at least `smallest`, and all without
+/// which a part of K of norm `remainder` (m/N) or more would be left out at one harmonic.
+struct CoarseSize {
+  Eigen::Index smallest = 0;
+  Eigen::Index largest = 0;
+  double remainder = 0.0;
+};
+
+/// Where the compliance is large: on few harmonics n, and at each of them along few directions of the C
+/// contacts, because neighbours move together. With W the orthonormal synthesis of the harmonics of all
+/// contacts (mean, cosines, sines) and q_n an orthonormal basis (C x r_n, complex) of the directions kept at
+/// n, K is nearly U V,
+///   U = W diag(q_n),   V = diag(q_n^* H(n)) W^T,
+/// H(n) the C x C response of the harmonic. The q_n are columns of H(n), chosen by pivoting and
+/// orthonormalised [G. H. Golub, C. F. Van Loan, Matrix Computations, 2013, section 5.4.2]; one contact has
+/// q_n = 1. Owns a plan and buffers: one object per thread.
 class HarmonicCoarseSpace {
  public:
-  /// Reads the responses of the harmonics 0..h of K; h < N/2.
-  void set(const ComplianceOperator& compliance, int harmonics);
+  /// Reads the responses of the harmonics n < N/2 of K. O(C^2 (M + sum r_n)).
+  void set(const ComplianceOperator& compliance, int harmonics, const CoarseSize& wanted);
 
-  int harmonics() const { return harmonics_; }
-  Eigen::Index size() const { return contacts_ * size_of_contact(); }  ///< C (2h + 1)
+  Eigen::Index size() const { return size_; }  ///< r_0 + 2 (r_1 + r_2 + ...)
 
-  /// W^T u. O(C N log N).
+  /// V f, of samples f. O(C N log N + C size()).
+  void respond(const Eigen::VectorXd& samples, Eigen::VectorXd& coefficients);
+  /// U^T v, of samples v. O(C N log N + C size()).
   void analyse(const Eigen::VectorXd& samples, Eigen::VectorXd& coefficients);
-  /// W g. O(C N log N).
+  /// U g. O(C N log N + C size()).
   void synthesise(const Eigen::VectorXd& coefficients, Eigen::VectorXd& samples);
-  /// B g. O(C^2 h).
-  void respond(const Eigen::VectorXd& forces, Eigen::VectorXd& displacements) const;
-  /// B^T g.
-  void respond_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result) const;
-  /// I + W^T D W B in the leading block of `matrix`, D = diag(tangent). O(C N log N + size()^2).
+  /// I + V D U in the leading block of `matrix`, D = diag(tangent). O(C N log N + C size()^2).
   void fill(const Eigen::VectorXd& tangent, Eigen::MatrixXd& matrix);
 
  private:
-  Eigen::Index size_of_contact() const { return 2 * harmonics_ + 1; }
-  void fill_contact(const Eigen::VectorXd& tangent, Eigen::Index contact, Eigen::MatrixXd& gram);
+  using Complex = std::complex<double>;
+  /// The directions kept at one harmonic.
+  struct Harmonic {
+    int n = 0;
+    Eigen::Index start = 0;      // of its coefficients
+    Eigen::MatrixXcd basis;      // C x r, q_n
+    Eigen::MatrixXcd responses;  // r x C, q_n^* H(n)
+  };
 
-  Eigen::Index contacts_ = 0;
+  void transform(const Eigen::VectorXd& samples);
+  void gather(const Eigen::VectorXd& samples, bool responses, Eigen::VectorXd& coefficients);
+  void fill_column(const Eigen::VectorXcd& direction, int n, Eigen::Index column, Eigen::MatrixXd& matrix);
+  Complex tangent_at(int n, Eigen::Index contact) const;
+
+  Eigen::Index contacts_ = 0, size_ = 0;
   int points_ = 0;
-  int harmonics_ = 0;
-  Eigen::MatrixXcd responses_;  // C^2 x (h + 1), column-major blocks
+  std::vector<Harmonic> kept_;
   std::unique_ptr<spectral::RealFft> fft_;
-  Eigen::VectorXcd spectrum_;
-  Eigen::MatrixXd gram_;
+  Eigen::MatrixXcd spectra_;  // N/2 + 1 x C, of samples
 };
 
 }  // namespace wavebalance::solvers

@@ -9,7 +9,10 @@ namespace {
 constexpr Eigen::Index crossover = 96;
 
 // With several contacts the preconditioner holds few harmonics of each, so LU is used up to more samples.
-constexpr Eigen::Index crossover_of_several = 2048;
+constexpr Eigen::Index crossover_of_several = 256;
+
+// Failures of GMRES in a row after which LU is used from then on.
+constexpr int most_failures = 3;
 
 // The largest LU, also as a fallback of GMRES.
 constexpr Eigen::Index largest_dense = 4096;
@@ -31,7 +34,7 @@ void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::Vector
                              : problem.contacts() == 1 ? crossover
                                                        : crossover_of_several;
   const bool large = active_ > limit;
-  const bool given_up = krylov_failed_ && active_ <= largest_dense;
+  const bool given_up = krylov_failures_ >= most_failures && active_ <= largest_dense;
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
   used_ = krylov ? Used::krylov : Used::dense;
@@ -49,7 +52,9 @@ void JacobianSolver::count_dense() {
 
 void JacobianSolver::count_krylov(const CondensedProblem& problem, int iterations) {
   const double points = problem.points();
-  operations_ += 10.0 * iterations * problem.contacts() * points * std::log2(points + 1.0);
+  const double contacts = problem.contacts(), coarse = double(krylov_.size());
+  operations_ += 2.0 / 3.0 * coarse * coarse * coarse + 4.0 * contacts * coarse * coarse;
+  operations_ += (10.0 * points * std::log2(points + 1.0) * contacts) * iterations;
 }
 
 bool JacobianSolver::factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent) {
@@ -64,8 +69,8 @@ bool JacobianSolver::solve(CondensedProblem& problem, const Eigen::VectorXd& r, 
   if (used_ == Used::krylov) {
     const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(problem), r, reduction, x);
     count_krylov(problem, outcome.iterations);
+    krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
-    krylov_failed_ = true;
     count_dense();
     if (!may_fall_back() || !dense_.factorize(problem, tangent_)) return false;
     used_ = Used::dense;
@@ -91,8 +96,8 @@ bool JacobianSolver::solve_bordered(CondensedProblem& problem, const Eigen::Vect
     const KrylovBlock::Outcome outcome =
         krylov_.solve_bordered(compliance_of(problem), r, s, reduction, x, y);
     count_krylov(problem, outcome.iterations);
+    krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
-    krylov_failed_ = true;
     count_dense();
     if (!may_fall_back() ||
         !dense_.factorize_bordered(problem, tangent_, border_column_, border_row_, border_corner_))

@@ -8,7 +8,8 @@
 namespace wavebalance::solvers {
 
 /// Solves with J = I + K D, plain or bordered, by LU of the active samples or by GMRES, chosen by their
-/// number. If GMRES does not converge and an LU is affordable, the LU is used from then on.
+/// number. Where GMRES does not converge and an LU is affordable, the LU is used, and after three times in a
+/// row from then on.
 class JacobianSolver {
  public:
   void set_method(LinearSolver method) { method_ = method; }
@@ -25,7 +26,9 @@ class JacobianSolver {
                       Eigen::VectorXd& x, double& y);
 
   /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
-  int determinant_sign() const { return used_ == Used::dense ? dense_.determinant_sign() : 0; }
+  int determinant_sign() const {
+    return used_ == Used::dense ? dense_.determinant_sign() : krylov_.determinant_sign();
+  }
 
   /// Floating-point operations so far: 2/3 active^3 per LU, four transforms per iteration of GMRES.
   double operations() const { return operations_; }
@@ -43,7 +46,7 @@ class JacobianSolver {
   LinearSolver method_ = LinearSolver::automatic;
   Used used_ = Used::none;
   Eigen::Index active_ = 0;
-  bool krylov_failed_ = false;
+  int krylov_failures_ = 0;
   double operations_ = 0.0;
   ActiveBlock dense_;
   KrylovBlock krylov_;

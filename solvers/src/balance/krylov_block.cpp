@@ -8,30 +8,19 @@ namespace {
 
 constexpr int max_iterations = 200;
 
-// As many harmonics are kept as are needed for |D| ||H(n)|| <= largest_remainder beyond them, up to a limit.
+// GMRES starts anew from the true residual where rounding has separated it from the one that it updates.
+constexpr int max_refinements = 2;
+
+// As many directions are kept as are needed for |D| ||H(n)|| <= largest_remainder beyond them, up to a limit.
 // This bounds J - P, and with it the number of iterations.
 constexpr double largest_remainder = 0.25;
 
 // The dense system of the preconditioner costs as much as one product with K at 4 N^(1/3) unknowns, and as
 // much as a solve of about twenty iterations at three times that.
-struct CoarseSize {
-  Eigen::Index smallest, largest;
-};
-CoarseSize coarse_size(Eigen::Index samples) {
+CoarseSize coarse_size(Eigen::Index samples, double largest_tangent) {
   const auto balanced = static_cast<Eigen::Index>(4.0 * std::cbrt(double(samples)));
-  return {balanced, 3 * balanced};
-}
-
-int coarse_harmonics(const ComplianceOperator& compliance, double largest_tangent) {
-  const Eigen::Index contacts = compliance.contacts;
-  const CoarseSize size = coarse_size(contacts * compliance.points);
-  const Eigen::Index resolved = (compliance.points - 1) / 2;
-  const Eigen::Index least = std::min(resolved, size.smallest / contacts / 2);
-  Eigen::Index harmonics = std::min(resolved, size.largest / contacts / 2);
-  while (harmonics > least &&
-         largest_tangent * compliance.response(static_cast<int>(harmonics)).norm() <= largest_remainder)
-    --harmonics;
-  return static_cast<int>(harmonics);
+  const double remainder = largest_tangent > 0.0 ? largest_remainder / largest_tangent : 1.0;
+  return {balanced, 3 * balanced, remainder};
 }
 
 }  // namespace
@@ -51,7 +40,9 @@ bool KrylovBlock::prepare(const ComplianceOperator& compliance, const Eigen::Vec
   largest_gain_ = smallest_gain_ = 0.0;
   if (!std::isfinite(stiffness_.squaredNorm())) return false;
   const double largest = active_.empty() ? 0.0 : stiffness_.cwiseAbs().maxCoeff();
-  coarse_.set(compliance, coarse_harmonics(compliance, largest));
+  const CoarseSize wanted = coarse_size(tangent.size(), largest);
+  const auto harmonics = std::min<Eigen::Index>((compliance.points - 1) / 2, wanted.largest / 2);
+  coarse_.set(compliance, static_cast<int>(harmonics), wanted);
   const Eigen::Index size = coarse_.size() + (bordered_ ? 1 : 0);
   matrix_.resize(size, size);
   coarse_.fill(tangent, matrix_);
@@ -69,7 +60,7 @@ bool KrylovBlock::factorize(const ComplianceOperator& compliance, const Eigen::V
 }
 
 // On the active samples x = r - K D z - b y. The last row is then -(D K^T c).z + (d - c.b) y = s - c.r. With
-// the preconditioner's z = v - W B g - b y it becomes an equation for y and g = W^T D z.
+// the preconditioner's z = v - U g - b y it becomes an equation for y and g = V D z.
 bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent,
                                      const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   bordered_ = true;
@@ -82,13 +73,12 @@ bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, const
   active_column_ = gather(b);
   const Eigen::Index size = coarse_.size();
   scatter_weighted(active_column_);
-  coarse_.analyse(weighted_, coefficients_);
+  coarse_.respond(weighted_, coefficients_);
   matrix_.col(size).head(size) = coefficients_;
   samples_.setZero();
   samples_(active_) = active_row_;
   coarse_.analyse(samples_, coefficients_);
-  coarse_.respond_transposed(coefficients_, responses_);
-  matrix_.row(size).head(size) = -responses_.transpose();
+  matrix_.row(size).head(size) = -coefficients_.transpose();
   matrix_(size, size) = corner_ - active_row_.dot(active_column_);
   return factorize_coarse();
 }
@@ -96,14 +86,13 @@ bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, const
 // (z, y) = P^-1 (v, s).
 void KrylovBlock::precondition(const Eigen::VectorXd& v, double s, Unknown& unknown) {
   scatter_weighted(v);
-  coarse_.analyse(weighted_, coefficients_);
+  coarse_.respond(weighted_, coefficients_);
   if (bordered_) {
     coefficients_.conservativeResize(coarse_.size() + 1);
     coefficients_[coarse_.size()] = s - active_row_.dot(v);
   }
   const Eigen::VectorXd solution = lu_.solve(coefficients_);
-  coarse_.respond(solution.head(coarse_.size()), responses_);
-  coarse_.synthesise(responses_, samples_);
+  coarse_.synthesise(solution, samples_);
   unknown.z = v - gather(samples_);
   unknown.y = bordered_ ? solution[coarse_.size()] : 0.0;
   if (bordered_) unknown.z -= unknown.y * active_column_;
@@ -124,27 +113,38 @@ void KrylovBlock::multiply(const ComplianceOperator& compliance, const Unknown& 
 }
 
 // P contains the last row of the bordered system exactly, so that after P^-1 (r, s) only the others have a
-// residual.
+// residual. At a fold of a curve r - b y vanishes for the tangent, whose size is then that of the terms.
+double KrylovBlock::size_of_terms(double right, const Eigen::VectorXd& z) const {
+  return bordered_ ? std::max(right, z.norm()) : right;
+}
+
 KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
                                                double s, double reduction, Unknown& unknown) {
   precondition(r, s, unknown);
-  Eigen::VectorXd product;
-  multiply(compliance, unknown, product);
-  const Eigen::VectorXd remainder = r - product;
-  const double size = bordered_ ? (r - unknown.y * active_column_).norm() : r.norm();
   Unknown step;
   const auto map = [&](const Eigen::VectorXd& v, Eigen::VectorXd& image) {
     precondition(v, 0.0, step);
     multiply(compliance, step, image);
   };
-  Eigen::VectorXd v;
-  const GmresResult found = gmres(map, remainder, reduction * size, max_iterations, v);
-  if (found.iterations > 0) {
+  Outcome outcome;
+  Eigen::VectorXd product, v;
+  for (int round = 0; round <= max_refinements; ++round) {
+    multiply(compliance, unknown, product);
+    const Eigen::VectorXd remainder = r - product;
+    const double right = bordered_ ? (r - unknown.y * active_column_).norm() : r.norm();
+    const double size = size_of_terms(right, unknown.z);
+    outcome.reduction = size > 0.0 ? remainder.norm() / size : 0.0;
+    outcome.solved = outcome.reduction <= reduction;
+    if (outcome.solved || round == max_refinements) break;
+    const GmresResult found = gmres(map, remainder, 0.5 * reduction * size, max_iterations, v);
+    outcome.iterations += found.iterations;
+    if (found.iterations == 0 || !v.allFinite()) break;
     precondition(v, 0.0, step);
     unknown.z += step.z;
     unknown.y += step.y;
+    if (!found.solved) break;
   }
-  return {found.solved, found.iterations, size > 0.0 ? found.residual / size : 0.0};
+  return outcome;
 }
 
 // x = r - K D z differs from z by the residual on the active samples. There x = z is used, because K D would
@@ -155,7 +155,7 @@ void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::Ve
   compliance.apply(weighted_, x);
   const double product = x.norm();
   x = r - x;
-  const double size = gather(r).norm(), residual = (gather(x) - z).norm();
+  const double size = size_of_terms(gather(r).norm(), z), residual = (gather(x) - z).norm();
   x(active_) = z;
   // The residual that GMRES updates differs from the true one when J is nearly singular.
   constexpr double rounding = 1e-13, drift = 2.0;

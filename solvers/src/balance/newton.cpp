@@ -41,7 +41,7 @@ namespace {
 // Relative residual to which a Newton system is solved by iteration. It is small enough for the active sets
 // and steps of exact solves, and not below what the tolerance needs.
 double forcing_term(double residual, double tolerance) {
-  constexpr double exact_enough = 1e-6, share = 0.1, least = 1e-12;
+  constexpr double exact_enough = 1e-8, share = 0.1, least = 1e-12;
   return std::max({least, share * tolerance / residual, exact_enough * std::min(1.0, 100.0 * residual)});
 }
 

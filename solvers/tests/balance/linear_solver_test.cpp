@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <numeric>
 
 #include "balance/harmonic_coarse_space.hpp"
 #include "constants.hpp"
 #include "linalg/gmres.hpp"
+#include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
@@ -76,17 +79,20 @@ TEST(Gmres, KeepsToTheLimitOfIterations) {
   EXPECT_EQ(result.iterations, 5);
 }
 
-// Two contacts at the ends of a chain, functions enough that the coarse harmonics are a part of them.
+// Three contacts of a chain and all harmonics that its functions represent.
 class CoarseSpaceTest : public ::testing::Test {
  protected:
   CoarseSpaceTest() : problem_(testing::fourier_pair(31, points), structure(), testing::cosine_load()) {
     problem_.set_frequency(0.23);
+    set({0, 1000, 0.0});
+  }
+  void set(const CoarseSize& wanted) {
     space_.set({problem_.contacts(), points, {}, {}, [this](int n) { return problem_.harmonic_response(n); }},
-               harmonics);
+               harmonics, wanted);
   }
   LinearStructure structure() {
     LinearStructure chain = testing::random_chain(5, generator_);
-    chain.contact_directions = contact_rows({0, 4}, chain.size());
+    chain.contact_directions = contact_rows({0, 1, 4}, chain.size());
     return chain;
   }
   Eigen::MatrixXd synthesis() {
@@ -98,40 +104,61 @@ class CoarseSpaceTest : public ::testing::Test {
     }
     return matrix;
   }
+  Eigen::MatrixXd response() {
+    Eigen::MatrixXd matrix(space_.size(), problem_.samples());
+    Eigen::VectorXd column;
+    for (Eigen::Index j = 0; j < problem_.samples(); ++j) {
+      space_.respond(Eigen::VectorXd::Unit(problem_.samples(), j), column);
+      matrix.col(j) = column;
+    }
+    return matrix;
+  }
 
-  static constexpr int points = 64, harmonics = 6;
+  static constexpr int points = 64, harmonics = 15;
   std::mt19937 generator_{4};
   CondensedProblem problem_;
   HarmonicCoarseSpace space_;
 };
 
 TEST_F(CoarseSpaceTest, SynthesisIsOrthonormalAndAnalysisItsTranspose) {
-  const Eigen::MatrixXd w = synthesis();
-  EXPECT_LE((w.transpose() * w - Eigen::MatrixXd::Identity(space_.size(), space_.size())).norm(),
-            100.0 * eps);
-  const Eigen::VectorXd u = testing::random_vector(problem_.samples(), generator_);
+  const Eigen::MatrixXd u = synthesis();
+  EXPECT_LE((u.transpose() * u - Eigen::MatrixXd::Identity(space_.size(), space_.size())).norm(), 1e3 * eps);
+  const Eigen::VectorXd v = testing::random_vector(problem_.samples(), generator_);
   Eigen::VectorXd coefficients;
-  space_.analyse(u, coefficients);
-  EXPECT_LE((w.transpose() * u - coefficients).norm(), 100.0 * eps * u.norm());
+  space_.analyse(v, coefficients);
+  EXPECT_LE((u.transpose() * v - coefficients).norm(), 1e3 * eps * v.norm());
 }
 
-TEST_F(CoarseSpaceTest, ResponseIsTheComplianceOfItsHarmonics) {
-  const Eigen::MatrixXd w = synthesis();
-  const Eigen::MatrixXd expected = w.transpose() * testing::compliance_matrix(problem_) * w;
-  const Eigen::VectorXd g = testing::random_vector(space_.size(), generator_);
-  Eigen::VectorXd result;
-  space_.respond(g, result);
-  EXPECT_LE((expected * g - result).norm(), 1e3 * eps * expected.norm() * g.norm());
-  space_.respond_transposed(g, result);
-  EXPECT_LE((expected.transpose() * g - result).norm(), 1e3 * eps * expected.norm() * g.norm());
+TEST_F(CoarseSpaceTest, OfAllDirectionsIsTheCompliance) {
+  EXPECT_EQ(space_.size(), 3 * 31);
+  const Eigen::MatrixXd expected = testing::compliance_matrix(problem_);
+  EXPECT_LE((synthesis() * response() - expected).norm(), 1e3 * eps * expected.norm());
+}
+
+TEST_F(CoarseSpaceTest, LeavesOutWhatIsSmallerThanTheRemainder) {
+  const Eigen::MatrixXd compliance = testing::compliance_matrix(problem_);
+  const double norm = compliance.operatorNorm();
+  for (const double share : {0.3, 1e-2, 1e-3}) {
+    set({0, 1000, share * norm});
+    EXPECT_LT(space_.size(), 3 * 31);
+    EXPECT_LT((compliance - synthesis() * response()).operatorNorm(), share * norm);
+  }
+}
+
+TEST_F(CoarseSpaceTest, HasNoMoreUnknownsThanAllowedAndNoFewerThanWanted) {
+  set({0, 40, 0.0});
+  EXPECT_GE(space_.size(), 39);
+  EXPECT_LE(space_.size(), 40);
+  set({20, 40, 1e100});
+  EXPECT_GE(space_.size(), 19);
+  EXPECT_LE(space_.size(), 20);
 }
 
 TEST_F(CoarseSpaceTest, MatrixIsThatOfTheExplicitProducts) {
-  const Eigen::MatrixXd w = synthesis();
+  set({0, 60, 0.0});
   const Eigen::VectorXd tangent = testing::random_vector(problem_.samples(), generator_).cwiseAbs();
-  const Eigen::MatrixXd expected =
-      Eigen::MatrixXd::Identity(space_.size(), space_.size()) +
-      w.transpose() * tangent.asDiagonal() * w * w.transpose() * testing::compliance_matrix(problem_) * w;
+  const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(space_.size(), space_.size()) +
+                                   response() * tangent.asDiagonal() * synthesis();
   Eigen::MatrixXd matrix(space_.size() + 1, space_.size() + 1);
   space_.fill(tangent, matrix);
   EXPECT_LE((matrix.topLeftCorner(space_.size(), space_.size()) - expected).norm(),
@@ -251,6 +278,53 @@ TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
       EXPECT_TRUE(response.converged() || detuning < 0.5);
     }
   }
+}
+
+// At a fold J is singular and the tangent of the curve solves [J b; c^T 0] (z, y) = (0, 1) with y = 0.
+TEST(LinearSolver, GmresFindsTheTangentAtAFold) {
+  const LinearStructure bar = testing::jl14_bar(1, 1e-4);
+  CondensedProblem problem(testing::fourier_pair(127, 512), bar, Eigen::Vector2cd(1.0, 1.0));
+  problem.set_frequency(150.0);
+  ContactSystem system(problem, Destabilising{(1.0 - 1e-13) * bar.stiffness.coeff(0, 0)});
+  system.set_linear_solver(LinearSolver::krylov);
+  system.evaluate(problem.contact_free_response());
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.samples());
+  ASSERT_TRUE(system.factorize_bordered(ones, ones, 0.0));
+  Eigen::VectorXd z;
+  double y = 0.0;
+  ASSERT_TRUE(system.solve_bordered(Eigen::VectorXd::Zero(ones.size()), 1.0, z, y));
+  EXPECT_LE((z - ones / double(ones.size())).norm(), 1e-9 * z.norm());
+  EXPECT_LE(std::abs(y), 1e-9 * z.norm());
+}
+
+// Every mass of a chain in contact: neighbours move together, so that few directions carry the compliance.
+TEST(LinearSolver, ManyContactsTakeATenthOfTheOperationsOfLu) {
+  std::mt19937 generator(6);
+  LinearStructure chain = testing::random_chain(24, generator);
+  std::vector<int> all(24);
+  std::iota(all.begin(), all.end(), 0);
+  chain.contact_directions = contact_rows(all, chain.size());
+  CondensedProblem problem(testing::fourier_pair(31, 128), chain, testing::cosine_load());
+  problem.set_frequency(0.05);
+  const testing::LinearContact law{0.5, 0.1};
+  ContactSystem dense(problem, law), automatic(problem, law);
+  dense.set_linear_solver(LinearSolver::dense);
+  const Eigen::VectorXd r = testing::random_vector(problem.samples(), generator),
+                        b = testing::random_vector(problem.samples(), generator),
+                        c = testing::random_vector(problem.samples(), generator);
+  std::vector<Eigen::VectorXd> found;
+  std::vector<int> signs;
+  for (ContactSystem* system : {&dense, &automatic}) {
+    system->evaluate(problem.contact_free_response());
+    ASSERT_GT((system->tangent().array() > 0.0).count(), 1000);
+    double y = 0.0;
+    ASSERT_TRUE(system->factorize_bordered(b, c, 0.7));
+    ASSERT_TRUE(system->solve_bordered(r, -0.4, found.emplace_back(), y, 1e-12));
+    signs.push_back(system->determinant_sign());
+  }
+  EXPECT_LE((found[0] - found[1]).norm(), 1e-9 * found[0].norm());
+  EXPECT_EQ(signs[0], signs[1]);
+  EXPECT_LT(automatic.operations(), 0.1 * dense.operations());
 }
 
 TEST(LinearSolver, ATangentThatIsNotFiniteIsASingularMatrix) {
