@@ -7,6 +7,7 @@
 
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::app {
@@ -63,6 +64,40 @@ TEST_P(BladeSweep, ReachesItsEndThroughTheResponsesAtSingleFrequencies) {
 INSTANTIATE_TEST_SUITE_P(Pairs, BladeSweep,
                          ::testing::Values(Discretisation{"fourier", "fourier", 16},
                                            Discretisation{"haar", "fourier", 16}));
+
+solvers::FrequencySweep sweep_of(const StructureModel& model, const Scene& scene,
+                                 solvers::GrazingEvents events) {
+  ComposedProblem composed = compose_problem(scene, model);
+  solvers::FrequencySweepOptions options;
+  options.from = scene.analysis.frequency_from;
+  options.to = scene.analysis.frequency_to;
+  options.output_points = scene.analysis.output_points;
+  options.arc_length.grazing_events = events;
+  return solvers::frequency_sweep(composed.problem, composed.laws, options);
+}
+
+double largest_displacement(const solvers::FrequencySweep& sweep) {
+  double largest = 0.0;
+  for (const solvers::SweepPoint& point : sweep.points) largest = std::max(largest, point.max_displacement);
+  return largest;
+}
+
+// 640 samples are more than those whose grazing events are all solved for.
+TEST(BladeSweepOfManySamples, HasThePeakAndTheFoldsOfTheOneThroughEveryGrazingEvent) {
+  Scene scene = blade_scene({"fourier", "fourier", 15});
+  scene.time.quadrature_points = 80;
+  const StructureModel model = make_model(scene);
+  const solvers::FrequencySweep steps = sweep_of(model, scene, solvers::GrazingEvents::automatic),
+                                events = sweep_of(model, scene, solvers::GrazingEvents::all);
+  ASSERT_EQ(steps.status, solvers::SweepStatus::reached_end);
+  ASSERT_EQ(events.status, solvers::SweepStatus::reached_end);
+  EXPECT_LT(3 * steps.points.size(), events.points.size());
+  EXPECT_NEAR(largest_displacement(steps), largest_displacement(events), 1e-3 * largest_displacement(events));
+  ASSERT_EQ(steps.turning_points.size(), events.turning_points.size());
+  ASSERT_GE(steps.turning_points.size(), 2u);
+  for (std::size_t i = 0; i < steps.turning_points.size(); ++i)
+    EXPECT_NEAR(steps.turning_points[i].frequency, events.turning_points[i].frequency, 0.1);
+}
 
 }  // namespace
 }  // namespace wavebalance::app

@@ -37,4 +37,20 @@ TEST(CantileverScene, TouchesAndDoesNotPenetrateFurtherThanItsSpringsYield) {
   EXPECT_NEAR(deepest, response.contacts.force.maxCoeff() / scene.contact.pairs[0].stiffness, 1e-3 * deepest);
 }
 
+class CantileverVariant : public ::testing::TestWithParam<std::vector<std::string>> {};
+
+// The cantilevers are symmetric about their middle: pairs of contacts reach their gaps together.
+TEST_P(CantileverVariant, IsFoundByLoweringTheUpperOne) {
+  const Response response = weighted_residual_response(
+      load_scene(std::filesystem::path(WAVEBALANCE_SCENES) / "matrices" / "cantilevers.toml", GetParam()));
+  EXPECT_TRUE(response.converged) << response.status;
+  EXPECT_EQ(response.strategy, "gap_continuation");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, CantileverVariant,
+    ::testing::Values(std::vector<std::string>{"forcing.amplitude=0.5", "forcing.frequency=95"},
+                      std::vector<std::string>{"time.trial=bspline", "time.weight=bspline",
+                                               "time.functions=64"}));
+
 }  // namespace

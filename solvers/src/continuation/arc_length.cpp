@@ -41,6 +41,7 @@ ArcLength::ArcLength(ContactSystem& system, const CurveParameter& parameter, Arc
   const CondensedProblem& problem = system.problem();
   const bool undamped = problem.pair().functions() % 2 == 0 && !problem.pair().drops_nyquist();
   const bool automatic = options_.grazing_events == GrazingEvents::automatic;
+  many_samples_ = problem.samples() > few_samples;
   events_first_ = options_.grazing_events == GrazingEvents::all ||
                   (automatic && !undamped && problem.samples() <= few_samples);
 }
@@ -157,11 +158,26 @@ CurvePoint ArcLength::chord(const CurvePoint& to) const {
   return chord;
 }
 
-// True if the chord to the candidate and the tangent there are within max_angle of the present tangent.
-bool ArcLength::is_ahead(const CurvePoint& candidate) const {
-  const double least = std::cos(options_.max_angle);
+// True if the chord to the candidate is within max_angle of the present tangent, and the tangent there within
+// max_turn.
+bool ArcLength::is_ahead(const CurvePoint& candidate, double max_turn) const {
   const CurvePoint way = chord(candidate);
-  return inner(point_, candidate) >= least && inner(point_, way) >= least * std::sqrt(inner(way, way));
+  return inner(point_, candidate) >= std::cos(max_turn) &&
+         inner(point_, way) >= std::cos(options_.max_angle) * std::sqrt(inner(way, way));
+}
+
+// The tangents of a curve with many kinks vary about its direction, which the chord shows.
+double ArcLength::max_turn() const { return many_samples_ ? 2.0 * options_.max_angle : options_.max_angle; }
+
+// Factor on the next long step.
+double ArcLength::growth(int corrections, double turn) const {
+  constexpr int comfortable_corrections = 3;
+  constexpr double least = 0.6, share = 0.7;
+  const double factor = corrections < comfortable_corrections    ? 1.6
+                        : corrections == comfortable_corrections ? 1.1
+                                                                 : least;
+  if (!many_samples_ || turn <= 0.0) return factor;
+  return std::min(factor, std::max(least, share * max_turn() / turn));
 }
 
 void ArcLength::accept(CurvePoint&& candidate, const ActiveMask& sides) {
@@ -173,7 +189,7 @@ void ArcLength::accept(CurvePoint&& candidate, const ActiveMask& sides) {
 }
 
 ArcLength::Status ArcLength::advance() {
-  const bool far = !orientation_unknown_ && options_.grazing_events != GrazingEvents::all;
+  const bool far = (many_samples_ || !orientation_unknown_) && options_.grazing_events != GrazingEvents::all;
   if (far && !events_first_ && piecewise_arc_length_ <= 0.0 && step_far()) return Status::advanced;
   if (!step_in_piece()) return far && events_first_ && step_far() ? Status::advanced : Status::no_point;
   const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
@@ -191,25 +207,29 @@ bool ArcLength::skips_grazing_turn(const CurvePoint& candidate) const {
 
 // A step of the whole system. It is halved until it stays on the curve, or few grazing events lie on its way.
 bool ArcLength::step_far() {
-  constexpr int comfortable_corrections = 3;
   constexpr double few = 4.0;
+  // Scaled arc length of a step that contains a turning point of many samples. Its frequency varies there by
+  // the square.
+  constexpr double turning_step = 0.02;
+  const bool automatic = options_.grazing_events == GrazingEvents::automatic;
   CurvePoint candidate;
   int corrections = 0;
   double nearest = options_.max_step;
   crossing_ahead(nearest);
   for (; step_ >= options_.min_step; step_ *= 0.5) {
-    const bool found = correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate);
-    if (found && candidate.orientation * point_.orientation >= 0) {
-      if (options_.grazing_events != GrazingEvents::where_needed && skips_grazing_turn(candidate)) {
-        const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
+    const bool found =
+        correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate, max_turn());
+    if (found && (orientation_unknown_ || candidate.orientation * point_.orientation >= 0)) {
+      const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
+      if (many_samples_ && automatic) {
+        if (turns && step_ > turning_step) continue;
+      } else if (options_.grazing_events != GrazingEvents::where_needed && skips_grazing_turn(candidate)) {
         if (turns && sides_of(point_).any()) piecewise_arc_length_ = reversal_step_ = step_;
         return false;
       }
+      const double turn = std::acos(std::min(1.0, inner(point_, candidate)));
       accept(std::move(candidate), ActiveMask());
-      const double growth = corrections < comfortable_corrections    ? 1.6
-                            : corrections == comfortable_corrections ? 1.1
-                                                                     : 0.6;
-      step_ = std::clamp(step_ * growth, options_.min_step, options_.max_step);
+      step_ = std::clamp(step_ * growth(corrections, turn), options_.min_step, options_.max_step);
       return true;
     }
     if (step_ < few * nearest) break;
@@ -219,8 +239,19 @@ bool ArcLength::step_far() {
 }
 
 bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
-  constexpr int max_steps = 60;
   constexpr double width = 1e-10;
+  return locate(value, width, point);
+}
+
+// Where tangents jump at kinks only bisection narrows the bracket, and the parameter hardly changes.
+bool ArcLength::locate_turning_point(CurvePoint& point) {
+  const double width = many_samples_ ? 1e-4 : 1e-10;
+  return locate([](const CurvePoint& at) { return at.parameter_tangent; }, width, point);
+}
+
+bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, double width,
+                       CurvePoint& point) {
+  constexpr int max_steps = 60;
   detail::Bracket bracket{0.0, 1.0, value(previous_), value(point_)};
   if (!bracket.has_sign_change() || last_step_ == 0.0) return false;
   int corrections = 0;
@@ -229,7 +260,7 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, Cu
     if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return std::nullopt;
     return value(point);
   };
-  const auto is_close = [](const detail::Bracket& b, double) { return b.high - b.low <= width; };
+  const auto is_close = [width](const detail::Bracket& b, double) { return b.high - b.low <= width; };
   return detail::narrow(bracket, max_steps, value_at, is_close);
 }
 

@@ -62,7 +62,8 @@ bool ArcLength::step_in_piece() {
 // At a branch point within the piece the orientation changes. A short step is then accepted.
 bool ArcLength::step_smoothly(double step, const ActiveMask& sides, CurvePoint& candidate) {
   int corrections = 0;
-  if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate)) return false;
+  if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate, options_.max_angle))
+    return false;
   return candidate.orientation * point_.orientation >= 0 || step < 2.0 * options_.min_step;
 }
 
@@ -95,7 +96,7 @@ bool ArcLength::pass_grazing_event(int sample, double distance, const ActiveMask
 
 // True if the piece leads from point_ to the event without a large change of direction.
 bool ArcLength::leads_to(int sample, const ActiveMask& sides, CurvePoint event) {
-  return tangent_through(sample, !sides[sample], event) && is_ahead(event);
+  return tangent_through(sample, !sides[sample], event) && is_ahead(event, options_.max_angle);
 }
 
 std::vector<int> ArcLength::samples_at_gap(const CurvePoint& point) const {

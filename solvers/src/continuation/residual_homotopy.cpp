@@ -22,6 +22,12 @@ class ResidualParameter final : public CurveParameter {
   Eigen::VectorXd start_residual_;
 };
 
+// The operations of a point grow at least in proportion to the samples.
+double limit_of_operations(ContactSystem& system, const ResidualHomotopyOptions& options) {
+  constexpr double few_samples = 512.0;
+  return options.max_operations * std::max(1.0, system.problem().samples() / few_samples);
+}
+
 HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualHomotopyOptions& options) {
   system.evaluate(u);
   const ResidualParameter parameter(system.residual());
@@ -31,10 +37,10 @@ HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualH
   arc.initial_step = 0.1;
   arc.max_step = 0.5;
   arc.grazing_events = GrazingEvents::where_needed;
-  arc.max_operations = options.max_operations;
+  arc.max_operations = limit_of_operations(system, options);
   ArcLength curve(system, parameter, arc);
   if (curve.start(u, 1.0, -1.0) != ArcLength::Status::advanced) return HomotopyStatus::lost;
-  const double limit = system.operations() + options.max_operations;
+  const double limit = system.operations() + arc.max_operations;
   for (int point = 1; point <= options.max_points; ++point) {
     if (curve.advance() != ArcLength::Status::advanced)
       return system.operations() > limit ? HomotopyStatus::effort_limit : HomotopyStatus::lost;

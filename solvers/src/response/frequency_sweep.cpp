@@ -193,8 +193,7 @@ class Sweep {
     // At a grazing event the sign changes at the point itself, since its tangent is that of the next piece.
     CurvePoint turning = curve.point();
     if (!turning.grazing) {
-      const auto rate = [](const CurvePoint& p) { return p.parameter_tangent; };
-      if (!curve.locate(rate, turning)) turning = curve.point();
+      if (!curve.locate_turning_point(turning)) turning = curve.point();
     }
     const SweepPoint measured = measure(turning);
     result_.turning_points.push_back(

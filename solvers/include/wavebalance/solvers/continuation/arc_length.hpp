@@ -34,10 +34,12 @@ enum class GrazingEvents {
   where_needed,       ///< those that no step passes
   at_turning_points,  ///< also those at turning points, and the first and the last contact
   all,                ///< no turning point can be missed; a few solves per event
-  /// All where they are few, up to 512 samples, with a long step where the next event is not found; else
-  /// at_turning_points. The cost of all grows like the square of the samples, while the turning points that
-  /// long steps miss become smaller. A pair that keeps an undamped Nyquist coefficient takes
-  /// at_turning_points, too: its resonances are passed by long steps only.
+  /// All where they are few, up to 512 samples, with a long step where the next event is not found. A pair
+  /// that keeps an undamped Nyquist coefficient takes at_turning_points, because its resonances are passed by
+  /// long steps only. The cost of all grows like the square of the samples, while each kink and the turning
+  /// points that long steps miss become smaller. Beyond 512 samples it is where_needed, and a long step that
+  /// contains a turning point is at most 0.02, so that the parameter varies by less than a thousandth of its
+  /// scale within it.
   automatic
 };
 
@@ -47,9 +49,11 @@ struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
   double initial_step = 0.02;       ///< scaled arc length
-  double min_step = 1e-3;    ///< scaled arc length of a long step; within a piece steps may be 1e-4 of it
-  double max_step = 0.25;    ///< scaled arc length
-  double max_angle = 0.35;   ///< rad, between the tangents of successive points
+  double min_step = 1e-3;  ///< scaled arc length of a long step; within a piece steps may be 1e-4 of it
+  double max_step = 0.25;  ///< scaled arc length
+  /// rad, between the tangent of a point and the chord to the next, and between the tangents of successive
+  /// points; the latter may differ by twice as much after a long step of more than 512 samples.
+  double max_angle = 0.35;
   int max_corrections = 8;   ///< Newton steps per point, half as many after a long step
   double tolerance = 1e-10;  ///< on the relative residual
   GrazingEvents grazing_events = GrazingEvents::at_turning_points;
@@ -85,7 +89,8 @@ struct CurvePoint {
 /// The sign of det [R_u R_p; tangent^T] is the same on both sides of a fold and of a grazing event of one
 /// sample. A long step to a point with the other sign is refused. The sign changes only where two curves
 /// cross. That happens in symmetric structures, where several samples reach their gaps together: all of them
-/// change sides, and from there on the curve is followed piece by piece.
+/// change sides. From there on the curve is followed piece by piece; with more than 512 samples, which would
+/// take too many pieces, by long steps that do not compare the sign.
 class ArcLength {
  public:
   /// no_point: no further point was found, or the operations are used up.
@@ -100,6 +105,10 @@ class ArcLength {
   /// Finds the zero of `value` between previous() and point(), by false position along the last step. False
   /// when the corrector fails or `value` has the same sign at both.
   bool locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point);
+
+  /// Finds the turning point between previous() and point() in the same way: to 1e-10 of the step, to 1e-4 of
+  /// it on a curve of more than 512 samples.
+  bool locate_turning_point(CurvePoint& point);
 
   const CurvePoint& point() const { return point_; }
   const CurvePoint& previous() const { return previous_; }
@@ -121,7 +130,10 @@ class ArcLength {
   bool tangent_at(CurvePoint& point, const CurvePoint& along);
   CurvePoint ahead(const CurvePoint& from, double step) const;
   CurvePoint chord(const CurvePoint& to) const;
-  bool is_ahead(const CurvePoint& candidate) const;
+  bool is_ahead(const CurvePoint& candidate, double max_turn) const;
+  double max_turn() const;
+  double growth(int corrections, double turn) const;
+  bool locate(const std::function<double(const CurvePoint&)>& value, double width, CurvePoint& point);
   bool is_at_gap(const CurvePoint& point, int sample) const;
   bool skips_grazing_turn(const CurvePoint& candidate) const;
   void accept(CurvePoint&& candidate, const ActiveMask& sides);
@@ -147,6 +159,7 @@ class ArcLength {
   const CurveParameter& parameter_;
   ArcLengthOptions options_;
   bool events_first_ = false;  // long steps only where the next grazing event is not found
+  bool many_samples_ = false;  // so many that steps pass grazing events together
   CurvePoint point_, previous_;
   double step_ = 0.0;
   double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
