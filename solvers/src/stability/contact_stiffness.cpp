@@ -140,10 +140,6 @@ std::optional<std::vector<ContactInterval>> find_intervals(const ContactAlong& a
   return intervals;
 }
 
-bool touches(const AnyContactLaw& law, const Eigen::VectorXd& samples) {
-  return samples.size() > 0 && samples.maxCoeff() > law.gap();
-}
-
 }  // namespace
 
 std::string_view to_string(StabilityStatus status) {
@@ -180,6 +176,7 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
     throw std::invalid_argument("contact_stiffness: the response has " +
                                 std::to_string(response.unknown.size()) + " samples; the problem has " +
                                 std::to_string(problem.samples()));
+  int rigid = 0, elastic = 0;  // intervals of contact
   const auto contacts = std::make_shared<std::vector<ContactAlong>>();
   for (int c = 0; c < problem.contacts(); ++c) {
     const double flexibility = response.regularization.size() > 0 ? response.regularization[c] : 0.0;
@@ -187,16 +184,18 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
                          ContactCurve(problem.pair(), response.unknown_coefficients.col(c),
                                       response.unknown.segment(c * problem.points(), problem.points()))});
     const ContactAlong& along = contacts->back();
-    if (along.law.is_rigid() && touches(along.law, along.curve.samples())) {
-      stiffness.status = StabilityStatus::no_finite_stiffness;
-      return stiffness;
-    }
     const auto intervals = find_intervals(along, c);
     if (!intervals) {
       stiffness.status = StabilityStatus::too_few_samples;
       return stiffness;
     }
+    (along.law.is_rigid() ? rigid : elastic) += static_cast<int>(intervals->size());
     stiffness.intervals.insert(stiffness.intervals.end(), intervals->begin(), intervals->end());
+  }
+  if (rigid > 0) {
+    stiffness.status = StabilityStatus::no_finite_stiffness;
+    if (elastic > 0) stiffness.intervals.clear();
+    return stiffness;
   }
   stiffness.tangent = [contacts](int contact, double time) {
     return (*contacts)[static_cast<std::size_t>(contact)].tangent(time);

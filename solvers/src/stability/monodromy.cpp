@@ -198,6 +198,49 @@ class Propagator {
   std::vector<Eigen::MatrixXd> below_;
 };
 
+// The generator Lambda of free motion, a' = Lambda a, block diagonal.
+Eigen::MatrixXd generator(const ContactDynamics& dynamics, Eigen::Index size) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  Eigen::Index i = 0;
+  for (const ContactPole& pole : dynamics.poles()) {
+    const double re = pole.exponent.real(), im = pole.exponent.imag();
+    matrix(i, i) = re;
+    if (im != 0.0) matrix.block(i, i, 2, 2) << re, -im, im, re;
+    i += im != 0.0 ? 2 : 1;
+  }
+  return matrix;
+}
+
+// Holds contacts at zero from a state in which they need not be there: the impulse that closes them, and the
+// map over `length` (s) under the forces that keep them. h0 is the jump of the displacements after a unit
+// impulse.
+bool hold(const States& states, const ContactDynamics& dynamics, const std::vector<int>& closed,
+          double length, Eigen::MatrixXd& map) {
+  const Eigen::MatrixXd displaced = states.free_motion(0.0)(closed, Eigen::all);
+  const Eigen::MatrixXd struck = states.after_impulse(0.0)(Eigen::all, closed);
+  const Eigen::MatrixXd jump = detail::product(displaced, struck);
+  const detail::Lu<double> h0(jump);
+  // A mass beside the contact makes h0 the rounding of a sum of its terms.
+  const Eigen::MatrixXd terms = detail::product(displaced.cwiseAbs(), struck.cwiseAbs());
+  if (!(jump.diagonal().array() > 1e-9 * terms.diagonal().array()).all() || h0.is_singular(1e-9))
+    return false;
+  map -= detail::product(struck, h0.solve(detail::product(displaced, map)));
+  const Eigen::MatrixXd free = generator(dynamics, states.size());
+  const Eigen::MatrixXd held = free - detail::product(struck, h0.solve(detail::product(displaced, free)));
+  map = detail::product(detail::exponential(length * held), map);
+  return true;
+}
+
+Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map) {
+  // States of overdamped modes decay to numbers that keep the QR iteration from converging.
+  const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
+  map = (map.array().abs() > vanishing).select(map, 0.0);
+  Eigen::VectorXcd multipliers = detail::eigenvalues(map);
+  std::sort(multipliers.begin(), multipliers.end(),
+            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  return multipliers;
+}
+
 double largest_exponent(const ContactDynamics& dynamics) {
   double largest = 0.0;
   for (const ContactPole& pole : dynamics.poles()) largest = std::max(largest, std::abs(pole.exponent));
@@ -250,13 +293,22 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
   if (!(contact <= resolved)) return Eigen::VectorXcd::Constant(size, std::nan(""));
   const double fastest = std::clamp(largest_exponent(dynamics), contact, resolved);
   for (const Piece& piece : pieces(stiffness, phase / fastest)) propagator.pass(piece, map);
-  // States of overdamped modes decay to numbers that keep the QR iteration from converging.
-  const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
-  map = (map.array().abs() > vanishing).select(map, 0.0);
-  Eigen::VectorXcd multipliers = detail::eigenvalues(map);
-  std::sort(multipliers.begin(), multipliers.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
-  return multipliers;
+  return by_falling_modulus(map);
+}
+
+Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
+                                 double frequency) {
+  require_stability_arguments("rigid_monodromy", dynamics, contact, frequency, 1);
+  const States states(dynamics, 1.0 / frequency);
+  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(states.size(), states.size());
+  for (const Piece& piece : pieces(contact, 1.0)) {
+    const double length = piece.end - piece.begin;
+    if (piece.closed.empty())
+      states.advance(length, map);
+    else if (!hold(states, dynamics, piece.closed, length / frequency, map))
+      return Eigen::VectorXcd::Constant(states.size(), std::nan(""));
+  }
+  return by_falling_modulus(map);
 }
 
 }  // namespace wavebalance::solvers

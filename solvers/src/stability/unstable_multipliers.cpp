@@ -101,6 +101,22 @@ std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
   return multipliers;
 }
 
+// Of rigid contact, where it has a limit.
+UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
+                                      double frequency, const StabilityOptions& options) {
+  UnstableMultipliers result;
+  result.status = contact.status;
+  if (contact.intervals.empty() || dynamics.reduced() ||
+      2 * int(dynamics.poles().size()) > options.max_states)
+    return result;
+  const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
+  if (!multipliers.allFinite()) return result;
+  result.status = StabilityStatus::converged;
+  result.count = static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
+  result.winding = result.count;
+  return result;
+}
+
 int unstable_poles(const ContactDynamics& dynamics) {
   int count = 0;
   for (const ContactPole& pole : dynamics.poles())
@@ -174,7 +190,10 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const 
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const CondensedProblem& problem,
                                          const ContactLaws& laws, const PeriodicResponse& response,
                                          const StabilityOptions& options) {
-  return unstable_multipliers(dynamics, contact_stiffness(problem, laws, response), response.frequency,
+  const PeriodicStiffness stiffness = contact_stiffness(problem, laws, response);
+  if (stiffness.status == StabilityStatus::no_finite_stiffness)
+    return rigid_multipliers(dynamics, stiffness, response.frequency, options);
+  return unstable_multipliers(dynamics, stiffness, response.frequency,
                               with_harmonics_of(problem.pair(), options));
 }
 

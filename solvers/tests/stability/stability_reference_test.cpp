@@ -4,6 +4,7 @@
 
 #include "constants.hpp"
 #include "support/oscillator.hpp"
+#include "support/rigid_law.hpp"
 #include "support/stability_cases.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -98,6 +99,80 @@ TEST(Monodromy, OfPrescribedStiffnessIsTheReferenceTo1e9) {
     const Complex leading(multipliers[0].real(), std::abs(multipliers[0].imag()));
     EXPECT_LT(std::abs(leading - point.multiplier), 1e-9) << point.frequency;
   }
+}
+
+// Case 2 with the mass of its tip moved to its neighbour.
+LinearStructure massless_tip() {
+  LinearStructure bar = testing::jl14_case_2.structure();
+  const int tip = bar.size() - 1;
+  bar.mass.coeffRef(tip - 1, tip - 1) += bar.mass.coeff(tip, tip) + 2.0 * bar.mass.coeff(tip, tip - 1);
+  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
+    bar.mass.coeffRef(row, column) = 0.0;
+  return bar;
+}
+
+PeriodicStiffness rigid_contact(double stiffness) {
+  PeriodicStiffness contact;
+  contact.intervals = {{0, 0.06305798, 0.06305798 + 0.08197176}};  // of an event-driven computation
+  contact.tangent = [stiffness](int, double) { return stiffness; };
+  return contact;
+}
+
+TEST(RigidMonodromy, OfCaseTwoIsTheReference) {
+  const ContactDynamics dynamics(massless_tip());
+  const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, rigid_contact(0.0), 1275.0);
+  EXPECT_NEAR(std::abs(multipliers[0]), 0.603281, 1e-6);
+}
+
+TEST(RigidMonodromy, OfAResponseIsNearTheReference) {
+  CondensedProblem problem(testing::fourier_pair(255, 512), massless_tip(), testing::cosine_load());
+  problem.set_frequency(1275.0);
+  const ContactLaws rigid = testing::Rigid{testing::jl14_case_2.law.start};
+  const PeriodicResponse response = forced_response(problem, rigid, {});
+  ASSERT_TRUE(response.converged());
+  const PeriodicStiffness contact = contact_stiffness(problem, rigid, response);
+  EXPECT_EQ(contact.status, StabilityStatus::no_finite_stiffness);
+  const Eigen::VectorXcd multipliers = rigid_monodromy(ContactDynamics(massless_tip()), contact, 1275.0);
+  EXPECT_NEAR(std::abs(multipliers[0]), 0.603281, 1.5e-2);  // the error of the instants in 255 functions
+  const auto found = unstable_multipliers(problem, rigid, response);
+  EXPECT_EQ(found.status, StabilityStatus::converged);
+  EXPECT_EQ(found.count, 0);
+}
+
+// Penalties in N/m with the moduli of an event-driven computation, and the errors that motions in 511
+// functions leave: harmonics resolve stiffer contact less.
+TEST(RigidMonodromy, IsApproachedByThoseOfPenalties) {
+  const ContactDynamics dynamics(massless_tip());
+  struct Penalty {
+    double stiffness, modulus, tolerance;
+  };
+  for (const auto& [penalty, modulus, tolerance] :
+       {Penalty{1e10, 0.601686, 2e-4}, Penalty{1e11, 0.603213, 2e-3}, Penalty{1e12, 0.603275, 5e-3}}) {
+    CondensedProblem problem(testing::fourier_pair(511, 8192), massless_tip(), testing::cosine_load());
+    problem.set_frequency(1275.0);
+    const ContactLaws laws = testing::LinearContact{penalty, testing::jl14_case_2.law.start};
+    const PeriodicResponse response = forced_response(problem, laws, {});
+    ASSERT_TRUE(response.converged());
+    const PeriodicStiffness contact = contact_stiffness(problem, laws, response);
+    const auto multipliers = monodromy(dynamics, contact, 1275.0, {.nodes = 24, .max_pieces = 4000});
+    EXPECT_NEAR(std::abs(multipliers[0]), modulus, tolerance) << penalty;
+  }
+}
+
+// With the mass of the tip there is none.
+TEST(RigidMonodromy, IsTheLimitOfStiffContactWithoutMass) {
+  const ContactDynamics dynamics(massless_tip());
+  const double limit = std::abs(rigid_monodromy(dynamics, rigid_contact(0.0), 1275.0)[0]);
+  const auto error = [&](double stiffness) {
+    const auto multipliers =
+        monodromy(dynamics, rigid_contact(stiffness), 1275.0, {.nodes = 24, .max_pieces = 4000});
+    return std::abs(std::abs(multipliers[0]) - limit);
+  };
+  const double soft = error(1e11), stiff = error(1e12);
+  EXPECT_LT(soft, 5e-3);
+  EXPECT_LT(stiff, 0.15 * soft);
+  const ContactDynamics heavy(testing::jl14_case_2.structure());
+  EXPECT_TRUE(std::isnan(rigid_monodromy(heavy, rigid_contact(0.0), 1275.0)[0].real()));
 }
 
 // m = k = 1, c = 0.1, a linear stop 10 at gap 0.1, 0.8 cos: multipliers of exact pieces.

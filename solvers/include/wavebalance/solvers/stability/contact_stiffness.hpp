@@ -48,6 +48,9 @@ struct PeriodicStiffness {
 /// derivative a line. In the force form u is the displacement at which the law has the force, v - rho(v) /
 /// epsilon. A law that also acts below its gap has the intervals on both sides.
 ///
+/// Of rigid contact the status is no_finite_stiffness and there is no tangent; the intervals are those of the
+/// contact force, but empty where elastic laws are in contact, too.
+///
 /// The result refers to `laws` no more than by copies. O(C (N + intervals M)).
 /// Throws std::invalid_argument for laws that are neither one nor one per contact, and for samples of another
 /// length than the problem's.

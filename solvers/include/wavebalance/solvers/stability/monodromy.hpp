@@ -33,4 +33,13 @@ struct MonodromyOptions {
 Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                            double frequency, const MonodromyOptions& options = {});
 
+/// The same for rigid obstacles and contacts that have damping but no mass: the limit of monodromy() for a
+/// stiffness that tends to infinity on the intervals of `contact`, whose status and tangent are not used. A
+/// perturbation is projected by the impulse that closes the contact, and the contact is held until it opens,
+/// which changes no velocity. NaN for a contact with mass, where no limit exists, or without damping.
+/// O(pieces n^3). Throws std::invalid_argument for a frequency (Hz) that is not positive and finite and for
+/// intervals of other contacts.
+Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
+                                 double frequency);
+
 }  // namespace wavebalance::solvers

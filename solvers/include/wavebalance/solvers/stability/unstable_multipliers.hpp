@@ -54,8 +54,9 @@ struct UnstableMultipliers {
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                          double frequency, const StabilityOptions& options);
 
-/// The same of a response of `problem` to `laws`. `dynamics` must be that of problem.structure(); a sweep
-/// makes it once.
+/// The same of a response of `problem` to `laws`. Of rigid contact without mass the count is that of
+/// rigid_monodromy(); with mass it is unknown, no_finite_stiffness. `dynamics` must be that of
+/// problem.structure(); a sweep makes it once.
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const CondensedProblem& problem,
                                          const ContactLaws& laws, const PeriodicResponse& response,
                                          const StabilityOptions& options = {});
