@@ -245,7 +245,7 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, Cu
 
 // Where tangents jump at kinks only bisection narrows the bracket, and the parameter hardly changes.
 bool ArcLength::locate_turning_point(CurvePoint& point) {
-  const double width = many_samples_ ? 1e-4 : 1e-10;
+  const double width = many_samples_ && last_sides_.size() == 0 ? 1e-4 : 1e-10;
   return locate([](const CurvePoint& at) { return at.parameter_tangent; }, width, point);
 }
 

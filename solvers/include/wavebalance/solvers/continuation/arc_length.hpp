@@ -107,7 +107,7 @@ class ArcLength {
   bool locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point);
 
   /// Finds the turning point between previous() and point() in the same way: to 1e-10 of the step, to 1e-4 of
-  /// it on a curve of more than 512 samples.
+  /// a long step of more than 512 samples.
   bool locate_turning_point(CurvePoint& point);
 
   const CurvePoint& point() const { return point_; }
