@@ -12,6 +12,7 @@
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 namespace {
