@@ -68,10 +68,10 @@ solvers::ContactLaws draw_stops(std::uint64_t seed, const solvers::ContactDynami
   const Eigen::MatrixXcd flexibility = dynamics.compliance(0.0, Eigen::VectorXd::Zero(1)).compliance;
   const Eigen::MatrixXd free = solvers::by_contact(problem.contact_free_response(), dynamics.contacts());
   std::vector<solvers::AnyContactLaw> laws;
-  for (int c = 0; c < dynamics.contacts(); ++c)
-    laws.emplace_back(
-        contact::LinearLaw(draw.magnitude(-0.5, 1.0) / flexibility(0, c * (dynamics.contacts() + 1)).real(),
-                           draw.uniform(0.3, 1.1) * free.row(c).maxCoeff()));
+  for (int c = 0; c < dynamics.contacts(); ++c) {
+    const double gap = draw.uniform(0.3, 1.1) * free.row(c).maxCoeff(), stop = draw.magnitude(-0.5, 1.0);
+    laws.emplace_back(contact::LinearLaw(stop / flexibility(0, c * (dynamics.contacts() + 1)).real(), gap));
+  }
   return laws;
 }
 

@@ -17,9 +17,10 @@ namespace {
 
 using std::numbers::pi;
 
-// nu and the argument of Delta(i nu) up to 2 pi, with its derivative by nu.
+// nu and the argument of Delta(i nu) up to 2 pi, with its derivative by nu, and the modulus of that of log
+// Delta.
 struct Sample {
-  double nu, argument, slope;
+  double nu, argument, slope, rate;
 };
 
 // Where the argument may turn quickly: beside each natural frequency, folded into [0, omega / 2], at
@@ -63,14 +64,17 @@ class Winding {
  private:
   Sample at(double nu) {
     const FloquetDeterminant::Value value = determinant_({0.0, nu});
-    return {nu, value.log.imag(), value.derivative.real()};
+    return {nu, value.log.imag(), value.derivative.real(), std::abs(value.derivative)};
   }
 
   // Adds the change from one sample to the next, through samples between them where it is not certain.
   bool add(const Sample& from, const Sample& to, double& turned) {
     const double change = std::remainder(to.argument - from.argument, 2.0 * pi);
     const double expected = 0.5 * (from.slope + to.slope) * (to.nu - from.nu);
-    if (std::abs(change) <= pi / 3.0 && std::abs(change - expected) <= 0.6) {
+    // A zero within the step has a rate of at least 2 / step at one of the ends, even where the argument
+    // turns by nearly 2 pi between them, as it does at two equal multipliers beside the circle.
+    const bool smooth = std::max(from.rate, to.rate) * (to.nu - from.nu) < 2.0;
+    if (smooth && std::abs(change) <= pi / 3.0 && std::abs(change - expected) <= 0.6) {
       turned += change;
       return true;
     }

@@ -136,6 +136,30 @@ TEST(UnstableMultipliers, AreAsManyAsThoseOfTheMonodromyOutsideTheCircle) {
   EXPECT_LE(near, 10);
 }
 
+// Two nearly equal oscillators: the argument turns by 2 pi beside the axis within a small part of the range.
+TEST(UnstableMultipliers, OfTwoEqualMultipliersBesideTheCircleAreNone) {
+  LinearStructure structure;
+  structure.mass = Eigen::MatrixXd(Eigen::Matrix2d::Identity()).sparseView();
+  const Eigen::Matrix2d springs{{1.0, -1e-4}, {-1e-4, 1.0}};
+  structure.stiffness = springs.sparseView();
+  structure.damping = 0.004 * structure.stiffness;
+  structure.load = Eigen::Vector2d(1.0, 0.0);
+  structure.contact_directions = contact_rows({0, 1}, 2);
+  const ContactDynamics dynamics(structure);
+  StabilityOptions options;
+  options.harmonics = 31;
+  for (const double stop : {0.2, 0.5, 1.0, 1.5}) {
+    PeriodicStiffness stiffness;
+    stiffness.intervals = {{0, 0.1, 0.36}, {1, 0.1, 0.36}};
+    stiffness.tangent = [stop](int, double) { return stop; };
+    for (const double frequency : {0.25, 0.267, 0.28, 0.3}) {
+      const auto multipliers = monodromy(dynamics, stiffness, frequency);
+      const auto found = unstable_multipliers(dynamics, stiffness, frequency, options);
+      EXPECT_EQ(found.count, (multipliers.cwiseAbs().array() > 1.0).count()) << stop << ' ' << frequency;
+    }
+  }
+}
+
 TEST(FloquetExponents, AreThoseOfTheMonodromyWithTheirModes) {
   std::mt19937 generator(15);
   for (int contacts = 1; contacts <= 4; ++contacts) {
