@@ -10,6 +10,7 @@
 #include "analysis/motion_files.hpp"
 #include "analysis/record_figure.hpp"
 #include "analysis/response_parts.hpp"
+#include "analysis/stability.hpp"
 #include "analysis/summary_parts.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -72,6 +73,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);
     record.summary.emplace_back("complementarity", response.rigid->product);
   }
+  if (response.stability) append_stability(record, *response.stability);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (scene.analysis.type == AnalysisType::forced_response)
@@ -103,12 +105,6 @@ double frequency_of_peak(const solvers::FrequencySweep& curve) {
   return peak == curve.points.end() ? missing : peak->frequency;
 }
 
-void append_turning_points(Summary& summary, const solvers::FrequencySweep& curve) {
-  std::vector<double> frequencies;
-  for (const auto& turn : curve.turning_points) frequencies.push_back(turn.frequency);
-  summary.emplace_back("turning_points_Hz", frequencies);
-}
-
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
   Record record;
   record.converged = sweep.converged();
@@ -133,12 +129,12 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
-  append_turning_points(record.summary, sweep.curve);
+  append_stability(record, sweep);
   append_discretisation(record.summary, scene.time);
   record.summary.emplace_back("form", std::string(to_string(sweep.curve.form)));
   append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   append_structure(record.summary, model);
-  record.sweep = sweep_table(sweep.curve);
+  record.sweep = sweep_table(sweep);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
   return record;
 }
@@ -146,6 +142,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
+  options.keep_unknowns = scene.analysis.stability;
   Sweep sweep;
   ComposedProblem composed = compose_problem(scene, model);
   sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
@@ -171,6 +168,16 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
   return sweep;
 }
 
+namespace {
+
+Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  Sweep sweep = frequency_sweep(scene, model, observer);
+  if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
+  return sweep;
+}
+
+}  // namespace
+
 Record analyse(const Scene& scene, const Observer& observer) {
   if (scene.structure.kept_modes >= 0) goes_on(observer, {"reduction of the structure"});
   const StructureModel model = make_model(scene);
@@ -178,7 +185,7 @@ Record analyse(const Scene& scene, const Observer& observer) {
   options.observer = observer;
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
-      return sweep_record(scene, model, frequency_sweep(scene, model, observer));
+      return sweep_record(scene, model, stable_sweep(scene, model, observer));
     case AnalysisType::nonlinear_mode:
       return mode_record(scene, model, observer);
     case AnalysisType::time_stepping:
@@ -187,14 +194,8 @@ Record analyse(const Scene& scene, const Observer& observer) {
       break;
   }
   options.structure_points = std::max(0, scene.analysis.motion_points);
+  options.stability = scene.analysis.stability;
   return response_record(scene, model, weighted_residual_response(scene, model, options));
-}
-
-Table sweep_table(const solvers::FrequencySweep& curve) {
-  Table table({"frequency_Hz", "max_displacement_m", "rms_displacement_m"});
-  for (const auto& point : curve.points)
-    table.append_row({point.frequency, point.max_displacement, point.rms_displacement});
-  return table;
 }
 
 }  // namespace wavebalance::app

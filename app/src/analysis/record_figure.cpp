@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "analysis/response_parts.hpp"
@@ -126,6 +127,64 @@ std::vector<double> joined_columns(const Table& table, std::string_view first, s
   return values;
 }
 
+bool is_unstable(const std::vector<solvers::PointStability>& points, std::size_t index) {
+  return index < points.size() && points[index].unstable > 0;
+}
+
+/// Adds a curve, dashed where one end of a line is unstable.
+void add_by_stability(Panel& panel, Series curve, const std::vector<solvers::PointStability>& points) {
+  Series dashed = curve;
+  dashed.label += ", unstable";
+  dashed.dash = Dash::dashed;
+  bool any = false;
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    const bool here = is_unstable(points, i);
+    const bool beside = is_unstable(points, i + 1) || (i > 0 && is_unstable(points, i - 1));
+    if (here) curve.y[i] = std::nan("");
+    if (!here && !beside) dashed.y[i] = std::nan("");
+    any = any || here;
+  }
+  panel.add(any ? std::move(curve) : thinned(curve));
+  if (any) panel.add(std::move(dashed));
+}
+
+std::string label_of(solvers::SpecialPointType type) {
+  switch (type) {
+    case solvers::SpecialPointType::fold:
+      return "fold";
+    case solvers::SpecialPointType::period_doubling:
+      return "period doubling";
+    case solvers::SpecialPointType::neimark_sacker:
+      return "Neimark-Sacker point";
+    case solvers::SpecialPointType::grazing:
+      return "grazing";
+    case solvers::SpecialPointType::branch:
+      return "branch point";
+  }
+  return "";
+}
+
+/// Marks special points at their largest displacement, one symbol for each kind.
+void add_special_points(Panel& panel, const std::vector<solvers::SpecialPoint>& points, double factor) {
+  using Type = solvers::SpecialPointType;
+  int marker = 0;
+  for (const Type type :
+       {Type::fold, Type::period_doubling, Type::neimark_sacker, Type::branch, Type::grazing}) {
+    ++marker;
+    std::vector<double> x, y;
+    for (const auto& point : points) {
+      if (point.type != type) continue;
+      x.push_back(point.frequency);
+      y.push_back(factor * point.max_displacement);
+    }
+    if (x.empty()) continue;
+    Series series(label_of(type), x, y, SeriesStyle::points);
+    series.colour = Colour::black;
+    series.marker = marker;
+    panel.add(std::move(series));
+  }
+}
+
 }  // namespace
 
 Figure response_figure(const Scene& scene, const Response& response) {
@@ -182,7 +241,7 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
 }
 
 Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
-  const Table table = sweep_table(sweep.curve);
+  const Table table = sweep_table(sweep);
   const auto scaled = [&](std::string_view column, double factor) {
     std::vector<double> values = table.numbers(column);
     for (double& value : values) value *= factor;
@@ -202,9 +261,13 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   panel.x.label = "Frequency (Hz)";
   panel.y.label = "Displacement (" + scale.prefix + "m)";
   panel.legend = Legend::below_panel;
-  for (const auto& [label, column] :
-       {std::pair{"largest", "max_displacement_m"}, {"rms", "rms_displacement_m"}})
-    panel.add(thinned({label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor)}));
+  for (const auto& [label, column, colour] : {std::tuple{"largest", "max_displacement_m", Colour::blue},
+                                              {"rms", "rms_displacement_m", Colour::orange}}) {
+    Series series(label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor));
+    series.colour = colour;
+    add_by_stability(panel, std::move(series), sweep.stability.points);
+  }
+  add_special_points(panel, sweep.stability.special_points, scale.factor);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
   if (scene.contact.law != ContactLawType::none && one_gap)
     panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");

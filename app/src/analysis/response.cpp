@@ -9,6 +9,7 @@
 #include <string>
 
 #include "analysis/response_parts.hpp"
+#include "analysis/stability.hpp"
 #include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -36,6 +37,8 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
   result.contact = leading_contact(result.contacts, model.gaps);
   if (options.structure_points > 0)
     result.structure = solvers::structure_motion(problem, found.contact_force, options.structure_points);
+  if (options.stability && found.converged())
+    result.stability = response_stability(problem, laws, found, model.structure);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
@@ -136,7 +139,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
     result.condition = std::numeric_limits<double>::infinity();
   }
   require_digits(result);
-  result.wall_seconds = seconds_since(start);
+  result.wall_seconds = seconds_since(start) - (result.stability ? result.stability->wall_seconds : 0.0);
   return result;
 }
 

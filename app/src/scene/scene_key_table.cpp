@@ -297,6 +297,10 @@ void add_analysis(std::vector<SceneKey>& keys) {
       derived("32 for a blade, 0 for matrices",
               [](const Scene& scene) { return scene.structure.type == StructureType::blade ? 32 : 0; }),
       only_with(structure_is({"blade", "matrices"}) && analysis_is({"forced_response", "nonlinear_mode"})));
+  analysis(&Analysis::stability, "stability", "",
+           "true counts the Floquet multipliers outside the unit circle, of a response or of each point of a "
+           "curve, and finds the curve's special points",
+           optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
   add_sweep(keys);
   add_time_stepping(keys);
   add_mode(keys);

@@ -132,8 +132,8 @@ TEST(Analyse, SweepGivesACurve) {
                                "\"frequency_sweep\"\nfrequency_from = 100\nfrequency_to = 200"),
                           "case.toml", {{"time.functions=31"}}));
   EXPECT_TRUE(record.converged) << record.status;
-  EXPECT_EQ(record.sweep.columns(),
-            (std::vector<std::string>{"frequency_Hz", "max_displacement_m", "rms_displacement_m"}));
+  EXPECT_EQ(record.sweep.columns(), (std::vector<std::string>{"frequency_Hz", "max_displacement_m",
+                                                              "rms_displacement_m", "unstable", "contacts"}));
   EXPECT_EQ(record.sweep.numbers("frequency_Hz").front(), 100.0);
   EXPECT_TRUE(record.response.empty());
   EXPECT_EQ(record.figure.panels.size(), 1u);

@@ -264,4 +264,19 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
   return detail::narrow(bracket, max_steps, value_at, is_close);
 }
 
+bool ArcLength::between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point) {
+  CurvePoint way;
+  way.displacement_tangent = to.displacement - from.displacement;
+  way.parameter_tangent = to.parameter - from.parameter;
+  normalize(way);
+  point = {};
+  point.displacement = (1.0 - fraction) * from.displacement + fraction * to.displacement;
+  point.parameter = (1.0 - fraction) * from.parameter + fraction * to.parameter;
+  Plane plane{scaled(way.displacement_tangent),
+              way.parameter_tangent / (options_.parameter_scale * options_.parameter_scale), 0.0, 1e-9};
+  plane.offset = plane.miss(point);
+  int corrections = 0;
+  return solve_in(plane, nullptr, point, corrections);
+}
+
 }  // namespace wavebalance::solvers

@@ -206,44 +206,18 @@ double rounding_error_of(CondensedProblem& problem, ContactSystem& system, const
 
 PeriodicResponse response_of(const Task& task, Candidate candidate) {
   ContactSystem system = task.system(candidate.regularization);
-  PeriodicResponse response;
-  system.evaluate(candidate.unknown);
-  response.frequency = task.problem.frequency();
-  response.contact_force = system.force();
+  PeriodicResponse response = response_at(system, std::move(candidate.unknown));
   response.status = candidate.newton.status;
   response.residual = candidate.newton.residual;
   response.residual_history = std::move(candidate.newton.residual_history);
   response.condition = candidate.newton.condition;
   response.iterations = candidate.iterations;
   response.strategy = candidate.strategy;
-  response.unknown = std::move(candidate.unknown);
   response.rounding_error = rounding_error_of(task.problem, system, response);
-  response.coefficients = task.problem.coefficients(response.contact_force);
-  response.unknown_coefficients = task.problem.unknown_coefficients(response.contact_force);
-  response.regularization = std::move(candidate.regularization);
-  response.displacement = response.regularization.size() == 0
-                              ? response.unknown
-                              : task.problem.displacement(response.contact_force);
   return response;
 }
 
 }  // namespace
-
-std::string_view to_string(Strategy strategy) {
-  switch (strategy) {
-    case Strategy::none:
-      return "none";
-    case Strategy::newton:
-      return "newton";
-    case Strategy::gap_continuation:
-      return "gap_continuation";
-    case Strategy::settling:
-      return "settling";
-    case Strategy::residual_homotopy:
-      return "residual_homotopy";
-  }
-  return "unknown";
-}
 
 void ForcedResponseOptions::validate() const {
   newton.validate();

@@ -94,6 +94,7 @@ class Sweep {
     if (!first.converged()) return;
     problem_.set_regularization(first.regularization);
     system_ = ContactSystem(problem_, laws_);  // in the form of the first point
+    result_.regularization = first.regularization;
     result_.form = first.regularization.size() > 0 ? ContactForm::force : ContactForm::displacement;
     follow_until_open(first.unknown, scaled_options(first));
   }
@@ -206,8 +207,9 @@ class Sweep {
     system_.evaluate(point.displacement);
     result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
     const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
-    SweepPoint measured{point.parameter, -infinity,    0.0, 0.0, system_.force().maxCoeff(),
-                        point.residual,  point.grazing};
+    SweepPoint measured{point.parameter, -infinity,     0.0, 0.0, system_.force().maxCoeff(),
+                        point.residual,  point.grazing, {}};
+    if (options_.keep_unknowns) measured.unknown = point.displacement;
     for (int c = 0; c < problem_.contacts(); ++c) {
       const Eigen::VectorXd u = evaluator_(coefficients.col(c));
       measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());

@@ -8,12 +8,14 @@
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/curve_stability.hpp"
 
 namespace wavebalance::app {
 
 /// A curve of responses over the frequency.
 struct Sweep {
   solvers::FrequencySweep curve;
+  solvers::CurveStability stability;  ///< set by add_stability(); without points otherwise
   double wall_seconds = 0.0;
 
   bool converged() const {
@@ -32,6 +34,11 @@ Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// The same for the scene's structure composed before.
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
+/// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
+/// is false or the structure's modes cannot be computed. An observer that stops it leaves the points so far.
+void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep,
+                   const Observer& observer = {});
+
 /// A further file of a record, ready to be written.
 struct RecordFile {
   std::string name;
@@ -47,7 +54,7 @@ struct Record {
   std::vector<std::string> warnings;
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
-  Table sweep;      ///< frequency_Hz, max_displacement_m, rms_displacement_m; empty otherwise
+  Table sweep;      ///< see sweep_table(); empty otherwise
   Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
   Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx.
@@ -61,6 +68,8 @@ Record analyse(const Scene& scene, const Observer& observer = {});
 
 /// The table of a sweep's record; those of a motion are in contact_motion.hpp.
 Table sweep_table(const solvers::FrequencySweep& curve);
+/// The same with the columns `unstable`, missing where it is not known, and `contacts`.
+Table sweep_table(const Sweep& sweep);
 
 /// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.
 std::string describe_scene(const Scene& scene);

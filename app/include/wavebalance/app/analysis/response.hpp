@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <complex>
 #include <limits>
 #include <optional>
 #include <string>
@@ -31,6 +32,17 @@ struct Refinement {
   std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
+/// The stability of a response.
+struct ResponseStability {
+  /// "stable", "unstable", or why it is not known: a solvers::StabilityStatus, or "no_modes".
+  std::string status = "no_modes";
+  int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
+  /// The multiplier of the largest modulus, Im >= 0; NaN where it is not known or below 1e-2.
+  std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
+  double wall_seconds = 0.0;
+};
+
 /// Rounding errors of the condensation that a result may have, relative to the motion.
 inline constexpr double largest_rounding_error = 1e-3;
 
@@ -55,9 +67,10 @@ struct Response {
   /// solvers::PeriodicResponse::rounding_error; NaN as above. Above largest_rounding_error the response has
   /// not converged, and the status says `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
-  double wall_seconds = 0.0;             ///< composition, solution and samples
-  std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
-  std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
+  double wall_seconds = 0.0;                   ///< composition, solution and samples
+  std::optional<RigidContact> rigid;           ///< set in scenes with rigid contact
+  std::optional<Refinement> refinement;        ///< set in scenes with time.tolerance
+  std::optional<ResponseStability> stability;  ///< set with ResponseOptions::stability if converged
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
@@ -77,6 +90,7 @@ struct ResponseOptions {
                              ///< shooting 0 or analysis.output_points
   Eigen::VectorXd guess;     ///< displacement at the quadrature points, m; empty: the contact-free response.
                              ///< Not used with time.tolerance
+  bool stability = false;    ///< of weighted_residual_response() alone
   Observer observer;
 };
 

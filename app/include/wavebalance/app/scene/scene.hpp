@@ -176,6 +176,7 @@ struct Analysis {
   int output_points = 1024;  ///< uniform points of one period in the output
 
   int motion_points = -1;  ///< instants of the period at which the whole structure's motion is written
+  bool stability = true;   ///< forced_response, frequency_sweep: whether Floquet multipliers are counted
 
   double frequency_from = 0.0;  ///< Hz, frequency_sweep: where the branch starts
   double frequency_to = 0.0;    ///< Hz, frequency_sweep: where it ends; may lie below frequency_from

@@ -109,6 +109,10 @@ class ArcLength {
   /// Finds the turning point between previous() and point() in the same way: to 1e-10 of the step, to 1e-4 of
   /// a long step of more than 512 samples.
   bool locate_turning_point(CurvePoint& point);
+  /// Finds a point of the curve between two of its points, in the plane through their chord at `fraction` of
+  /// it and perpendicular to it, whatever the present point. False when the corrector fails. The point has no
+  /// tangent.
+  bool between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point);
 
   const CurvePoint& point() const { return point_; }
   const CurvePoint& previous() const { return previous_; }
@@ -162,10 +166,11 @@ class ArcLength {
   bool many_samples_ = false;  // so many that steps pass grazing events together
   CurvePoint point_, previous_;
   double step_ = 0.0;
-  double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
-  ActiveMask last_sides_;              // sides of the piece that both lie on; empty if there may be several
-  double reversal_step_ = 0.0;         // length of the last long step that contained a turning point
-  double operation_limit_ = 0.0;       // value of the operation counter at which the curve must stop
+  double last_step_ = 0.0;      // from previous_ to point_, along the tangent of previous_
+  ActiveMask last_sides_;       // sides of the piece that both lie on; empty if there may be several
+  double reversal_step_ = 0.0;  // length of the last long step that contained a turning point
+  // Value of the operation counter at which the curve must stop.
+  double operation_limit_ = std::numeric_limits<double>::infinity();
   double piecewise_arc_length_ = 0.0;  // arc length that is to be followed piece by piece
   // Curves have crossed, so that the orientation is no check of long steps.
   bool orientation_unknown_ = false;

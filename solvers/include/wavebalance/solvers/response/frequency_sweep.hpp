@@ -32,6 +32,7 @@ struct SweepPoint {
   double max_force = 0.0;             ///< N, over the points and contacts
   double residual = 0.0;              ///< relative
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
+  Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown; empty unless keep_unknowns
 };
 
 /// A point where the curve reverses in frequency: a smooth fold or a grazing event. With a sampled stop each
@@ -49,6 +50,7 @@ struct FrequencySweepOptions {
   double to = 0.0;           ///< Hz, either side of `from`
   int output_points = 1024;  ///< times per period at which the maximum and the rms are taken
   int max_points = 20000;
+  bool keep_unknowns = false;  ///< 8 bytes for each sample of each contact at each point
   /// Hz; turning points between which the frequency goes back by less are left out. 0 means a thousandth of
   /// the interval. Where grazing_events is not all, long steps may miss small ones, too.
   double smallest_return = 0.0;
@@ -70,6 +72,7 @@ struct FrequencySweepOptions {
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
   ContactForm form = ContactForm::displacement;  ///< of the whole curve
+  Eigen::VectorXd regularization;                ///< PeriodicResponse::regularization of the whole curve
   std::vector<SweepPoint> points;
   std::vector<TurningPoint> turning_points;
   /// The largest Condensation::condition() of the curve's points and PeriodicResponse::condition of the

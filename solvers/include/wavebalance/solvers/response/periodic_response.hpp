@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wavebalance/solvers/balance/contact_system.hpp"
 #include "wavebalance/solvers/balance/newton.hpp"
 
 namespace wavebalance::solvers {
@@ -44,5 +45,10 @@ struct PeriodicResponse {
 
   bool converged() const { return status == SolveStatus::converged; }
 };
+
+/// The response at `unknown`, a solution of the system at the frequency and in the form of its problem, as a
+/// point of a curve is. Its status is converged; what tells how it was found keeps its defaults. O(C N log
+/// N).
+PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown);
 
 }  // namespace wavebalance::solvers

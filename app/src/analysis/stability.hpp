@@ -1,0 +1,20 @@
+#pragma once
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/response/periodic_response.hpp"
+
+namespace wavebalance::app {
+
+/// The stability of a converged response of `problem`, the condensation of `structure`.
+ResponseStability response_stability(const solvers::CondensedProblem& problem,
+                                     const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
+                                     const solvers::LinearStructure& structure);
+
+/// The fields of a response's stability, and a warning where it is unstable.
+void append_stability(Record& record, const ResponseStability& stability);
+
+/// The turning points of a sweep, its stability and its special points. Where stability is known the turning
+/// points are folds of the motion; those of the samples alone are named apart, with a warning.
+void append_stability(Record& record, const Sweep& sweep);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,94 @@
+// Stability as records, tables and pictures hold it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/summary_value.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+Scene fourier_scene(const std::string& name, const std::vector<std::string>& overrides) {
+  std::vector<std::string> all{"time.trial=fourier", "time.weight=fourier", "time.functions=63",
+                               "time.quadrature_points=512"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/" + name + ".toml", all);
+}
+
+bool holds(const Summary& summary, const std::string& name) {
+  return std::any_of(summary.begin(), summary.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+// Between grazing and the period doubling at 2840.48 Hz.
+TEST(RecordOfAResponse, SaysThatAPeriodDoubledMotionIsUnstable) {
+  const Record record = analyse(fourier_scene(
+      "case2", {"structure.stiffness_damping=1.25e-6", "contact.gap=1e-4", "forcing.frequency=2800"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "unstable");
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "unstable_multipliers"), 1);
+  EXPECT_LT(value_of<double>(record.summary, "leading_multiplier_real"), -1.0);
+  EXPECT_NEAR(value_of<double>(record.summary, "leading_multiplier_imag"), 0.0, 1e-9);
+  EXPECT_TRUE(std::any_of(record.warnings.begin(), record.warnings.end(), [](const std::string& text) {
+    return text.find("unstable") != std::string::npos;
+  }));
+}
+
+// Reference: shooting made independently of this code.
+TEST(RecordOfAResponse, HoldsTheLeadingMultiplierOfAStableMotion) {
+  const Record record = analyse(fourier_scene("case2", {"forcing.frequency=1275"}));
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "unstable_multipliers"), 0);
+  EXPECT_NEAR(value_of<double>(record.summary, "leading_multiplier_real"), 0.57073047, 2e-3);
+  EXPECT_NEAR(value_of<double>(record.summary, "leading_multiplier_imag"), 0.19792202, 2e-3);
+}
+
+TEST(RecordOfAResponse, WithRigidContactOrWithoutDampingSaysWhyStabilityIsNotKnown) {
+  const Record rigid = analyse(fourier_scene("case1_rigid", {}));
+  EXPECT_EQ(value_of<std::string>(rigid.summary, "stability"), "no_finite_stiffness");
+  EXPECT_TRUE(std::isnan(value_of<double>(rigid.summary, "unstable_multipliers")));
+  const Record undamped = analyse(fourier_scene("case1", {"structure.stiffness_damping=0"}));
+  EXPECT_EQ(value_of<std::string>(undamped.summary, "stability"), "undamped");
+}
+
+TEST(RecordOfAResponse, HoldsNoStabilityWhereTheSceneWantsNone) {
+  const Record record = analyse(fourier_scene("case1", {"analysis.stability=false"}));
+  EXPECT_FALSE(holds(record.summary, "stability"));
+  EXPECT_FALSE(holds(record.summary, "unstable_multipliers"));
+}
+
+TEST(RecordOfASweep, ListsItsSpecialPointsAndTheStabilityOfEachPoint) {
+  const Record record = analyse(fourier_scene("case2_sweep", {}));
+  const Table special = value_of<Table>(record.summary, "special_points");
+  EXPECT_EQ(special.texts("type"), (std::vector<std::string>{"grazing", "fold", "fold", "grazing"}));
+  const auto turns = value_of<std::vector<double>>(record.summary, "turning_points_Hz");
+  ASSERT_EQ(turns.size(), 2u);
+  EXPECT_EQ(turns[0], special.numbers("frequency_Hz")[1]);
+  EXPECT_EQ(turns[1], special.numbers("frequency_Hz")[2]);
+  const auto unstable = record.sweep.numbers("unstable"), contacts = record.sweep.numbers("contacts");
+  const auto frequency = record.sweep.numbers("frequency_Hz");
+  for (std::size_t i = 0; i < unstable.size(); ++i) {
+    EXPECT_TRUE(std::isnan(unstable[i]) || unstable[i] == 0.0 || unstable[i] == 1.0) << frequency[i];
+    if (unstable[i] != 1.0) continue;
+    EXPECT_GT(frequency[i], 1314.0);
+    EXPECT_LT(frequency[i], 1338.0);
+    EXPECT_EQ(contacts[i], 1.0);
+  }
+  EXPECT_GT(std::count(unstable.begin(), unstable.end(), 1.0), 3);
+  // Solid and dashed lines of two quantities, and two kinds of points.
+  EXPECT_EQ(record.figure.panels.front().series.size(), 6u);
+}
+
+TEST(RecordOfASweep, WithoutStabilityHasTheTurningPointsOfTheSamples) {
+  const Record record = analyse(fourier_scene("case2_sweep", {"analysis.stability=false"}));
+  EXPECT_FALSE(holds(record.summary, "special_points"));
+  EXPECT_EQ(value_of<std::vector<double>>(record.summary, "turning_points_Hz").size(), 2u);
+  EXPECT_FALSE(record.sweep.has_column("unstable"));
+  EXPECT_EQ(record.figure.panels.front().series.size(), 2u);
+}
+
+}  // namespace
+}  // namespace wavebalance::app

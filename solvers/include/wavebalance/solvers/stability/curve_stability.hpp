@@ -1,0 +1,76 @@
+#pragma once
+#include <complex>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+
+namespace wavebalance::solvers {
+
+/// The stability of one point of a curve.
+struct PointStability {
+  StabilityStatus status = StabilityStatus::no_response;
+  int unstable = -1;  ///< multipliers outside the unit circle; -1 unless converged
+  int contacts = 0;   ///< intervals of contact within the period, of all contacts
+  int fold = 0;       ///< StabilitySigns::fold
+  int flip = 0;       ///< StabilitySigns::flip
+};
+
+/// What happens at a special point of a curve.
+enum class SpecialPointType {
+  fold,             ///< a real multiplier passes 1 where the frequency reverses
+  period_doubling,  ///< a real multiplier passes -1: a motion of two periods begins
+  neimark_sacker,   ///< a complex pair leaves the unit circle: a quasi-periodic motion begins
+  grazing,          ///< an interval of contact appears, vanishes, splits or joins another
+  branch            ///< a real multiplier passes 1 where the frequency goes on: another curve begins
+};
+
+std::string_view to_string(SpecialPointType type);
+
+/// A special point between two points of a curve that differ in stability or in contact.
+struct SpecialPoint {
+  SpecialPointType type = SpecialPointType::fold;
+  double frequency = 0.0;             ///< Hz, in the middle of the bracket
+  double bracket = 0.0;               ///< Hz, between the ends of the bracket
+  std::complex<double> multiplier;    ///< the one at the unit circle, Im >= 0; NaN at a grazing
+  double max_displacement = 0.0;      ///< m, as in SweepPoint
+  double max_abs_displacement = 0.0;  ///< m
+  bool located = false;               ///< to the tolerance; otherwise no point within the bracket was found
+  Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown at one end of the bracket
+};
+
+/// How the stability of a curve is found.
+struct CurveStabilityOptions {
+  StabilityOptions stability;
+  double tolerance = 1e-6;   ///< width of a bracket over the distance of two points of the curve
+  int output_points = 1024;  ///< times per period at which the maxima of special points are taken
+  Observer observer;         ///< called after each point
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// The stability along a curve.
+struct CurveStability {
+  std::vector<PointStability> points;  ///< one for each point of the curve; fewer if cancelled
+  std::vector<SpecialPoint> special_points;
+  bool cancelled = false;  ///< the observer returned false
+
+  /// The status of the first point whose stability is not known; converged if there is none.
+  StabilityStatus status() const;
+};
+
+/// The stability of every point of a curve that frequency_sweep() has traced on `problem` with keep_unknowns,
+/// and its special points. Where two neighbours differ in the count, in a sign or in the number of intervals
+/// of contact, the curve between them is halved, each time with a new solution of the balance, until each
+/// difference stands alone in a bracket of the tolerance. Two changes between neighbours that cancel each
+/// other are not noticed.
+///
+/// Throws std::invalid_argument for a curve without unknowns and as unstable_multipliers does. One
+/// unstable_multipliers() per point, and about 20 responses and counts per special point.
+CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweep& curve, const ContactDynamics& dynamics,
+                               const CurveStabilityOptions& options = {});
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,39 @@
+#include "wavebalance/solvers/response/periodic_response.hpp"
+
+#include <utility>
+
+namespace wavebalance::solvers {
+
+std::string_view to_string(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::none:
+      return "none";
+    case Strategy::newton:
+      return "newton";
+    case Strategy::gap_continuation:
+      return "gap_continuation";
+    case Strategy::settling:
+      return "settling";
+    case Strategy::residual_homotopy:
+      return "residual_homotopy";
+  }
+  return "unknown";
+}
+
+PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown) {
+  const CondensedProblem& problem = system.problem();
+  PeriodicResponse response;
+  response.status = SolveStatus::converged;
+  response.residual = system.evaluate(unknown);
+  response.frequency = problem.frequency();
+  response.contact_force = system.force();
+  response.coefficients = system.problem().coefficients(response.contact_force);
+  response.unknown_coefficients = system.problem().unknown_coefficients(response.contact_force);
+  response.regularization = problem.regularization();
+  response.displacement =
+      response.regularization.size() == 0 ? unknown : system.problem().displacement(response.contact_force);
+  response.unknown = std::move(unknown);
+  return response;
+}
+
+}  // namespace wavebalance::solvers

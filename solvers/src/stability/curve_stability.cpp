@@ -1,0 +1,274 @@
+#include "wavebalance/solvers/stability/curve_stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "linalg/option_checks.hpp"
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+constexpr int not_counted = -2;
+
+/// A point of the curve with its stability. Its count may be left out.
+struct CurveSample {
+  CurvePoint point;
+  PointStability stability;
+};
+
+/// What differs between two points.
+struct Difference {
+  bool contacts = false, fold = false, flip = false;
+  bool count = false;  // by more or less than the signs explain
+
+  bool any() const { return contacts || fold || flip || count; }
+};
+
+bool is_known(const CurveSample& sample) { return sample.stability.status == StabilityStatus::converged; }
+
+Difference difference(const CurveSample& a, const CurveSample& b) {
+  const PointStability &p = a.stability, &q = b.stability;
+  Difference result;
+  result.contacts = p.contacts != q.contacts;
+  if (!is_known(a) || !is_known(b)) return result;
+  result.fold = p.fold != q.fold;
+  result.flip = p.flip != q.flip;
+  const bool counted = p.unstable != not_counted && q.unstable != not_counted;
+  result.count = counted && std::abs(p.unstable - q.unstable) != int{result.fold} + int{result.flip};
+  return result;
+}
+
+/// What happens in a bracket. A grazing changes the multipliers at once.
+std::vector<SpecialPointType> events(const Difference& difference, bool reverses) {
+  std::vector<SpecialPointType> types;
+  if (difference.fold && reverses) types.push_back(SpecialPointType::fold);
+  if (difference.contacts) {
+    types.push_back(SpecialPointType::grazing);
+    return types;
+  }
+  if (difference.fold && !reverses) types.push_back(SpecialPointType::branch);
+  if (difference.flip) types.push_back(SpecialPointType::period_doubling);
+  if (difference.count) types.push_back(SpecialPointType::neimark_sacker);
+  return types;
+}
+
+/// How far a multiplier is from where it is due at a special point.
+double distance_from(SpecialPointType type, Complex multiplier) {
+  if (type == SpecialPointType::period_doubling) return std::abs(multiplier + 1.0);
+  if (type == SpecialPointType::neimark_sacker) return std::abs(std::abs(multiplier) - 1.0);
+  return std::abs(multiplier - 1.0);
+}
+
+CondensedProblem& in_form_of(const FrequencySweep& curve, CondensedProblem& problem) {
+  problem.set_regularization(curve.regularization);
+  return problem;
+}
+
+class Tracker {
+ public:
+  Tracker(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve,
+          const ContactDynamics& dynamics, const CurveStabilityOptions& options)
+      : problem_(problem),
+        laws_(laws),
+        curve_(curve),
+        dynamics_(dynamics),
+        options_(options),
+        system_(in_form_of(curve, problem), laws),
+        path_(system_, frequency_, scales()),
+        evaluator_(problem.pair().trial(), options.output_points, 0) {}
+
+  ~Tracker() { problem_.set_regularization({}); }
+
+  CurveStability run() {
+    std::optional<CurveSample> before;
+    for (std::size_t i = 0; i < curve_.points.size(); ++i) {
+      const SweepPoint& point = curve_.points[i];
+      CurveSample here{{}, {}};
+      here.point.displacement = point.unknown;
+      here.point.parameter = point.frequency;
+      measure(here, true);
+      result_.points.push_back(here.stability);
+      index_ = i;
+      if (before) examine(*before, here, 1.0);
+      before = std::move(here);
+      if (!tell(point.frequency)) break;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool tell(double frequency) {
+    const double done =
+        static_cast<double>(result_.points.size()) / static_cast<double>(curve_.points.size());
+    const int count = static_cast<int>(result_.points.size());
+    result_.cancelled = !goes_on(options_.observer, {"stability", count, frequency, "Hz", done});
+    return !result_.cancelled;
+  }
+
+  // The scaled distances in which chords are perpendicular to planes.
+  ArcLengthOptions scales() const {
+    double largest = 0.0;
+    const auto [low, high] =
+        std::minmax_element(curve_.points.begin(), curve_.points.end(),
+                            [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+    for (const SweepPoint& point : curve_.points) largest = std::max(largest, point.max_abs_displacement);
+    ArcLengthOptions scales;
+    const double interval = curve_.points.empty() ? 0.0 : high->frequency - low->frequency;
+    scales.displacement_scale = largest > 0.0 ? largest : 1.0;
+    scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
+    return scales;
+  }
+
+  PeriodicResponse response(const CurvePoint& point) {
+    problem_.set_frequency(point.parameter);
+    return response_at(system_, point.displacement);
+  }
+
+  void measure(CurveSample& sample, bool counted) {
+    const PeriodicResponse at = response(sample.point);
+    const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
+    const StabilityOptions how = with_harmonics();
+    const StabilitySigns signs = stability_signs(dynamics_, stiffness, at.frequency, how);
+    sample.stability = {signs.status, -1, static_cast<int>(stiffness.intervals.size()), signs.fold,
+                        signs.flip};
+    if (!is_known(sample)) return;
+    sample.stability.unstable = not_counted;
+    if (!counted) return;
+    const UnstableMultipliers count = unstable_multipliers(dynamics_, stiffness, at.frequency, how);
+    sample.stability.status = count.status;
+    sample.stability.unstable = count.count;
+  }
+
+  StabilityOptions with_harmonics() const {
+    StabilityOptions how = options_.stability;
+    if (how.harmonics == 0) how.harmonics = std::max(1, (problem_.pair().functions() - 1) / 2);
+    return how;
+  }
+
+  // Finds each difference between two points; their distance is `width` times that of two points of the
+  // curve. Points between are counted where the signs do not explain the counts.
+  void examine(const CurveSample& a, const CurveSample& b, double width) {
+    const Difference between = difference(a, b);
+    if (!between.any()) return;
+    CurveSample middle{{}, {}};
+    const bool located = width <= options_.tolerance;
+    if (located || !path_.between(a.point, b.point, 0.5, middle.point)) {
+      for (const SpecialPointType type : events(between, reverses_near(a.point.parameter)))
+        result_.special_points.push_back(special_point(type, a, b, located));
+      return;
+    }
+    measure(middle, between.count);
+    examine(a, middle, 0.5 * width);
+    examine(middle, b, 0.5 * width);
+  }
+
+  // Whether the curve stays on one side of the frequency. Near a fold it may turn at several samples, so
+  // that points closer than those turns do not count.
+  bool reverses_near(double frequency) const {
+    const double close = 1e-5 * frequency;
+    const auto is_apart = [&](const SweepPoint& point) {
+      return std::abs(point.frequency - frequency) > close;
+    };
+    const auto here = curve_.points.begin() + static_cast<std::ptrdiff_t>(index_);
+    const auto after = std::find_if(here, curve_.points.end(), is_apart);
+    const auto before = std::find_if(std::make_reverse_iterator(here), curve_.points.rend(), is_apart);
+    if (after == curve_.points.end() || before == curve_.points.rend()) return false;
+    return (before->frequency - frequency) * (after->frequency - frequency) > 0.0;
+  }
+
+  SpecialPoint special_point(SpecialPointType type, const CurveSample& a, const CurveSample& b,
+                             bool located) {
+    SpecialPoint point;
+    point.type = type;
+    point.frequency = 0.5 * (a.point.parameter + b.point.parameter);
+    point.bracket = std::abs(a.point.parameter - b.point.parameter);
+    point.located = located;
+    point.unknown = a.point.displacement;
+    const PeriodicResponse at = response(a.point);
+    point.multiplier = type == SpecialPointType::grazing ? Complex(not_a_number, not_a_number)
+                                                         : critical_multiplier(type, at);
+    point.max_displacement = -std::numeric_limits<double>::infinity();
+    for (Eigen::Index c = 0; c < at.coefficients.cols(); ++c) {
+      const Eigen::VectorXd u = evaluator_(at.coefficients.col(c));
+      point.max_displacement = std::max(point.max_displacement, u.maxCoeff());
+      point.max_abs_displacement = std::max(point.max_abs_displacement, u.cwiseAbs().maxCoeff());
+    }
+    return point;
+  }
+
+  Complex critical_multiplier(SpecialPointType type, const PeriodicResponse& at) {
+    FloquetOptions how;
+    how.stability = with_harmonics();
+    Complex nearest(not_a_number, not_a_number);
+    for (const FloquetExponent& one : floquet_exponents(dynamics_, problem_, laws_, at, how).values)
+      if (!(distance_from(type, one.multiplier) >= distance_from(type, nearest))) nearest = one.multiplier;
+    return nearest;
+  }
+
+  CondensedProblem& problem_;
+  const ContactLaws& laws_;
+  const FrequencySweep& curve_;
+  const ContactDynamics& dynamics_;
+  const CurveStabilityOptions& options_;
+  ContactSystem system_;
+  FrequencyParameter frequency_;
+  ArcLength path_;
+  TrialEvaluator evaluator_;
+  CurveStability result_;
+  std::size_t index_ = 0;  // of the point at the end of the piece examined
+};
+
+}  // namespace
+
+std::string_view to_string(SpecialPointType type) {
+  switch (type) {
+    case SpecialPointType::fold:
+      return "fold";
+    case SpecialPointType::period_doubling:
+      return "period_doubling";
+    case SpecialPointType::neimark_sacker:
+      return "neimark_sacker";
+    case SpecialPointType::grazing:
+      return "grazing";
+    case SpecialPointType::branch:
+      return "branch";
+  }
+  return "unknown";
+}
+
+StabilityStatus CurveStability::status() const {
+  for (const PointStability& point : points)
+    if (point.status != StabilityStatus::converged) return point.status;
+  return StabilityStatus::converged;
+}
+
+void CurveStabilityOptions::validate() const {
+  stability.validate();
+  detail::require_positive("CurveStabilityOptions", "tolerance", tolerance);
+  detail::require_at_least("CurveStabilityOptions", "output_points", output_points, 1);
+}
+
+CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweep& curve, const ContactDynamics& dynamics,
+                               const CurveStabilityOptions& options) {
+  options.validate();
+  for (const SweepPoint& point : curve.points)
+    if (point.unknown.size() != problem.samples())
+      throw std::invalid_argument("curve_stability: a point of the curve has " +
+                                  std::to_string(point.unknown.size()) + " unknowns, but the problem has " +
+                                  std::to_string(problem.samples()) +
+                                  "; frequency_sweep() keeps them with keep_unknowns");
+  return Tracker(problem, laws, curve, dynamics, options).run();
+}
+
+}  // namespace wavebalance::solvers
