@@ -4,24 +4,29 @@
 // The types of LAPACK's C interface are those of C unless they are given.
 #define lapack_complex_float std::complex<float>
 #define lapack_complex_double std::complex<double>
-#include <cblas.h>
 #include <lapacke.h>
+
+/// BLAS by its Fortran name: GSL has a slow library with the names of its C interface.
+extern "C" void dgemm_(const char* left, const char* right, const lapack_int* rows, const lapack_int* columns,
+                       const lapack_int* inner, const double* alpha, const double* a, const lapack_int* lda,
+                       const double* b, const lapack_int* ldb, const double* beta, double* c,
+                       const lapack_int* ldc);
 
 namespace wavebalance::fem::detail {
 namespace {
 
 lapack_int size_of(Eigen::Index size) { return static_cast<lapack_int>(size); }
 
-Eigen::MatrixXd multiply(const ConstMatrix& a, CBLAS_TRANSPOSE left, const ConstMatrix& b,
-                         CBLAS_TRANSPOSE right) {
-  const Eigen::Index rows = left == CblasTrans ? a.cols() : a.rows();
-  const Eigen::Index columns = right == CblasTrans ? b.rows() : b.cols();
-  const Eigen::Index inner = left == CblasTrans ? a.rows() : a.cols();
+Eigen::MatrixXd multiply(const ConstMatrix& a, bool a_transposed, const ConstMatrix& b, bool b_transposed) {
+  const lapack_int rows = size_of(a_transposed ? a.cols() : a.rows());
+  const lapack_int columns = size_of(b_transposed ? b.rows() : b.cols());
+  const lapack_int inner = size_of(a_transposed ? a.rows() : a.cols());
+  const lapack_int a_stride = size_of(a.outerStride()), b_stride = size_of(b.outerStride());
+  const double one = 1.0, zero = 0.0;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
   if (result.size() > 0 && inner > 0)
-    cblas_dgemm(CblasColMajor, left, right, size_of(rows), size_of(columns), size_of(inner), 1.0, a.data(),
-                size_of(a.outerStride()), b.data(), size_of(b.outerStride()), 0.0, result.data(),
-                size_of(rows));
+    dgemm_(a_transposed ? "T" : "N", b_transposed ? "T" : "N", &rows, &columns, &inner, &one, a.data(),
+           &a_stride, b.data(), &b_stride, &zero, result.data(), &rows);
   return result;
 }
 
@@ -45,16 +50,14 @@ Eigen::MatrixXd cholesky_solve(const Eigen::MatrixXd& b, const Eigen::MatrixXd& 
   return solution;
 }
 
-Eigen::MatrixXd product(const ConstMatrix& a, const ConstMatrix& b) {
-  return multiply(a, CblasNoTrans, b, CblasNoTrans);
-}
+Eigen::MatrixXd product(const ConstMatrix& a, const ConstMatrix& b) { return multiply(a, false, b, false); }
 
 Eigen::MatrixXd transposed_product(const ConstMatrix& a, const ConstMatrix& b) {
-  return multiply(a, CblasTrans, b, CblasNoTrans);
+  return multiply(a, true, b, false);
 }
 
 Eigen::MatrixXd product_transposed(const ConstMatrix& a, const ConstMatrix& b) {
-  return multiply(a, CblasNoTrans, b, CblasTrans);
+  return multiply(a, false, b, true);
 }
 
 }  // namespace wavebalance::fem::detail

@@ -15,11 +15,13 @@ namespace wavebalance::app {
 namespace {
 
 /// Those of the trial functions, or fewer: at 127 harmonics exponents err by 1e-6 at most, and the cost grows
-/// like the cube.
+/// like the cube. The monodromy, which is taken where contact is too stiff for the harmonics, costs seconds
+/// with many states.
 solvers::StabilityOptions options_for(const solvers::CondensedProblem& problem) {
   constexpr int most_harmonics = 255;
   solvers::StabilityOptions options;
   options.harmonics = std::clamp((problem.pair().functions() - 1) / 2, 1, most_harmonics);
+  options.max_states = 120;
   return options;
 }
 

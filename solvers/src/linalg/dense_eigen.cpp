@@ -6,12 +6,11 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-Eigen::MatrixXd solve_triangular(const Eigen::MatrixXd& lower, CBLAS_TRANSPOSE transpose,
-                                 Eigen::MatrixXd right) {
-  const lapack_int n = lapack_size(right.rows());
+Eigen::MatrixXd solve_triangular(const Eigen::MatrixXd& lower, const char* transpose, Eigen::MatrixXd right) {
+  const lapack_int n = lapack_size(right.rows()), columns = lapack_size(right.cols());
+  const double one = 1.0;
   if (right.size() > 0)
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transpose, CblasNonUnit, n, lapack_size(right.cols()),
-                1.0, lower.data(), n, right.data(), n);
+    dtrsm_("L", "L", transpose, "N", &n, &columns, &one, lower.data(), &n, right.data(), &n);
   return right;
 }
 
@@ -26,11 +25,11 @@ std::optional<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& right) {
-  return solve_triangular(lower, CblasNoTrans, right);
+  return solve_triangular(lower, "N", right);
 }
 
 Eigen::MatrixXd solve_lower_transposed(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& right) {
-  return solve_triangular(lower, CblasTrans, right);
+  return solve_triangular(lower, "T", right);
 }
 
 std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix) {

@@ -6,31 +6,32 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-Eigen::MatrixXd multiply(const Eigen::MatrixXd& a, CBLAS_TRANSPOSE left, const Eigen::MatrixXd& b,
-                         CBLAS_TRANSPOSE right) {
-  const Eigen::Index rows = left == CblasTrans ? a.cols() : a.rows();
-  const Eigen::Index columns = right == CblasTrans ? b.rows() : b.cols();
-  const Eigen::Index inner = left == CblasTrans ? a.rows() : a.cols();
+Eigen::MatrixXd multiply(const Eigen::MatrixXd& a, bool a_transposed, const Eigen::MatrixXd& b,
+                         bool b_transposed) {
+  const lapack_int rows = lapack_size(a_transposed ? a.cols() : a.rows());
+  const lapack_int columns = lapack_size(b_transposed ? b.rows() : b.cols());
+  const lapack_int inner = lapack_size(a_transposed ? a.rows() : a.cols());
+  const lapack_int a_stride = lapack_size(a.rows()), b_stride = lapack_size(b.rows());
+  const double one = 1.0, zero = 0.0;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
   if (result.size() > 0 && inner > 0)
-    cblas_dgemm(CblasColMajor, left, right, lapack_size(rows), lapack_size(columns), lapack_size(inner), 1.0,
-                a.data(), lapack_size(a.rows()), b.data(), lapack_size(b.rows()), 0.0, result.data(),
-                lapack_size(rows));
+    dgemm_(a_transposed ? "T" : "N", b_transposed ? "T" : "N", &rows, &columns, &inner, &one, a.data(),
+           &a_stride, b.data(), &b_stride, &zero, result.data(), &rows);
   return result;
 }
 
 }  // namespace
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return multiply(a, CblasNoTrans, b, CblasNoTrans);
+  return multiply(a, false, b, false);
 }
 
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return multiply(a, CblasTrans, b, CblasNoTrans);
+  return multiply(a, true, b, false);
 }
 
 Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return multiply(a, CblasNoTrans, b, CblasTrans);
+  return multiply(a, false, b, true);
 }
 
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix) { return matrix.exp(); }

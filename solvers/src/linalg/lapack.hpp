@@ -3,10 +3,19 @@
 // The types of LAPACK's C interface are those of C unless they are given.
 #define lapack_complex_float std::complex<float>
 #define lapack_complex_double std::complex<double>
-#include <cblas.h>
 #include <lapacke.h>
 
 #include <Eigen/Core>
+
+/// BLAS by its Fortran names: GSL has a slow library with those of its C interface.
+extern "C" {
+void dgemm_(const char* left, const char* right, const lapack_int* rows, const lapack_int* columns,
+            const lapack_int* inner, const double* alpha, const double* a, const lapack_int* lda,
+            const double* b, const lapack_int* ldb, const double* beta, double* c, const lapack_int* ldc);
+void dtrsm_(const char* side, const char* triangle, const char* transpose, const char* diagonal,
+            const lapack_int* rows, const lapack_int* columns, const double* alpha, const double* a,
+            const lapack_int* lda, double* b, const lapack_int* ldb);
+}
 
 namespace wavebalance::solvers::detail {
 

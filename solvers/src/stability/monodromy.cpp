@@ -20,6 +20,7 @@ using Complex = std::complex<double>;
 struct Piece {
   double begin, end;
   std::vector<int> closed;
+  int parts;  // equal ones, each short enough
 };
 
 bool holds(const ContactInterval& interval, double time) {
@@ -27,7 +28,8 @@ bool holds(const ContactInterval& interval, double time) {
   return since < interval.length();
 }
 
-// Pieces between all instants of opening and closing, none longer than `longest` while a contact is closed.
+// Pieces between all instants of opening and closing, no part longer than `longest` while a contact is
+// closed.
 std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest) {
   std::vector<double> ends{0.0, 1.0};
   for (const ContactInterval& interval : stiffness.intervals)
@@ -41,9 +43,7 @@ std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest) {
     for (const ContactInterval& interval : stiffness.intervals)
       if (holds(interval, middle)) closed.push_back(interval.contact);
     const int parts = closed.empty() ? 1 : std::max(1, int(std::ceil(length / longest)));
-    for (int part = 0; part < parts; ++part)
-      result.push_back(
-          {ends[i - 1] + length * part / parts, ends[i - 1] + length * (part + 1) / parts, closed});
+    result.push_back({ends[i - 1], ends[i], std::move(closed), parts});
   }
   return result;
 }
@@ -139,51 +139,64 @@ class Propagator {
 
   void pass(const Piece& piece, Eigen::MatrixXd& states) const {
     if (piece.closed.empty()) return states_.advance(piece.end - piece.begin, states);
-    const double length = piece.end - piece.begin;
-    const Eigen::MatrixXd forces = contact_forces(piece, states);
-    states_.advance(length, states);
-    const auto closed = static_cast<Eigen::Index>(piece.closed.size());
-    for (Eigen::Index k = 0; k < rule_.points.size(); ++k) {
-      const Eigen::MatrixXd impulse = states_.after_impulse(length * (1.0 - rule_.points[k]));
-      const Eigen::MatrixXd on_closed = impulse(Eigen::all, piece.closed);
-      const Eigen::MatrixXd force = forces.middleRows(k * closed, closed);
-      states -= length * period_ * rule_.weights[k] * detail::product(on_closed, force);
+    const double length = (piece.end - piece.begin) / piece.parts;
+    const PartMaps maps = maps_of(piece.closed, length);
+    for (int part = 0; part < piece.parts; ++part) {
+      const Eigen::MatrixXd forces = contact_forces(piece, piece.begin + part * length, length, maps, states);
+      states_.advance(length, states);
+      states -= detail::product(maps.impulses, forces);
     }
   }
 
  private:
-  // Forces of the closed contacts at the nodes, node after node, one column per state: u + h * D u = free
-  // motion with f = D u.
-  Eigen::MatrixXd contact_forces(const Piece& piece, const Eigen::MatrixXd& states) const {
-    const auto closed = static_cast<Eigen::Index>(piece.closed.size());
+  // What all parts of one length share. Rows and columns are those of the closed contacts at the nodes, node
+  // after node.
+  struct PartMaps {
+    Eigen::MatrixXd memory;    // displacements from the forces in the part, m/N
+    Eigen::MatrixXd free;      // displacements from the states at its begin
+    Eigen::MatrixXd impulses;  // states at its end from the forces
+  };
+
+  PartMaps maps_of(const std::vector<int>& contacts, double length) const {
+    const auto closed = static_cast<Eigen::Index>(contacts.size());
     const Eigen::Index nodes = rule_.points.size(), size = nodes * closed;
-    const double length = piece.end - piece.begin;
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size), free(size, states.cols());
-    Eigen::VectorXd tangent(size);
+    PartMaps maps{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd(size, states_.size()),
+                  Eigen::MatrixXd(states_.size(), size)};
     for (Eigen::Index i = 0; i < nodes; ++i) {
-      const double time = length * rule_.points[i];
-      const Eigen::MatrixXd motion = states_.free_motion(time)(piece.closed, Eigen::all);
-      free.middleRows(i * closed, closed) = detail::product(motion, states);
-      for (Eigen::Index c = 0; c < closed; ++c)
-        tangent[i * closed + c] =
-            stiffness_.tangent(piece.closed[static_cast<std::size_t>(c)], piece.begin + time);
-      matrix.block(i * closed, i * closed, closed, closed) = dynamics_.constant()(piece.closed, piece.closed);
-      add_memory(piece, i, matrix);
+      const double point = rule_.points[i];
+      maps.free.middleRows(i * closed, closed) = states_.free_motion(length * point)(contacts, Eigen::all);
+      maps.impulses.middleCols(i * closed, closed) =
+          length * period_ * rule_.weights[i] *
+          states_.after_impulse(length * (1.0 - point))(Eigen::all, contacts);
+      maps.memory.block(i * closed, i * closed, closed, closed) = dynamics_.constant()(contacts, contacts);
+      add_memory(contacts, length, i, maps.memory);
     }
-    matrix = matrix * tangent.asDiagonal();
+    return maps;
+  }
+
+  // Forces of the closed contacts at the nodes, one column per state: u + h * D u = free motion with f = D u.
+  Eigen::MatrixXd contact_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
+                                 const Eigen::MatrixXd& states) const {
+    Eigen::VectorXd tangent(maps.memory.rows());
+    Eigen::Index row = 0;
+    for (const double point : rule_.points)
+      for (const int contact : piece.closed)
+        tangent[row++] = stiffness_.tangent(contact, begin + length * point);
+    Eigen::MatrixXd matrix = maps.memory * tangent.asDiagonal();
     matrix.diagonal().array() += 1.0;
-    return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(free);
+    return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(detail::product(maps.free, states));
   }
 
   // integral up to node i of h(t_i - s) times the polynomials of the nodes.
-  void add_memory(const Piece& piece, Eigen::Index i, Eigen::MatrixXd& matrix) const {
-    const auto closed = static_cast<Eigen::Index>(piece.closed.size());
-    const double reach = (piece.end - piece.begin) * rule_.points[i];
+  void add_memory(const std::vector<int>& contacts, double length, Eigen::Index i,
+                  Eigen::MatrixXd& matrix) const {
+    const auto closed = static_cast<Eigen::Index>(contacts.size());
+    const double reach = length * rule_.points[i];
     const Eigen::MatrixXd& polynomials = below_[static_cast<std::size_t>(i)];
-    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(piece.closed, Eigen::all);
+    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(contacts, Eigen::all);
     for (Eigen::Index q = 0; q < rule_.points.size(); ++q) {
       const Eigen::MatrixXd impulse =
-          states_.after_impulse(reach * (1.0 - rule_.points[q]))(Eigen::all, piece.closed);
+          states_.after_impulse(reach * (1.0 - rule_.points[q]))(Eigen::all, contacts);
       const Eigen::MatrixXd memory = reach * period_ * rule_.weights[q] * detail::product(displaced, impulse);
       for (Eigen::Index k = 0; k < rule_.points.size(); ++k)
         matrix.block(i * closed, k * closed, closed, closed) += polynomials(q, k) * memory;
