@@ -108,7 +108,7 @@ double frequency_of_peak(const solvers::FrequencySweep& curve) {
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
   Record record;
   record.converged = sweep.converged();
-  record.interrupted = sweep.interrupted();
+  record.interrupted = sweep.interrupted() || sweep.stability.cancelled;
   record.status = sweep.status();
   record.warnings = model.warnings;
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);

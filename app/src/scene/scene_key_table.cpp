@@ -284,6 +284,13 @@ void add_time(std::vector<SceneKey>& keys) {
       optional);
 }
 
+SceneValue stability_by_default(const Scene& scene) {
+  constexpr std::size_t few = 6;
+  if (scene.analysis.type != AnalysisType::frequency_sweep) return true;
+  if (scene.structure.type == StructureType::blade) return false;  // many nodes along its tip
+  return scene.structure.matrices.contact_dofs.size() + scene.contact.pair_contacts().size() <= few;
+}
+
 void add_analysis(std::vector<SceneKey>& keys) {
   const Section analysis(keys, "analysis", analysis_part);
   analysis(&Analysis::type, "type", "", "what is computed", optional);
@@ -300,7 +307,9 @@ void add_analysis(std::vector<SceneKey>& keys) {
   analysis(&Analysis::stability, "stability", "",
            "true counts the Floquet multipliers outside the unit circle, of a response or of each point of a "
            "curve, and finds the curve's special points",
-           optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
+           derived("true; false for curves of more than 6 contacts, whose counts take longer than the curve",
+                   stability_by_default),
+           only_with(analysis_is({"forced_response", "frequency_sweep"})));
   add_sweep(keys);
   add_time_stepping(keys);
   add_mode(keys);

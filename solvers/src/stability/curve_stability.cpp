@@ -20,7 +20,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 constexpr int not_counted = -2;
 
-/// A point of the curve with its stability. Its count may be left out.
+/// A point of the curve with its stability. Its count, or its signs too, may be left out.
 struct CurveSample {
   CurvePoint point;
   PointStability stability;
@@ -40,7 +40,7 @@ Difference difference(const CurveSample& a, const CurveSample& b) {
   const PointStability &p = a.stability, &q = b.stability;
   Difference result;
   result.contacts = p.contacts != q.contacts;
-  if (!is_known(a) || !is_known(b)) return result;
+  if (!is_known(a) || !is_known(b) || p.fold == 0 || q.fold == 0) return result;
   result.fold = p.fold != q.fold;
   result.flip = p.flip != q.flip;
   const bool counted = p.unstable != not_counted && q.unstable != not_counted;
@@ -96,7 +96,8 @@ class Tracker {
       CurveSample here{{}, {}};
       here.point.displacement = point.unknown;
       here.point.parameter = point.frequency;
-      measure(here, true);
+      measure(here, Measure::count);
+      if (!is_known(here)) here.stability.unstable = -1;
       result_.points.push_back(here.stability);
       index_ = i;
       if (before) examine(*before, here, 1.0);
@@ -124,6 +125,7 @@ class Tracker {
     for (const SweepPoint& point : curve_.points) largest = std::max(largest, point.max_abs_displacement);
     ArcLengthOptions scales;
     const double interval = curve_.points.empty() ? 0.0 : high->frequency - low->frequency;
+    scales.max_corrections = 32;  // half as many without grazing events
     scales.displacement_scale = largest > 0.0 ? largest : 1.0;
     scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
     return scales;
@@ -134,16 +136,20 @@ class Tracker {
     return response_at(system_, point.displacement);
   }
 
-  void measure(CurveSample& sample, bool counted) {
+  // What is measured of a point.
+  enum class Measure { contacts, signs, count };
+
+  void measure(CurveSample& sample, Measure what) {
     const PeriodicResponse at = response(sample.point);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
+    sample.stability = {stiffness.status, not_counted, static_cast<int>(stiffness.intervals.size()), 0, 0};
+    if (what == Measure::contacts) return;
     const StabilityOptions how = with_harmonics();
     const StabilitySigns signs = stability_signs(dynamics_, stiffness, at.frequency, how);
-    sample.stability = {signs.status, -1, static_cast<int>(stiffness.intervals.size()), signs.fold,
-                        signs.flip};
-    if (!is_known(sample)) return;
-    sample.stability.unstable = not_counted;
-    if (!counted) return;
+    sample.stability.status = signs.status;
+    sample.stability.fold = signs.fold;
+    sample.stability.flip = signs.flip;
+    if (what == Measure::signs || !is_known(sample)) return;
     const UnstableMultipliers count = unstable_multipliers(dynamics_, stiffness, at.frequency, how);
     sample.stability.status = count.status;
     sample.stability.unstable = count.count;
@@ -156,26 +162,29 @@ class Tracker {
   }
 
   // Finds each difference between two points; their distance is `width` times that of two points of the
-  // curve. Points between are counted where the signs do not explain the counts.
+  // curve. Of points between no more is measured than what differs.
   void examine(const CurveSample& a, const CurveSample& b, double width) {
     const Difference between = difference(a, b);
     if (!between.any()) return;
     CurveSample middle{{}, {}};
     const bool located = width <= options_.tolerance;
     if (located || !path_.between(a.point, b.point, 0.5, middle.point)) {
-      for (const SpecialPointType type : events(between, reverses_near(a.point.parameter)))
+      for (const SpecialPointType type :
+           events(between, reverses_between(a.point.parameter, b.point.parameter)))
         result_.special_points.push_back(special_point(type, a, b, located));
       return;
     }
-    measure(middle, between.count);
+    const bool signs = between.fold || between.flip;
+    measure(middle, between.count ? Measure::count : signs ? Measure::signs : Measure::contacts);
     examine(a, middle, 0.5 * width);
     examine(middle, b, 0.5 * width);
   }
 
-  // Whether the curve stays on one side of the frequency. Near a fold it may turn at several samples, so
-  // that points closer than those turns do not count.
-  bool reverses_near(double frequency) const {
-    const double close = 1e-5 * frequency;
+  // Whether the curve stays on one side of a bracket. Near a fold it may turn at several samples, so that
+  // points closer than those turns do not count.
+  bool reverses_between(double from, double to) const {
+    const double frequency = 0.5 * (from + to);
+    const double close = std::max(1e-5 * frequency, std::abs(from - to));
     const auto is_apart = [&](const SweepPoint& point) {
       return std::abs(point.frequency - frequency) > close;
     };

@@ -48,7 +48,7 @@ struct RecordFile {
 /// The results of an analysis: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
 struct Record {
   bool converged = false;
-  bool interrupted = false;  ///< a sweep that its observer stopped
+  bool interrupted = false;  ///< a sweep that its observer stopped, or its stability
   std::string status;
   /// Reasons why the result may be inaccurate, one sentence each; also in the summary.
   std::vector<std::string> warnings;
