@@ -153,14 +153,24 @@ void require_stability_arguments(const char* who, const ContactDynamics& dynamic
                                   std::to_string(dynamics.contacts()));
 }
 
+namespace {
+
+// What is known before anything is computed.
+StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
+                              const PeriodicStiffness& stiffness, double frequency,
+                              const StabilityOptions& options) {
+  options.validate();
+  if (stiffness.status != StabilityStatus::converged) return stiffness.status;
+  require_stability_arguments(who, dynamics, stiffness, frequency, options.harmonics);
+  return require_countable(dynamics, stiffness, 2.0 * pi * frequency);
+}
+
+}  // namespace
+
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                          double frequency, const StabilityOptions& options) {
-  options.validate();
   UnstableMultipliers result;
-  result.status = stiffness.status;
-  if (result.status != StabilityStatus::converged) return result;
-  require_stability_arguments("unstable_multipliers", dynamics, stiffness, frequency, options.harmonics);
-  result.status = require_countable(dynamics, stiffness, 2.0 * pi * frequency);
+  result.status = status_before("unstable_multipliers", dynamics, stiffness, frequency, options);
   if (result.status != StabilityStatus::converged) return result;
   const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
   if (truncation.harmonics == 0) {
@@ -208,12 +218,8 @@ UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const 
 
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                double frequency, const StabilityOptions& options) {
-  options.validate();
   StabilitySigns signs;
-  signs.status = stiffness.status;
-  if (signs.status != StabilityStatus::converged) return signs;
-  require_stability_arguments("stability_signs", dynamics, stiffness, frequency, options.harmonics);
-  signs.status = require_countable(dynamics, stiffness, 2.0 * pi * frequency);
+  signs.status = status_before("stability_signs", dynamics, stiffness, frequency, options);
   if (signs.status != StabilityStatus::converged) return signs;
   const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
   if (truncation.harmonics == 0) {
