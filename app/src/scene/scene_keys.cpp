@@ -1,14 +1,18 @@
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace wavebalance::app {
 
 const SceneKey* find_scene_key(std::string_view full_name) {
-  const auto keys = scene_keys();
-  const auto found = std::find_if(keys.begin(), keys.end(),
-                                  [&](const SceneKey& key) { return key.full_name() == full_name; });
-  return found == keys.end() ? nullptr : &*found;
+  static const auto by_name = [] {
+    std::map<std::string, const SceneKey*, std::less<>> keys;
+    for (const SceneKey& key : scene_keys()) keys.emplace(key.full_name(), &key);
+    return keys;
+  }();
+  const auto found = by_name.find(full_name);
+  return found == by_name.end() ? nullptr : found->second;
 }
 
 bool Bounds::contain(double value) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "scene/pair_reader.hpp"
 #include "scene/spelling.hpp"
@@ -163,13 +164,20 @@ SceneValue checked(const Document& document, const DocumentEntry& entry, const S
   return checked_number(document, entry, key);
 }
 
-/// Whether other keys are allowed or required depends on this one, so that it must be read before them.
+/// The keys on which it depends whether others are allowed or required.
+std::set<const SceneKey*> keys_that_govern() {
+  std::set<const SceneKey*> found;
+  for (const SceneKey& key : scene_keys())
+    for (const SceneKey& other : scene_keys())
+      if (other.belongs.concerns(key.full_name()) || other.needed.concerns(key.full_name()))
+        found.insert(&key);
+  return found;
+}
+
+/// Whether a key of scene_keys() is one of these, so that it must be read before the others.
 bool governs(const SceneKey& key) {
-  const auto keys = scene_keys();
-  const std::string name = key.full_name();
-  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& other) {
-    return other.belongs.concerns(name) || other.needed.concerns(name);
-  });
+  static const std::set<const SceneKey*> governing = keys_that_govern();
+  return governing.contains(&key);
 }
 
 void read_key(const Document& document, const SceneKey& key, Scene& scene) {
