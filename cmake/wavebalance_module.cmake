@@ -76,7 +76,7 @@ endfunction()
 # reports array bounds and uninitialised values that do not exist.
 function(wavebalance_set_cold target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
-    "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow;-Wno-stringop-overread>")
 endfunction()
 
 # wavebalance_set_coldest(<sources>): read a command line and nothing else. Without optimization the compiler takes two
