@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "linalg/option_checks.hpp"
+#include "stability/stability_checks.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
@@ -144,7 +145,7 @@ class Tracker {
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
     sample.stability = {stiffness.status, not_counted, static_cast<int>(stiffness.intervals.size()), 0, 0};
     if (what == Measure::contacts) return;
-    const StabilityOptions how = with_harmonics();
+    const StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     const StabilitySigns signs = stability_signs(dynamics_, stiffness, at.frequency, how);
     sample.stability.status = signs.status;
     sample.stability.fold = signs.fold;
@@ -153,12 +154,6 @@ class Tracker {
     const UnstableMultipliers count = unstable_multipliers(dynamics_, stiffness, at.frequency, how);
     sample.stability.status = count.status;
     sample.stability.unstable = count.count;
-  }
-
-  StabilityOptions with_harmonics() const {
-    StabilityOptions how = options_.stability;
-    if (how.harmonics == 0) how.harmonics = std::max(1, (problem_.pair().functions() - 1) / 2);
-    return how;
   }
 
   // Finds each difference between two points; their distance is `width` times that of two points of the
@@ -217,7 +212,7 @@ class Tracker {
 
   Complex critical_multiplier(SpecialPointType type, const PeriodicResponse& at) {
     FloquetOptions how;
-    how.stability = with_harmonics();
+    how.stability = options_.stability;
     Complex nearest(not_a_number, not_a_number);
     for (const FloquetExponent& one : floquet_exponents(dynamics_, problem_, laws_, at, how).values)
       if (!(distance_from(type, one.multiplier) >= distance_from(type, nearest))) nearest = one.multiplier;
