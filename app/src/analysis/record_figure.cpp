@@ -160,6 +160,8 @@ std::string label_of(solvers::SpecialPointType type) {
       return "grazing";
     case solvers::SpecialPointType::branch:
       return "branch point";
+    case solvers::SpecialPointType::krein_collision:
+      return "Krein collision";
   }
   return "";
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 #include "modes/elastic_backbone.hpp"
 #include "modes/elastic_point.hpp"
@@ -115,7 +116,7 @@ void ElasticBackboneOptions::validate() const {
 }
 
 ElasticMode::ElasticMode(ModalModel model, const TimePair& pair, ContactLaws laws, ElasticModeOptions options)
-    : options_(options) {
+    : trial_(pair.trial()), options_(options) {
   options_.validate();
   model.validate();
   if (options_.mode > model.modes())
@@ -137,6 +138,8 @@ ElasticMode::ElasticMode(ModalModel model, const TimePair& pair, ContactLaws law
 }
 
 const ModalModel& ElasticMode::model() const { return problem_->model; }
+
+int ElasticMode::harmonics() const { return problem_->transform.highest(); }
 
 double ElasticMode::linear_omega() const { return problem_->linear_omega(); }
 
@@ -172,6 +175,43 @@ ModePoint ElasticMode::at_energy(double energy_ratio, ElasticBackboneOptions opt
   const ElasticBackbone found = follower.follow();
   if (found.status != BackboneStatus::reached_energy) return {};
   return follower.at_energy(energy_ratio, tolerance);
+}
+
+std::optional<ModePoint> ElasticMode::between(const ModePoint& a, const ModePoint& b, double share) const {
+  constexpr double farthest = 0.25;  // from the chord, over its length
+  if (a.unknown.size() != problem_->size() || b.unknown.size() != problem_->size()) return std::nullopt;
+  const ElasticBackboneOptions options;
+  ModeEquations equations(*problem_);
+  ModeCurve curve(equations, options, options_.tolerance);
+  const Eigen::VectorXd chord = b.unknown - a.unknown;
+  const double length = std::sqrt(curve.inner(chord, chord));
+  if (!(length > 0.0)) return std::nullopt;
+  const Eigen::VectorXd foot = a.unknown + share * chord;
+  CurveState state{foot, chord / length, 0};
+  if (!curve.settle(state)) return std::nullopt;
+  const Eigen::VectorXd aside = state.y - foot;
+  if (!(std::sqrt(curve.inner(aside, aside)) <= farthest * length)) return std::nullopt;
+  equations.evaluate(state.y);
+  return elastic_point(equations, options_, state.iterations);
+}
+
+PeriodicStiffness ElasticMode::contact_stiffness(const ModePoint& point) const {
+  PeriodicStiffness none;
+  if (point.status == ModeStatus::linear) return none;
+  if (point.unknown.size() != problem_->size()) {
+    none.status = StabilityStatus::no_response;
+    return none;
+  }
+  const int contacts = problem_->contacts(), rows = problem_->rows();
+  const Eigen::MatrixXd coefficients =
+      problem_->unit * point.unknown.head(contacts * rows).reshaped(rows, contacts);
+  ContactUnknowns unknowns;
+  unknowns.samples = detail::product(problem_->transform.synthesis, coefficients);
+  unknowns.coefficients.resize(problem_->transform.highest() + 1, contacts);
+  for (int c = 0; c < contacts; ++c)
+    unknowns.coefficients.col(c) = problem_->transform.spectrum(coefficients.col(c));
+  unknowns.flexibility = problem_->flexibility;
+  return solvers::contact_stiffness(trial_, problem_->laws, unknowns);
 }
 
 }  // namespace wavebalance::solvers

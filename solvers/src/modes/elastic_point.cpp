@@ -96,6 +96,7 @@ ModePoint elastic_point(const ModeEquations& equations, const ElasticModeOptions
   ModePoint point;
   point.omega = omega;
   point.iterations = iterations;
+  point.unknown = equations.unknowns();
   point.force = equations.force().transpose();
   set_amplitudes(problem, modes, point);
   const double energy = 0.5 * (square * forms.mass + forms.stiffness) +

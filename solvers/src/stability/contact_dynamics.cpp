@@ -162,6 +162,29 @@ ContactDynamics::ContactDynamics(const LinearStructure& structure, const Contact
   set_sections(parts.sections);
 }
 
+ContactDynamics ContactDynamics::undamped(const Eigen::VectorXd& omega_squared, const Eigen::MatrixXd& shapes,
+                                          Eigen::Index dynamic) {
+  const Eigen::Index modes = omega_squared.size();
+  if (shapes.cols() != modes || dynamic < 0 || dynamic > modes || !(omega_squared.array() > 0.0).all())
+    throw std::invalid_argument(
+        "ContactDynamics::undamped: there are " + std::to_string(modes) + " omega_squared, " +
+        std::to_string(shapes.cols()) + " shapes and " + std::to_string(dynamic) +
+        " dynamic modes; omega_squared must be positive, with one shape each and no more dynamic modes");
+  ContactDynamics result;
+  const Eigen::Index springs = modes - dynamic;
+  const Eigen::MatrixXd held =
+      shapes.rightCols(springs) * omega_squared.tail(springs).cwiseSqrt().cwiseInverse().asDiagonal();
+  result.constant_ = detail::product_transposed(held, held);
+  std::vector<Section> sections;
+  for (Eigen::Index j = 0; j < dynamic; ++j) {
+    const Eigen::VectorXd shape = shapes.col(j);
+    sections.push_back({{1.0, 0.0, omega_squared[j]}, shape * shape.transpose(), {}});
+    add_poles(1.0, 0.0, omega_squared[j], shape, result.poles_);
+  }
+  result.set_sections(sections);
+  return result;
+}
+
 // Those that no contact excites are left out.
 void ContactDynamics::set_sections(const std::vector<Section>& sections) {
   const auto count = static_cast<Eigen::Index>(sections.size());

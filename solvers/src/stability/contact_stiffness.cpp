@@ -20,12 +20,12 @@ using Complex = std::complex<double>;
 class ContactCurve {
  public:
   // `samples` are those of the sum of trial functions with `coefficients`, a spectrum over translates.
-  ContactCurve(const TimePair& pair, const Eigen::VectorXcd& coefficients, Eigen::VectorXd samples)
-      : samples_(std::move(samples)), smooth_(pair.trial().pointwise_derivatives() >= 1) {
-    if (!pair.trial().band_limited()) return;
+  ContactCurve(const AnyTimeBasis& trial, const Eigen::VectorXcd& coefficients, Eigen::VectorXd samples)
+      : samples_(std::move(samples)), smooth_(trial.pointwise_derivatives() >= 1) {
+    if (!trial.band_limited()) return;
     harmonics_.resize(coefficients.size());
     for (Eigen::Index n = 0; n < harmonics_.size(); ++n)
-      harmonics_[n] = (n == 0 ? 1.0 : 2.0) * pair.trial().fourier_coefficient(int(n)) * coefficients[n];
+      harmonics_[n] = (n == 0 ? 1.0 : 2.0) * trial.fourier_coefficient(int(n)) * coefficients[n];
   }
 
   const Eigen::VectorXd& samples() const { return samples_; }
@@ -176,13 +176,23 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
     throw std::invalid_argument("contact_stiffness: the response has " +
                                 std::to_string(response.unknown.size()) + " samples; the problem has " +
                                 std::to_string(problem.samples()));
+  const ContactUnknowns unknowns{response.unknown_coefficients,
+                                 response.unknown.reshaped(problem.points(), problem.contacts()),
+                                 response.regularization};
+  return contact_stiffness(problem.pair().trial(), laws, unknowns);
+}
+
+PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws& laws,
+                                    const ContactUnknowns& unknowns) {
+  const int count = static_cast<int>(unknowns.samples.cols());
+  laws.require(count);
+  PeriodicStiffness stiffness;
   int rigid = 0, elastic = 0;  // intervals of contact
   const auto contacts = std::make_shared<std::vector<ContactAlong>>();
-  for (int c = 0; c < problem.contacts(); ++c) {
-    const double flexibility = response.regularization.size() > 0 ? response.regularization[c] : 0.0;
+  for (int c = 0; c < count; ++c) {
+    const double flexibility = unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0;
     contacts->push_back({laws[c], laws[c].unilateral(), flexibility,
-                         ContactCurve(problem.pair(), response.unknown_coefficients.col(c),
-                                      response.unknown.segment(c * problem.points(), problem.points()))});
+                         ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c))});
     const ContactAlong& along = contacts->back();
     const auto intervals = find_intervals(along, c);
     if (!intervals) {

@@ -246,6 +246,8 @@ std::string_view to_string(SpecialPointType type) {
       return "grazing";
     case SpecialPointType::branch:
       return "branch";
+    case SpecialPointType::krein_collision:
+      return "krein_collision";
   }
   return "unknown";
 }

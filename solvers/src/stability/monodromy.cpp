@@ -9,6 +9,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/gauss_rule.hpp"
+#include "stability/monodromy_map.hpp"
 #include "stability/stability_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -291,8 +292,8 @@ void MonodromyOptions::validate() const {
   detail::require_positive("MonodromyOptions", "max_phase", max_phase);
 }
 
-Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                           double frequency, const MonodromyOptions& options) {
+Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                              double frequency, const MonodromyOptions& options) {
   options.validate();
   require_stability_arguments("monodromy", dynamics, stiffness, frequency, 1);
   if (stiffness.status != StabilityStatus::converged)
@@ -303,10 +304,17 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
   const double phase = options.max_phase * frequency, resolved = phase * options.max_pieces;
   const double contact = contact_rate(dynamics, stiffness);
-  if (!(contact <= resolved)) return Eigen::VectorXcd::Constant(size, std::nan(""));
+  if (!(contact <= resolved)) return Eigen::MatrixXd::Constant(size, size, std::nan(""));
   const double fastest = std::clamp(largest_exponent(dynamics), contact, resolved);
   for (const Piece& piece : pieces(stiffness, phase / fastest)) propagator.pass(piece, map);
-  return by_falling_modulus(map);
+  return map;
+}
+
+Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                           double frequency, const MonodromyOptions& options) {
+  Eigen::MatrixXd map = monodromy_map(dynamics, stiffness, frequency, options);
+  if (!map.allFinite()) return Eigen::VectorXcd::Constant(map.rows(), std::nan(""));
+  return by_falling_modulus(std::move(map));
 }
 
 Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,

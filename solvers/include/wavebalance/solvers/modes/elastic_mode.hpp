@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+#include "wavebalance/solvers/stability/contact_stiffness.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
 
 namespace wavebalance::solvers {
@@ -91,6 +93,7 @@ class ElasticMode {
 
   const ModalModel& model() const;
   const ElasticModeOptions& options() const { return options_; }
+  int harmonics() const;          ///< K, the highest coefficient of the trial functions that is solved for
   double linear_omega() const;    ///< rad/s, of the linear mode continued, as the pair of bases has it
   double grazing_energy() const;  ///< J, of that mode once it just reaches a gap
 
@@ -104,10 +107,17 @@ class ElasticMode {
   ModePoint at_energy(double energy_ratio, ElasticBackboneOptions options = {},
                       double tolerance = 1e-10) const;
 
+  /// The motion in the plane across the chord of two neighbours of the curve, at `share` in 0..1 of the way
+  /// from a to b. Nothing where none is found near the chord, as across a resonance that was passed.
+  std::optional<ModePoint> between(const ModePoint& a, const ModePoint& b, double share) const;
+  /// The stiffness of the contacts along a motion of this mode, none of a linear one.
+  PeriodicStiffness contact_stiffness(const ModePoint& point) const;
+
  private:
   bool starts_linear() const;
 
   std::shared_ptr<const ModeProblem> problem_;
+  AnyTimeBasis trial_;
   ElasticModeOptions options_;
 };
 

@@ -77,6 +77,7 @@ struct ModePoint {
   InternalResonance resonance;    ///< the strongest internal resonance, whatever its share
   double gamma_ratio = 0.0;       ///< elastic modes: gamma over its value at linear grazing
   double residual = 0.0;          ///< elastic modes: of the balance, with the work of the sampled force
+  Eigen::VectorXd unknown;        ///< elastic modes: the unknowns of the balance, scaled
 
   bool accepted() const { return status == ModeStatus::converged || status == ModeStatus::linear; }
 };

@@ -45,6 +45,13 @@ class ContactDynamics {
   /// one factorization of K and O(n reduced_size^2).
   explicit ContactDynamics(const LinearStructure& structure, const ContactDynamicsOptions& options = {});
 
+  /// An undamped structure in its r linear modes: omega_squared (r, 1/s^2, > 0) and the mass-normalised
+  /// shapes (C x r, kg^-1/2) along the contact directions. The first `dynamic` modes have poles, in their
+  /// order; the others are springs at the contacts, constant(). Throws std::invalid_argument for other sizes
+  /// or a value that is not positive. O(r C^2).
+  static ContactDynamics undamped(const Eigen::VectorXd& omega_squared, const Eigen::MatrixXd& shapes,
+                                  Eigen::Index dynamic);
+
   int contacts() const { return static_cast<int>(constant_.rows()); }  ///< C
   /// Whether the structure was reduced, so that exponents() is not complete.
   bool reduced() const { return reduced_; }
@@ -70,6 +77,7 @@ class ContactDynamics {
   };
 
  private:
+  ContactDynamics() = default;
   void set_sections(const std::vector<Section>& sections);
 
   std::vector<ContactPole> poles_;

@@ -57,4 +57,15 @@ struct PeriodicStiffness {
 PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const ContactLaws& laws,
                                     const PeriodicResponse& response);
 
+/// The unknowns of a balance at its C contacts: displacements u, or v in the force form.
+struct ContactUnknowns {
+  Eigen::MatrixXcd coefficients;  ///< K + 1 x C, spectra over translates of the trial functions
+  Eigen::MatrixXd samples;        ///< N x C, m, of the same
+  Eigen::VectorXd flexibility;    ///< C, 1 / epsilon of the force form, m/N; empty for displacements
+};
+
+/// The same of such unknowns. Throws std::invalid_argument for laws that are neither one nor one per contact.
+PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws& laws,
+                                    const ContactUnknowns& unknowns);
+
 }  // namespace wavebalance::solvers

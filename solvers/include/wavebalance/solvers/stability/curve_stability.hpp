@@ -23,7 +23,8 @@ enum class SpecialPointType {
   period_doubling,  ///< a real multiplier passes -1: a motion of two periods begins
   neimark_sacker,   ///< a complex pair leaves the unit circle: a quasi-periodic motion begins
   grazing,          ///< an interval of contact appears, vanishes, splits or joins another
-  branch            ///< a real multiplier passes 1 where the frequency goes on: another curve begins
+  branch,           ///< a real multiplier passes 1 where the frequency goes on: another curve begins
+  krein_collision   ///< of free motions: two pairs of multipliers meet on the unit circle and leave it
 };
 
 std::string_view to_string(SpecialPointType type);
