@@ -161,18 +161,32 @@ class Tracker {
   void examine(const CurveSample& a, const CurveSample& b, double width) {
     const Difference between = difference(a, b);
     if (!between.any()) return;
-    CurveSample middle{{}, {}};
     const bool located = width <= options_.tolerance;
-    if (located || !path_.between(a.point, b.point, 0.5, middle.point)) {
+    const bool signs = between.fold || between.flip;
+    const Measure what = between.count ? Measure::count : signs ? Measure::signs : Measure::contacts;
+    const std::optional<CurveSample> middle = located ? std::nullopt : sample_between(a.point, b.point, what);
+    if (!middle) {
       for (const SpecialPointType type :
            events(between, reverses_between(a.point.parameter, b.point.parameter)))
         result_.special_points.push_back(special_point(type, a, b, located));
       return;
     }
-    const bool signs = between.fold || between.flip;
-    measure(middle, between.count ? Measure::count : signs ? Measure::signs : Measure::contacts);
-    examine(a, middle, 0.5 * width);
-    examine(middle, b, 0.5 * width);
+    examine(a, *middle, 0.5 * width);
+    examine(*middle, b, 0.5 * width);
+  }
+
+  // A point between two others, by preference one whose stability is known. The plane through the middle of
+  // their chord may meet the curve at a kink, where Newton's method cycles, or where contact has just begun.
+  std::optional<CurveSample> sample_between(const CurvePoint& a, const CurvePoint& b, Measure what) {
+    std::optional<CurveSample> found;
+    for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) {
+      CurveSample sample{{}, {}};
+      if (!path_.between(a, b, share, sample.point)) continue;
+      measure(sample, what);
+      if (what == Measure::contacts || is_known(sample)) return sample;
+      if (!found) found = std::move(sample);
+    }
+    return found;
   }
 
   // Whether the curve stays on one side of a bracket. Near a fold it may turn at several samples, so that

@@ -115,6 +115,33 @@ TEST(CurveStability, FindsThePeriodDoublingsOfTheBarWithASmallGap) {
   EXPECT_NEAR(points[1].frequency, 2988.746353, 0.5);
 }
 
+/// Two masses of 1 with springs of 1 between them and to the ground, the second driven, C = 0.03 K.
+LinearStructure two_masses() {
+  Eigen::Matrix2d stiffness;
+  stiffness << 1.0, -1.0, -1.0, 2.0;
+  LinearStructure structure;
+  structure.mass = Eigen::MatrixXd::Identity(2, 2).sparseView();
+  structure.stiffness = Eigen::MatrixXd(stiffness).sparseView();
+  structure.damping = 0.03 * structure.stiffness;
+  structure.contact_directions = contact_rows({0}, 2);
+  structure.load = Eigen::Vector2d(0.0, 0.1);
+  return structure;
+}
+
+// Contact begins at 1e-6 from the Neimark-Sacker point, with a kink of the curve between them. References:
+// the grazing is in closed form, the other by event-driven shooting.
+TEST(CurveStability, TellsAGrazingFromANeimarkSackerPointBesideItFromAnyStart) {
+  for (const double from : {0.0945, 0.0950, 0.0955, 0.0960, 0.0965, 0.0970, 0.0975}) {
+    const Traced traced = trace(two_masses(), testing::LinearContact{100.0, 1.0}, from, 0.092, 63, 1024);
+    const auto grazings = traced.of(Type::grazing), torus = traced.of(Type::neimark_sacker);
+    ASSERT_EQ(grazings.size(), 1u) << from;
+    ASSERT_EQ(torus.size(), 1u) << from;
+    EXPECT_TRUE(grazings[0].located && torus[0].located) << from;
+    EXPECT_NEAR(two_pi * grazings[0].frequency, 0.5818996390, 1e-7) << from;
+    EXPECT_NEAR(two_pi * torus[0].frequency, 0.5819006504, 1e-7) << from;
+  }
+}
+
 TEST(CurveStability, OfAnUndampedStructureIsNotKnown) {
   const Traced traced =
       trace(testing::unit_oscillator(0.0, 0.8), testing::LinearContact{10.0, 0.1}, 0.3, 0.4, 15, 64);
