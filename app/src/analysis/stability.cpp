@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -16,12 +17,13 @@ namespace {
 
 /// Those of the trial functions, or fewer: at 127 harmonics exponents err by 1e-6 at most, and the cost grows
 /// like the cube. The monodromy, which is taken where contact is too stiff for the harmonics, costs seconds
-/// with many states.
+/// with many states. The operations take about ten seconds.
 solvers::StabilityOptions options_for(const solvers::CondensedProblem& problem) {
   constexpr int most_harmonics = 255;
   solvers::StabilityOptions options;
   options.harmonics = std::clamp((problem.pair().functions() - 1) / 2, 1, most_harmonics);
   options.max_states = 120;
+  options.max_operations = 3e10;
   return options;
 }
 
@@ -108,7 +110,9 @@ ResponseStability response_stability(const solvers::CondensedProblem& problem,
   const auto count = solvers::unstable_multipliers(*dynamics, problem, laws, found, options_for(problem));
   result.status = status_of(count);
   result.unstable = count.count;
-  if (count.status == solvers::StabilityStatus::converged)
+  result.leading = count.leading;
+  const bool known = std::isfinite(count.leading.real());
+  if (count.status == solvers::StabilityStatus::converged && !known)
     result.leading = leading_multiplier(*dynamics, problem, laws, found);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -42,6 +42,24 @@ std::vector<double> first_points(const FloquetDeterminant& determinant) {
   return points;
 }
 
+// Real operations of one evaluation: the sums over harmonics, a factorization and the solves for the
+// derivative.
+double operations_of(const FloquetDeterminant& determinant) {
+  const double nodes = determinant.nodes();
+  return nodes * nodes * (8.0 * (2 * determinant.harmonics() + 1) + 32.0 / 3.0 * nodes);
+}
+
+// True where the monodromy costs less: many nodes, which many contacts that last long have.
+bool is_costly(const FloquetDeterminant& determinant) {
+  constexpr double many_operations = 1e9;
+  return operations_of(determinant) * double(first_points(determinant).size()) > many_operations;
+}
+
+int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
+  const double affordable = options.max_operations / std::max(1.0, operations_of(determinant));
+  return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
+}
+
 // Follows the argument of the determinant from nu = 0 to omega / 2.
 class Winding {
  public:
@@ -51,6 +69,7 @@ class Winding {
   // The change of the argument; nothing where max_evaluations are not enough.
   std::optional<double> operator()() {
     const std::vector<double> points = first_points(determinant_);
+    if (static_cast<int>(points.size()) > max_evaluations_) return std::nullopt;
     Sample before = at(points.front());
     double turned = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -105,20 +124,37 @@ std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
   return multipliers;
 }
 
+UnstableMultipliers without_count(StabilityStatus status) {
+  UnstableMultipliers result;
+  result.status = status;
+  return result;
+}
+
+UnstableMultipliers count_of(const Eigen::VectorXcd& multipliers) {
+  UnstableMultipliers result;
+  result.count = static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
+  result.winding = result.count;
+  if (multipliers.size() > 0) result.leading = multipliers[0];
+  return result;
+}
+
+std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& dynamics,
+                                                        const PeriodicStiffness& stiffness, double frequency,
+                                                        const StabilityOptions& options) {
+  const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
+  return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
+}
+
 // Of rigid contact, where it has a limit.
 UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
                                       double frequency, const StabilityOptions& options) {
-  UnstableMultipliers result;
-  result.status = contact.status;
+  UnstableMultipliers result = without_count(contact.status);
   if (contact.intervals.empty() || dynamics.reduced() ||
       2 * int(dynamics.poles().size()) > options.max_states)
     return result;
   const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
   if (!multipliers.allFinite()) return result;
-  result.status = StabilityStatus::converged;
-  result.count = static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
-  result.winding = result.count;
-  return result;
+  return count_of(multipliers);
 }
 
 int unstable_poles(const ContactDynamics& dynamics) {
@@ -135,6 +171,7 @@ void StabilityOptions::validate() const {
   detail::require_at_least("StabilityOptions", "max_states", max_states, 0);
   detail::require_positive("StabilityOptions", "max_omitted", max_omitted);
   detail::require_at_least("StabilityOptions", "max_evaluations", max_evaluations, 1);
+  detail::require_positive("StabilityOptions", "max_operations", max_operations);
 }
 
 StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions options) {
@@ -173,23 +210,19 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const 
   result.status = status_before("unstable_multipliers", dynamics, stiffness, frequency, options);
   if (result.status != StabilityStatus::converged) return result;
   const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0) {
-    const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
-    if (multipliers)
-      result.count = static_cast<int>((multipliers->cwiseAbs().array() > 1.0).count());
-    else
-      result.status = StabilityStatus::too_few_harmonics;
-    result.winding = result.count;
-    return result;
-  }
-  result.harmonics = options.harmonics;
+  if (truncation.harmonics == 0)
+    return counted_by_monodromy(dynamics, stiffness, frequency, options)
+        .value_or(without_count(StabilityStatus::too_few_harmonics));
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
+  if (is_costly(determinant))
+    if (const auto counted = counted_by_monodromy(dynamics, stiffness, frequency, options)) return *counted;
+  result.harmonics = options.harmonics;
   const int own = unstable_poles(dynamics);
   if (determinant.nodes() == 0) {
     result.count = own;
     return result;
   }
-  const auto turned = Winding(determinant, options.max_evaluations)();
+  const auto turned = Winding(determinant, affordable_evaluations(determinant, options))();
   result.evaluations = determinant.evaluations();
   if (turned) result.winding = own - *turned / pi;
   const double rounded = std::round(result.winding);

@@ -120,12 +120,12 @@ TEST(StabilityStatus, OfContactTooStiffForHarmonicsAndMonodromyIsTooFewHarmonics
   const StabilitySigns signs = stability_signs(dynamics, stiff, 0.3, options);
   EXPECT_EQ(signs.status, StabilityStatus::converged);
   options.harmonics = 200;  // enough of them
+  options.max_states = 0;
   EXPECT_EQ(unstable_multipliers(dynamics, stiff, 0.3, options).count, found.count);
   EXPECT_EQ(unstable_multipliers(dynamics, stiff, 0.3, options).harmonics, 200);
   EXPECT_EQ(stability_signs(dynamics, stiff, 0.3, options).fold, signs.fold);
   EXPECT_EQ(stability_signs(dynamics, stiff, 0.3, options).flip, signs.flip);
   options.harmonics = 10;
-  options.max_states = 0;
   expect_unknown(unstable_multipliers(dynamics, stiff, 0.3, options), StabilityStatus::too_few_harmonics);
   EXPECT_EQ(stability_signs(dynamics, stiff, 0.3, options).status, StabilityStatus::too_few_harmonics);
   FloquetOptions floquet;
@@ -142,6 +142,36 @@ TEST(StabilityStatus, OfTooFewEvaluationsIsEffortLimit) {
                  StabilityStatus::effort_limit);
 }
 
+// Four oscillators in a row, each with a contact that lasts the whole period.
+TEST(StabilityStatus, OfManyLongContactsIsCountedByTheMonodromyWithinTheOperationsGiven) {
+  constexpr int n = 4;
+  LinearStructure structure;
+  structure.mass = Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)).sparseView();
+  Eigen::MatrixXd springs = 2.0 * Eigen::MatrixXd::Identity(n, n);
+  for (int i = 1; i < n; ++i) springs(i, i - 1) = springs(i - 1, i) = -1.0;
+  structure.stiffness = springs.sparseView();
+  structure.damping = 0.02 * structure.stiffness;
+  structure.load = Eigen::VectorXd::Unit(n, 0);
+  structure.contact_directions = contact_rows({0, 1, 2, 3}, n);
+  const ContactDynamics dynamics(structure);
+  PeriodicStiffness stiffness;
+  for (int c = 0; c < n; ++c) stiffness.intervals.push_back({c, 0.0, 1.0});
+  stiffness.tangent = [](int, double time) { return 1.0 + 0.9 * std::cos(two_pi * time); };
+  StabilityOptions options;
+  options.harmonics = 20;
+  constexpr double frequency = 0.2;
+  const auto quick = unstable_multipliers(dynamics, stiffness, frequency, options);
+  EXPECT_EQ(quick.evaluations, 0);
+  EXPECT_GT(std::abs(quick.leading), 0.0);
+  options.max_states = 0;
+  const auto counted = unstable_multipliers(dynamics, stiffness, frequency, options);
+  EXPECT_GT(counted.evaluations, 0);
+  EXPECT_EQ(counted.count, quick.count);
+  options.max_operations = 1e9;
+  expect_unknown(unstable_multipliers(dynamics, stiffness, frequency, options),
+                 StabilityStatus::effort_limit);
+}
+
 TEST(StabilityArguments, AreCheckedWithTheirNames) {
   const ContactDynamics dynamics(testing::unit_oscillator(0.1, 1.0));
   StabilityOptions options;
@@ -152,6 +182,9 @@ TEST(StabilityArguments, AreCheckedWithTheirNames) {
   other.intervals[0].contact = 1;
   EXPECT_THROW(unstable_multipliers(dynamics, other, 0.3, options), std::invalid_argument);
   options.max_evaluations = 0;
+  EXPECT_THROW(unstable_multipliers(dynamics, half_period(), 0.3, options), std::invalid_argument);
+  options.max_evaluations = 10;
+  options.max_operations = 0.0;
   EXPECT_THROW(unstable_multipliers(dynamics, half_period(), 0.3, options), std::invalid_argument);
   EXPECT_THROW(monodromy(dynamics, half_period(), 0.3, {.nodes = 1}), std::invalid_argument);
   EXPECT_THROW(monodromy(dynamics, half_period(), infinity), std::invalid_argument);

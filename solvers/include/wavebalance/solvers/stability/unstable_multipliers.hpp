@@ -1,4 +1,7 @@
 #pragma once
+#include <complex>
+#include <limits>
+
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 #include "wavebalance/solvers/stability/contact_stiffness.hpp"
 
@@ -16,7 +19,8 @@ struct StabilityOptions {
   double max_omitted = 0.5;
   /// States up to which the monodromy may be taken, at O(states^3); 0: never.
   int max_states = 400;
-  int max_evaluations = 2000;  ///< of the determinant in one call
+  int max_evaluations = 2000;    ///< of the determinant in one call
+  double max_operations = 1e12;  ///< estimated, real ones, of all these evaluations
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -29,6 +33,9 @@ struct UnstableMultipliers {
   int harmonics = 0;     ///< H taken
   int evaluations = 0;   ///< of the determinant
   double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
+  /// The largest multiplier in modulus where the monodromy was taken, NaN elsewhere.
+  std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
 };
 
 /// The number of Floquet multipliers outside the unit circle, of perturbations v of
@@ -47,6 +54,9 @@ struct UnstableMultipliers {
 /// Frequency response of linear time periodic systems, CDC 1990, doi:10.1109/CDC.1990.203516]. The argument
 /// is followed from points around the natural frequencies, folded into that range, and steps are halved until
 /// it changes by less than a third of pi and as its derivative says.
+///
+/// Where this takes more than 1e9 operations, as it does when many contacts last long, and the monodromy of
+/// at most `options.max_states` states is known, its eigenvalues are counted.
 ///
 /// `options.harmonics` must be set. O(evaluations (H n C^2 + nodes^2 H + nodes^3)), some ten evaluations at
 /// ordinary and fifty at light damping. Throws std::invalid_argument for a frequency that is not positive and
