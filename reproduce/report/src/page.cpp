@@ -166,6 +166,9 @@ const std::vector<Paper>& papers() {
        "interfaces (preprint, version 1)",
        "https://hal.science/hal-00492775", "the right of quotation"},
       {"blade", "The blade further: beyond the papers", "", ""},
+      {"cases_of_others",
+       "Cases of others: curves that other programs publish or whose special points are known exactly", "", "",
+       true},
       {"extremes", "Extremes: inputs at the edge of what numbers, structures and bases can be", "", "", true},
   };
   return all;

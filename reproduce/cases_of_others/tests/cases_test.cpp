@@ -1,0 +1,175 @@
+// Holds the cases to their references, and the references to closed forms and to shooting.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <complex>
+#include <filesystem>
+
+#include "constants.hpp"
+#include "curve.hpp"
+#include "event_shooting.hpp"
+#include "figures.hpp"
+#include "paper_results.hpp"
+#include "references.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace wavebalance::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using references::Type;
+using testing::EventShooting;
+using testing::SpringSystem;
+
+const std::vector<std::string> names{"pyharm_onedofgap", "nlvib_example03", "oscillator_with_stop",
+                                     "small_gap_bar", "lightly_damped_bar"};
+
+report::PaperResults& results() {
+  static report::PaperResults all(figures());
+  return all;
+}
+
+fs::path scene_file(const std::string& name) {
+  return fs::path(WAVEBALANCE_SCENES) / "cases_of_others" / (name + ".toml");
+}
+
+const app::Table& special_points(const app::Summary& summary) {
+  for (const auto& [key, value] : summary)
+    if (key == "special_points") return std::get<app::Table>(value);
+  throw std::runtime_error("no special points");
+}
+
+TEST(CasesOfOthers, EachValueAgreesWithinItsTolerance) {
+  results().need(names);
+  for (const auto& name : names) {
+    const app::Table rows = results().read(name + "_comparison.csv");
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+      if (std::isnan(rows.numbers("given")[i])) continue;
+      EXPECT_LE(std::abs(rows.numbers("difference")[i]), rows.numbers("tolerance")[i])
+          << name << ": " << rows.texts("quantity")[i];
+    }
+    for (const auto& claim : results().record(name).claims)
+      EXPECT_TRUE(claim.holds) << name << ": " << claim.quote << ", " << claim.measured;
+    EXPECT_TRUE(results().has(name + ".svg") && results().has(name + ".png") && results().has(name + ".md"));
+  }
+}
+
+TEST(CasesOfOthers, TheCommandFindsTheSameSpecialPointsInEachScene) {
+  results().need(names);
+  for (const auto& name : names) {
+    const app::Record record = app::analyse(app::load_scene(scene_file(name)));
+    EXPECT_TRUE(record.converged) << name;
+    const app::Table found = special_points(record.summary);
+    const app::Table shown = results().read(name + "_special_points.csv");
+    const bool angular = shown.columns()[1] == "frequency_rad_per_s";
+    ASSERT_EQ(found.texts("type"), shown.texts("type")) << name;
+    for (std::size_t i = 0; i < found.rows(); ++i)
+      EXPECT_NEAR((angular ? two_pi : 1.0) * found.numbers("frequency_Hz")[i],
+                  shown.numbers(shown.columns()[1])[i], 1e-12 * 1e4)
+          << name;
+  }
+}
+
+SpringSystem one_mass(double stiffness, double damping, double load, double spring, double gap) {
+  const auto matrix = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  return {matrix(1.0), matrix(damping), matrix(stiffness), Eigen::VectorXd::Constant(1, load), spring, gap};
+}
+
+SpringSystem pyharm_system() { return one_mass(40.0, 0.1 * std::sqrt(40.0), 100.0, 1000.0, 10.0); }
+SpringSystem oscillator_system() { return one_mass(1.0, 0.1, 0.8, 10.0, 0.1); }
+SpringSystem nlvib_system() {
+  Eigen::MatrixXd stiffness(2, 2);
+  stiffness << 1.0, -1.0, -1.0, 2.0;
+  return {
+      Eigen::MatrixXd::Identity(2, 2), 0.03 * stiffness, stiffness, Eigen::Vector2d(0.0, 0.1), 100.0, 1.0};
+}
+
+double free_amplitude(const SpringSystem& system, double omega) {
+  const std::complex<double> i(0.0, 1.0);
+  const Eigen::MatrixXcd dynamic =
+      (system.stiffness - omega * omega * system.mass).cast<std::complex<double>>() +
+      i * omega * system.damping.cast<std::complex<double>>();
+  return std::abs(dynamic.partialPivLu().solve(system.load.cast<std::complex<double>>())[0]);
+}
+
+/// The system and the special points of a case without units.
+struct Known {
+  std::string name;
+  SpringSystem system;
+  std::vector<references::KnownPoint> points;
+};
+std::vector<Known> known_cases() {
+  return {{names[0], pyharm_system(), references::pyharm_points},
+          {names[1], nlvib_system(), references::nlvib_points},
+          {names[2], oscillator_system(), references::oscillator_points}};
+}
+
+TEST(References, AtGrazingsTheFreeMotionReachesTheGap) {
+  for (const Known& known : known_cases())
+    for (const auto& point : known.points) {
+      if (point.type != Type::grazing) continue;
+      EXPECT_NEAR(free_amplitude(known.system, point.frequency) / known.system.gap, 1.0, 2e-8)
+          << known.name << " " << point.frequency;
+    }
+}
+
+double largest_displacement(const Eigen::VectorXd& samples) { return samples.maxCoeff(); }
+
+/// The curve of a scene, coarser, to start from.
+Curve coarse_curve(const std::string& name) {
+  const std::vector<std::string> overrides{"time.functions=63", "time.quadrature_points=1024",
+                                           "analysis.stability=false"};
+  Curve curve{app::load_scene(scene_file(name), overrides), {}, {}, two_pi};
+  curve.scene.analysis.stability = true;  // for the unknowns
+  curve.model = app::make_model(curve.scene);
+  curve.sweep = app::frequency_sweep(curve.scene, curve.model);
+  return curve;
+}
+
+/// The multipliers of the motion in contact at `omega`, by shooting from the one of the curve.
+Eigen::VectorXcd multipliers(const Curve& curve, const SpringSystem& system, double omega) {
+  const auto near = response_near(curve, omega, largest_displacement, 1.5 * system.gap, curve.scene.time);
+  Eigen::VectorXd state(2 * system.load.size());
+  state << near.structure.displacement.col(0), near.structure.velocity.col(0);
+  const EventShooting shooting(system, omega);
+  const testing::Period period = shooting.periodic(state);
+  EXPECT_LT((period.end - state).norm(), 1e-10 * (1.0 + state.norm())) << omega;
+  return period.monodromy.eigenvalues();
+}
+
+// Beside a grazing, multipliers change like the square root of the distance.
+TEST(References, AtPeriodDoublingsAndNeimarkSackerPointsShootingHasAMultiplierOnTheCircle) {
+  for (const Known& known : known_cases()) {
+    const Curve curve = coarse_curve(known.name);
+    for (const auto& point : known.points) {
+      if (point.type != Type::period_doubling && point.type != Type::neimark_sacker) continue;
+      double nearest = infinity;
+      for (const std::complex<double> one : multipliers(curve, known.system, point.frequency))
+        nearest = std::min(nearest, point.type == Type::period_doubling ? std::abs(one + 1.0)
+                                                                        : std::abs(std::abs(one) - 1.0));
+      const bool beside_grazing = std::abs(point.frequency - 0.5818996390) < 1e-5;
+      EXPECT_LT(nearest, beside_grazing ? 1e-3 : 1e-5) << known.name << " " << point.frequency;
+    }
+  }
+}
+
+TEST(References, OscillatorsMultipliersAreThoseOfShooting) {
+  const Curve curve = coarse_curve("oscillator_with_stop");
+  for (const auto& motion : references::oscillator_motions) {
+    double nearest = infinity;
+    for (const std::complex<double> one : multipliers(curve, oscillator_system(), motion.frequency))
+      nearest = std::min(nearest, std::abs(one - motion.multiplier));
+    EXPECT_LT(nearest, 1e-7) << motion.frequency;
+  }
+}
+
+TEST(Harmonics, OfASumOfCosinesAreItsAmplitudes) {
+  Eigen::VectorXd samples(64);
+  for (int k = 0; k < 64; ++k)
+    samples[k] = -2.0 + 3.0 * std::cos(two_pi * k / 64.0 + 0.3) + 0.5 * std::sin(3.0 * two_pi * k / 64.0);
+  EXPECT_LT((harmonics(samples, 3) - Eigen::Vector4d(2.0, 3.0, 0.0, 0.5)).cwiseAbs().maxCoeff(), 64 * eps);
+}
+
+}  // namespace
+}  // namespace wavebalance::cases
