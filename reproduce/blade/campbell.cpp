@@ -140,7 +140,8 @@ void campbell_diagram(report::Artefact& artefact) {
   artefact.caption(
       "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the open "
       "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
-      "that just touches at the same speed; EO are engine orders.");
+      "that just touches at the same speed; EO are engine orders. Stability is not drawn: "
+      "where contacts have mass, no motion beside that of a rigid obstacle is determined without a law of impact.");
   artefact.note(fmt::format(
       "The gap is that of the turning blade. Its static displacement, up to {} mm at the largest speed, "
       "stiffens the blade but is not part of the motion; Coriolis forces are not included. All speeds take "

@@ -211,7 +211,8 @@ void fig03(report::Artefact& artefact) {
   artefact.caption(
       "First nonlinear mode of the rod: exact, computed from consistent equations, and as published. "
       "Published is the augmented Lagrangian of the printed equations, which runs with N = 2; the paper does "
-      "not state its N.");
+      "not state its N. Stability is not drawn: "
+      "where contacts have mass, no motion beside that of a rigid obstacle is determined without a law of impact.");
   claim_linear(artefact);
   claim_onset(artefact, backbone);
   claim_hardening(artefact, study, backbone);

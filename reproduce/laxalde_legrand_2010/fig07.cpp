@@ -192,7 +192,8 @@ void fig07(report::Artefact& artefact) {
   artefact.caption(
       "First nonlinear mode of the open blade: frequency by consistent equations, the root of the Rayleigh "
       "quotient of the same motions, and the equations as published. Torsion modes are the linear modes "
-      "whose tip rotates more than it translates.");
+      "whose tip rotates more than it translates. Stability is not drawn: "
+      "where contacts have mass, no motion beside that of a rigid obstacle is determined without a law of impact.");
   claim_listed(artefact, study, curve);
   claim_contact(artefact, study, curve);
   claim_virial_identity(artefact, study, curve);

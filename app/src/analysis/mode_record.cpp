@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/mode_stability.hpp"
 #include "analysis/motion_files.hpp"
 #include "analysis/record_figure.hpp"
 #include "analysis/summary_parts.hpp"
@@ -100,6 +101,7 @@ void append_quality(Summary& summary, double penetration, double min_force, doub
 
 Record curve_record(const ModeStudy& study, const Observer& observer) {
   const Backbone curve = study.backbone(observer);
+  const solvers::BackboneStability stability = stability_of(study, curve, observer);
   Record record;
   record.converged = curve.converged();
   record.status = curve.status();
@@ -116,8 +118,11 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   record.summary.emplace_back("largest_frequency_ratio", largest(curve, [&](const auto& point) {
                                 return point.omega / study.mode().linear_omega();
                               }));
+  append_stability(record.summary, study, stability);
   record.backbone = backbone_table(study, curve);
+  add_stability(record.backbone, stability);
   record.figure = backbone_figure(study.scene(), record.backbone);
+  draw_stability(record.figure, record.backbone, study, stability);
   if (!record.converged) record.figure.title += " (INCOMPLETE: " + plain(record.status) + ")";
   return record;
 }
@@ -153,6 +158,7 @@ Record motion_record(const ModeStudy& study) {
   append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
                  moves ? point.virial_residual : missing);
   if (!moves) return record;
+  append_stability(record, study, point);
   record.response = response_table(response.leading());
   add_contacts(record, response.contacts, response.contact);
   if (scene.analysis.motion_points > 0)

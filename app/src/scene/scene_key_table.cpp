@@ -286,7 +286,9 @@ void add_time(std::vector<SceneKey>& keys) {
 
 SceneValue stability_by_default(const Scene& scene) {
   constexpr std::size_t few = 6;
-  if (scene.analysis.type != AnalysisType::frequency_sweep) return true;
+  const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  if (scene.analysis.type != AnalysisType::frequency_sweep && !mode) return true;
+  if (mode && scene.contact.law == ContactLawType::rigid) return true;
   if (scene.structure.type == StructureType::blade) return false;  // many nodes along its tip
   return scene.structure.matrices.contact_dofs.size() + scene.contact.pair_contacts().size() <= few;
 }
@@ -305,11 +307,11 @@ void add_analysis(std::vector<SceneKey>& keys) {
               [](const Scene& scene) { return scene.structure.type == StructureType::blade ? 32 : 0; }),
       only_with(structure_is({"blade", "matrices"}) && analysis_is({"forced_response", "nonlinear_mode"})));
   analysis(&Analysis::stability, "stability", "",
-           "true counts the Floquet multipliers outside the unit circle, of a response or of each point of a "
+           "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
            "curve, and finds the curve's special points",
            derived("true; false for curves of more than 6 contacts, whose counts take longer than the curve",
                    stability_by_default),
-           only_with(analysis_is({"forced_response", "frequency_sweep"})));
+           only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
   add_sweep(keys);
   add_time_stepping(keys);
   add_mode(keys);
