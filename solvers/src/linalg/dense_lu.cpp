@@ -34,8 +34,8 @@ template <class Scalar>
 struct Lu<Scalar>::Factors {
   explicit Factors(const Matrix& matrix)
       : lu(matrix),
-        pivots(static_cast<std::size_t>(matrix.rows())),
-        norm(matrix.cwiseAbs().colwise().sum().maxCoeff()) {
+        pivots(static_cast<std::size_t>(matrix.rows())) {
+    if constexpr (std::same_as<Scalar, double>) norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
     factorize(rows(), lu.data(), pivots.data());
   }
 
@@ -49,7 +49,7 @@ struct Lu<Scalar>::Factors {
 
   Matrix lu;
   std::vector<lapack_int> pivots;  // row that changed places with each row, from 1
-  double norm;                     // 1-norm of the matrix
+  double norm = 0.0;               // 1-norm of a real matrix
 };
 
 template <class Scalar>

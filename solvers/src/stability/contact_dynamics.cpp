@@ -205,7 +205,8 @@ void ContactDynamics::set_sections(const std::vector<Section>& sections) {
   if (linear_numerator_.isZero(0.0)) linear_numerator_.resize(0, constant_.size());
 }
 
-ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::VectorXd& imaginary) const {
+ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::VectorXd& imaginary,
+                                                    bool with_slope) const {
   const Eigen::Index points = imaginary.size(), sections = denominator_.rows();
   const Eigen::ArrayXd y = imaginary.array();
   // Real and imaginary parts of 1 / d(s) below each other, and of its derivative by s.
@@ -230,12 +231,13 @@ ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::Ve
     const Eigen::MatrixXd parts = detail::product(left, right);
     return parts.topRows(points) + Complex(0.0, 1.0) * parts.bottomRows(points);
   };
-  Values values{joined(weight, constant_numerator_), joined(slope, constant_numerator_)};
+  Values values{joined(weight, constant_numerator_), {}};
+  if (with_slope) values.slope = joined(slope, constant_numerator_);
   if (linear_numerator_.rows() == 0) return values;
   const Eigen::VectorXcd exponents = real + Complex(0.0, 1.0) * y;
   const Eigen::MatrixXcd ramp = joined(weight, linear_numerator_);
   values.compliance += exponents.asDiagonal() * ramp;
-  values.slope += ramp + exponents.asDiagonal() * joined(slope, linear_numerator_);
+  if (with_slope) values.slope += ramp + exponents.asDiagonal() * joined(slope, linear_numerator_);
   return values;
 }
 

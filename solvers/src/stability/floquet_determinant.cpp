@@ -66,15 +66,19 @@ void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness) {
 }
 
 // At the harmonics n = -H - 1..H, the first with its weight.
-ContactDynamics::Values FloquetDeterminant::compliance(Complex sigma) const {
+ContactDynamics::Values FloquetDeterminant::weighted_compliance(Complex sigma, double weight,
+                                                                bool with_slope) const {
   const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(2 * harmonics_ + 2, -harmonics_ - 1, harmonics_);
   ContactDynamics::Values values =
-      dynamics_.compliance(sigma.real(), (sigma.imag() + omega_ * orders.array()).matrix());
+      dynamics_.compliance(sigma.real(), (sigma.imag() + omega_ * orders.array()).matrix(), with_slope);
   values.compliance = decaying(std::move(values.compliance));
-  const double weight = 2.0 * sigma.imag() / omega_;
   values.compliance.row(0) *= weight;
-  values.slope.row(0) *= weight;
+  if (with_slope) values.slope.row(0) *= weight;
   return values;
+}
+
+ContactDynamics::Values FloquetDeterminant::compliance(Complex sigma, bool with_slope) const {
+  return weighted_compliance(sigma, 2.0 * sigma.imag() / omega_, with_slope);
 }
 
 // Compliances without what is taken at once.
@@ -94,44 +98,49 @@ Eigen::MatrixXcd FloquetDeterminant::phases() const {
 }
 
 // sum_n g_n exp(2 pi i n (t_i - t_j)) w_j D(t_j) for each g, as from compliance(). With p_n = g_n + g_-n and
-// q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), one real product for all parts.
+// q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), one real product per contact j.
 std::vector<Eigen::MatrixXcd> FloquetDeterminant::kernels(
     const std::vector<const Eigen::MatrixXcd*>& compliances) const {
-  const Eigen::Index count = harmonics_ + 2;
-  std::vector<Eigen::MatrixXcd> results(compliances.size(), Eigen::MatrixXcd(nodes(), nodes()));
-  for (const Range& row : ranges_)
-    for (const Range& column : ranges_) {
-      Eigen::MatrixXd left(2 * row.count * Eigen::Index(compliances.size()), 2 * count);
-      for (std::size_t k = 0; k < compliances.size(); ++k)
-        left.middleRows(2 * row.count * Eigen::Index(k), 2 * row.count) =
-            weighted_waves(row, compliances[k]->col(pair(row, column)));
-      const Eigen::MatrixXd parts =
-          detail::product_transposed(left, waves_.middleRows(column.begin, column.count)) *
-          weighted_.segment(column.begin, column.count).asDiagonal();
-      for (std::size_t k = 0; k < compliances.size(); ++k) {
-        auto block = results[k].block(row.begin, column.begin, row.count, column.count);
-        block.real() = parts.middleRows(2 * row.count * Eigen::Index(k), row.count);
-        block.imag() = parts.middleRows(2 * row.count * Eigen::Index(k) + row.count, row.count);
+  const Eigen::Index size = nodes(), parts = 2 * size;
+  const Eigen::MatrixXd waves = waves_.transpose();
+  std::vector<Eigen::MatrixXcd> results(compliances.size(), Eigen::MatrixXcd(size, size));
+  Eigen::MatrixXd left(waves.rows(), parts * Eigen::Index(compliances.size()));
+  for (const Range& column : ranges_) {
+    for (std::size_t k = 0; k < compliances.size(); ++k)
+      for (const Range& row : ranges_)
+        set_weighted_waves(waves, row, compliances[k]->col(pair(row, column)),
+                           left.middleCols(parts * Eigen::Index(k) + 2 * row.begin, 2 * row.count));
+    const Eigen::MatrixXd products =
+        detail::transposed_product(left, waves.middleCols(column.begin, column.count));
+    for (std::size_t k = 0; k < compliances.size(); ++k)
+      for (Eigen::Index j = 0; j < column.count; ++j) {
+        const double* from = &products(parts * Eigen::Index(k), j);
+        Complex* to = &results[k](0, column.begin + j);
+        const double weight = weighted_[column.begin + j];
+        for (Eigen::Index i = 0; i < size; ++i) to[i] = {weight * from[2 * i], weight * from[2 * i + 1]};
       }
-    }
+  }
   return results;
 }
 
-// Rows for the real parts and, below, for the imaginary parts of what kernels() sums at the nodes of `row`.
-Eigen::MatrixXd FloquetDeterminant::weighted_waves(const Range& row, const Eigen::VectorXcd& g) const {
+// Two columns for each node of `row`, for the real and the imaginary part of what kernels() sums there.
+void FloquetDeterminant::set_weighted_waves(const Eigen::MatrixXd& waves, const Range& row,
+                                            const Eigen::Ref<const Eigen::VectorXcd>& g,
+                                            Eigen::Ref<Eigen::MatrixXd> columns) const {
   const Eigen::Index count = harmonics_ + 2;
-  Eigen::VectorXcd p(count), q(count);
+  Eigen::ArrayXcd p(count), q(count);
   p << g[harmonics_ + 1], g.tail(harmonics_) + g.segment(1, harmonics_).reverse(), g[0];
   q << 0.0, Complex(0.0, 1.0) * (g.tail(harmonics_) - g.segment(1, harmonics_).reverse()),
       Complex(0.0, -1.0) * g[0];
-  const auto cosines = waves_.block(row.begin, 0, row.count, count);
-  const auto sines = waves_.block(row.begin, count, row.count, count);
-  Eigen::MatrixXd waves(2 * row.count, 2 * count);
-  waves.topLeftCorner(row.count, count) = cosines * p.real().asDiagonal() + sines * q.real().asDiagonal();
-  waves.topRightCorner(row.count, count) = sines * p.real().asDiagonal() - cosines * q.real().asDiagonal();
-  waves.bottomLeftCorner(row.count, count) = cosines * p.imag().asDiagonal() + sines * q.imag().asDiagonal();
-  waves.bottomRightCorner(row.count, count) = sines * p.imag().asDiagonal() - cosines * q.imag().asDiagonal();
-  return waves;
+  const Eigen::ArrayXd p_re = p.real(), p_im = p.imag(), q_re = q.real(), q_im = q.imag();
+  for (Eigen::Index i = 0; i < row.count; ++i) {
+    const auto cosines = waves.col(row.begin + i).array().head(count);
+    const auto sines = waves.col(row.begin + i).array().tail(count);
+    columns.col(2 * i).array().head(count) = cosines * p_re + sines * q_re;
+    columns.col(2 * i).array().tail(count) = sines * p_re - cosines * q_re;
+    columns.col(2 * i + 1).array().head(count) = cosines * p_im + sines * q_im;
+    columns.col(2 * i + 1).array().tail(count) = sines * p_im - cosines * q_im;
+  }
 }
 
 FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
@@ -141,7 +150,7 @@ FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
   }
   ++evaluations_;
   if (nodes() == 0) return {};
-  const ContactDynamics::Values values = compliance(sigma);
+  const ContactDynamics::Values values = compliance(sigma, true);
   auto matrices = kernels({&values.compliance, &values.slope});
   matrices[0].diagonal().array() += 1.0;
   const detail::Lu<Complex> lu(matrices[0]);
@@ -150,9 +159,18 @@ FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
 
 Complex FloquetDeterminant::log(Complex sigma) {
   if (sigma.imag() < 0.0) return std::conj(log(std::conj(sigma)));
+  return log_of(compliance(sigma, false));
+}
+
+Complex FloquetDeterminant::smooth_log(double nu) {
+  const double x = 2.0 * nu / omega_;
+  const double weight = x * x * x * x * (35.0 - x * (84.0 - x * (70.0 - 20.0 * x)));
+  return log_of(weighted_compliance({0.0, nu}, weight, false));
+}
+
+Complex FloquetDeterminant::log_of(const ContactDynamics::Values& values) {
   ++evaluations_;
   if (nodes() == 0) return 0.0;
-  const ContactDynamics::Values values = compliance(sigma);
   Eigen::MatrixXcd matrix = kernels({&values.compliance}).front();
   matrix.diagonal().array() += 1.0;
   return detail::Lu<Complex>(matrix).log_determinant();
@@ -197,7 +215,7 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
   Mode mode{Eigen::MatrixXcd::Zero(dynamics_.contacts(), count), {}};
   mode.force = mode.displacement;
   if (nodes() == 0) return mode;
-  const ContactDynamics::Values values = compliance(sigma);
+  const ContactDynamics::Values values = compliance(sigma, false);
   Eigen::MatrixXcd singular = kernels({&values.compliance}).front();
   singular.diagonal().array() += 1.0;
   const detail::Lu<Complex> lu(singular);

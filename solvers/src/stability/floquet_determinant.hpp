@@ -44,6 +44,9 @@ class FloquetDeterminant {
   Value operator()(std::complex<double> sigma);
   /// Value::log alone, at a third of the cost.
   std::complex<double> log(std::complex<double> sigma);
+  /// The logarithm at i nu, 0 <= nu <= omega / 2, where the weight of the harmonic -H - 1 rises smoothly at
+  /// both ends, so that Delta is a smooth function on the whole unit circle.
+  std::complex<double> smooth_log(double nu);
 
   /// The signs of Delta at 0 and at i omega / 2, by real arithmetic.
   int sign_at_zero();
@@ -64,11 +67,16 @@ class FloquetDeterminant {
   };
 
   void place_nodes(const PeriodicStiffness& stiffness);
-  ContactDynamics::Values compliance(std::complex<double> sigma) const;
+  ContactDynamics::Values compliance(std::complex<double> sigma, bool with_slope) const;
+  ContactDynamics::Values weighted_compliance(std::complex<double> sigma, double weight,
+                                              bool with_slope) const;
+  std::complex<double> log_of(const ContactDynamics::Values& values);
   Eigen::MatrixXcd decaying(Eigen::MatrixXcd compliance) const;
   Eigen::MatrixXcd phases() const;
   std::vector<Eigen::MatrixXcd> kernels(const std::vector<const Eigen::MatrixXcd*>& compliances) const;
-  Eigen::MatrixXd weighted_waves(const Range& row, const Eigen::VectorXcd& g) const;
+  void set_weighted_waves(const Eigen::MatrixXd& waves, const Range& row,
+                          const Eigen::Ref<const Eigen::VectorXcd>& g,
+                          Eigen::Ref<Eigen::MatrixXd> columns) const;
   int real_sign(double shift, int first);
   Eigen::Index pair(const Range& row, const Range& column) const {
     return row.contact + column.contact * dynamics_.contacts();

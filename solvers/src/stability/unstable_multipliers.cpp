@@ -10,6 +10,7 @@
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "stability/stability_checks.hpp"
+#include "stability/winding.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -17,95 +18,22 @@ namespace {
 
 using std::numbers::pi;
 
-// nu and the argument of Delta(i nu) up to 2 pi, with its derivative by nu, and the modulus of that of log
-// Delta.
-struct Sample {
-  double nu, argument, slope, rate;
-};
-
-// Where the argument may turn quickly: beside each natural frequency, folded into [0, omega / 2], at
-// distances of its damping rate.
-std::vector<double> first_points(const FloquetDeterminant& determinant) {
-  const double omega = determinant.angular_frequency(), half = 0.5 * omega;
-  const double highest = omega * (determinant.harmonics() + 1.5);
-  std::vector<double> points{0.0, 0.25 * half, 0.5 * half, 0.75 * half, half};
-  for (const ContactPole& pole : determinant.dynamics().poles()) {
-    if (pole.exponent.imag() == 0.0 || pole.exponent.imag() > highest || pole.shape.isZero(0.0)) continue;
-    const double rest = std::fmod(pole.exponent.imag(), omega), folded = std::min(rest, omega - rest);
-    for (const double distance : {-2.0, -0.7, 0.7, 2.0}) {
-      const double nu = folded + distance * std::abs(pole.exponent.real());
-      if (nu > 0.0 && nu < half) points.push_back(nu);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
-// Real operations of one evaluation: the sums over harmonics, a factorization and the solves for the
-// derivative.
+// Real operations of one evaluation without derivative: the sums over harmonics and a factorization.
 double operations_of(const FloquetDeterminant& determinant) {
   const double nodes = determinant.nodes();
-  return nodes * nodes * (8.0 * (2 * determinant.harmonics() + 1) + 32.0 / 3.0 * nodes);
+  return nodes * nodes * (8.0 * (2 * determinant.harmonics() + 1) + 8.0 / 3.0 * nodes);
 }
 
 // True where the monodromy costs less: many nodes, which many contacts that last long have.
 bool is_costly(const FloquetDeterminant& determinant) {
   constexpr double many_operations = 1e9;
-  return operations_of(determinant) * double(first_points(determinant).size()) > many_operations;
+  return operations_of(determinant) * first_evaluations(determinant) > many_operations;
 }
 
 int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
   const double affordable = options.max_operations / std::max(1.0, operations_of(determinant));
   return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
 }
-
-// Follows the argument of the determinant from nu = 0 to omega / 2.
-class Winding {
- public:
-  Winding(FloquetDeterminant& determinant, int max_evaluations)
-      : determinant_(determinant), max_evaluations_(max_evaluations) {}
-
-  // The change of the argument; nothing where max_evaluations are not enough.
-  std::optional<double> operator()() {
-    const std::vector<double> points = first_points(determinant_);
-    if (static_cast<int>(points.size()) > max_evaluations_) return std::nullopt;
-    Sample before = at(points.front());
-    double turned = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const Sample after = at(points[i]);
-      if (!add(before, after, turned)) return std::nullopt;
-      before = after;
-    }
-    return turned;
-  }
-
- private:
-  Sample at(double nu) {
-    const FloquetDeterminant::Value value = determinant_({0.0, nu});
-    return {nu, value.log.imag(), value.derivative.real(), std::abs(value.derivative)};
-  }
-
-  // Adds the change from one sample to the next, through samples between them where it is not certain.
-  bool add(const Sample& from, const Sample& to, double& turned) {
-    const double change = std::remainder(to.argument - from.argument, 2.0 * pi);
-    const double expected = 0.5 * (from.slope + to.slope) * (to.nu - from.nu);
-    // A zero within the step has a rate of at least 2 / step at one of the ends, even where the argument
-    // turns by nearly 2 pi between them, as it does at two equal multipliers beside the circle.
-    const bool smooth = std::max(from.rate, to.rate) * (to.nu - from.nu) < 2.0;
-    if (smooth && std::abs(change) <= pi / 3.0 && std::abs(change - expected) <= 0.6) {
-      turned += change;
-      return true;
-    }
-    const double middle = 0.5 * (from.nu + to.nu);
-    if (determinant_.evaluations() >= max_evaluations_ || !(from.nu < middle && middle < to.nu)) return false;
-    const Sample between = at(middle);
-    return add(from, between, turned) && add(between, to, turned);
-  }
-
-  FloquetDeterminant& determinant_;
-  int max_evaluations_;
-};
 
 // Without harmonics where those of the options do not represent perturbations in contact.
 Truncation truncation_of(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
@@ -222,9 +150,15 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const 
     result.count = own;
     return result;
   }
-  const auto turned = Winding(determinant, affordable_evaluations(determinant, options))();
+  const int affordable = affordable_evaluations(determinant, options);
+  std::optional<double> turned;
+  if (const auto polynomial = polynomial_change(determinant, affordable)) {
+    turned = polynomial->change;
+    result.winding = polynomial->own - *turned / pi;
+  } else if ((turned = determinant_change(determinant, affordable))) {
+    result.winding = own - *turned / pi;
+  }
   result.evaluations = determinant.evaluations();
-  if (turned) result.winding = own - *turned / pi;
   const double rounded = std::round(result.winding);
   if (!turned || !(std::abs(result.winding - rounded) < 1e-3) || rounded < 0.0) {
     result.status = StabilityStatus::effort_limit;

@@ -158,7 +158,7 @@ TEST(StabilityStatus, OfManyLongContactsIsCountedByTheMonodromyWithinTheOperatio
   for (int c = 0; c < n; ++c) stiffness.intervals.push_back({c, 0.0, 1.0});
   stiffness.tangent = [](int, double time) { return 1.0 + 0.9 * std::cos(two_pi * time); };
   StabilityOptions options;
-  options.harmonics = 20;
+  options.harmonics = 30;
   constexpr double frequency = 0.2;
   const auto quick = unstable_multipliers(dynamics, stiffness, frequency, options);
   EXPECT_EQ(quick.evaluations, 0);

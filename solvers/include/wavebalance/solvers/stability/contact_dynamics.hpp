@@ -64,10 +64,10 @@ class ContactDynamics {
   /// The compliance without constant(), and its derivative by s.
   struct Values {
     Eigen::MatrixXcd compliance;  ///< K x C^2, m/N: entry (c, d) in column c + C d
-    Eigen::MatrixXcd slope;       ///< K x C^2, m s/N
+    Eigen::MatrixXcd slope;       ///< K x C^2, m s/N; empty without with_slope
   };
   /// Both at K exponents s (1/s) of equal real part. O(K n C^2).
-  Values compliance(double real, const Eigen::VectorXd& imaginary) const;
+  Values compliance(double real, const Eigen::VectorXd& imaginary, bool with_slope = true) const;
 
   /// A mode or a conjugate pair in the compliance, (linear s + constant) / (a2 s^2 + a1 s + a0).
   struct Section {

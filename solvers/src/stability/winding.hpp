@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "stability/floquet_determinant.hpp"
+
+namespace wavebalance::solvers {
+
+/// The change of the argument of a function over an interval of nu, on which it has no zeros. `at` has the
+/// logarithm and its derivative by i nu. Steps between the ascending `points` are halved until the argument
+/// changes by at most pi / 3 and as its derivative says, and until the derivative shows that no zero lies
+/// beside the step. Nothing where that takes more than `max_evaluations`.
+std::optional<double> argument_change(const std::function<FloquetDeterminant::Value(double)>& at,
+                                      const std::vector<double>& points, int max_evaluations);
+
+/// The change of arg Delta(i nu) over nu = 0..omega / 2, from points around each natural frequency, folded
+/// into that interval. Nothing where the determinant has max_evaluations.
+std::optional<double> determinant_change(FloquetDeterminant& determinant, int max_evaluations);
+
+/// The same of N(i nu) = Delta prod (1 - exp((lambda_j - i nu) T)) = prod (1 - mu_j / z), a polynomial in
+/// 1 / z for infinitely many harmonics, from its values at uniform points of the unit circle. They are
+/// doubled until the polynomial through them has no high powers that matter; the argument is that of the
+/// polynomial. This takes logarithms of the determinant alone, and as many as there are multipliers that do
+/// not decay. `own` is the number of exponents with a positive real part that have not been divided out.
+struct PolynomialChange {
+  double change = 0.0;
+  int own = 0;
+};
+/// The evaluations with which polynomial_change() begins, mostly all that it takes.
+int first_evaluations(const FloquetDeterminant& determinant);
+std::optional<PolynomialChange> polynomial_change(FloquetDeterminant& determinant, int max_evaluations);
+
+}  // namespace wavebalance::solvers
