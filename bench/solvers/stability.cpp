@@ -1,5 +1,8 @@
 #include <benchmark/benchmark.h>
 
+#include <string>
+#include <vector>
+
 #include "stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -21,8 +24,9 @@ struct StabilityCase {
 };
 
 /// A scene's response at `frequency`, in contact, and the time of a point of its sweep.
-StabilityCase stability_case(const std::string& file, double frequency) {
-  const app::Scene scene = app::load_scene(WAVEBALANCE_SCENES "/" + file, {});
+StabilityCase stability_case(const std::string& file, double frequency,
+                             const std::vector<std::string>& overrides = {}) {
+  const app::Scene scene = app::load_scene(WAVEBALANCE_SCENES "/" + file, overrides);
   const app::StructureModel model = app::make_model(scene);
   app::ComposedProblem composed = app::compose_problem(scene, model);
   solvers::FrequencySweepOptions options;
@@ -39,7 +43,9 @@ StabilityCase stability_case(const std::string& file, double frequency) {
 
 StabilityCase scene_of(const std::string& name) {
   return name == "bar" ? stability_case("jones_legrand_2014/case2_sweep.toml", 1275.0)
-                       : stability_case("blade/sweep.toml", 600.0);
+         : name == "blade"
+             ? stability_case("blade/sweep.toml", 600.0)
+             : stability_case("blade/sweep.toml", 600.0, {"time.functions=63", "time.quadrature_points=256"});
 }
 
 void count_in_points(benchmark::State& state, const StabilityCase& scene) {
@@ -94,6 +100,7 @@ void monodromy(benchmark::State& state, const std::string& name) {
 
 BENCHMARK_CAPTURE(unstable_multipliers, bar, "bar")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(unstable_multipliers, blade, "blade")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(unstable_multipliers, blade_63_functions, "fine blade")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(stability_signs, bar, "bar")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(stability_signs, blade, "blade")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(follow_exponents, bar, "bar")->Unit(benchmark::kMicrosecond);

@@ -284,13 +284,17 @@ void add_time(std::vector<SceneKey>& keys) {
       optional);
 }
 
+/// Whether counts take a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
-  constexpr std::size_t few = 6;
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   if (scene.analysis.type != AnalysisType::frequency_sweep && !mode) return true;
-  if (mode && scene.contact.law == ContactLawType::rigid) return true;
-  if (scene.structure.type == StructureType::blade) return false;  // many nodes along its tip
-  return scene.structure.matrices.contact_dofs.size() + scene.contact.pair_contacts().size() <= few;
+  if (mode && scene.contact.law == ContactLawType::rigid) return true;  // not known
+  if (scene.structure.type == StructureType::bar) return true;
+  const int most = mode ? 6 : 30;
+  if (scene.structure.type == StructureType::blade)
+    return 2 * (scene.structure.blade.chord_elements + 1) <= most;  // nodes along its tip
+  const auto contacts = scene.structure.matrices.contact_dofs.size() + scene.contact.pair_contacts().size();
+  return static_cast<int>(contacts) <= most;
 }
 
 void add_analysis(std::vector<SceneKey>& keys) {
@@ -309,7 +313,7 @@ void add_analysis(std::vector<SceneKey>& keys) {
   analysis(&Analysis::stability, "stability", "",
            "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
            "curve, and finds the curve's special points",
-           derived("true; false for curves of more than 6 contacts, whose counts take longer than the curve",
+           derived("true; false for curves of more than 30 contacts and modes of more than 6",
                    stability_by_default),
            only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
   add_sweep(keys);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -292,6 +294,21 @@ void MonodromyOptions::validate() const {
   detail::require_positive("MonodromyOptions", "max_phase", max_phase);
 }
 
+namespace {
+
+// The pieces of a period, cut where the fastest of modes and contacts needs it; nothing where max_pieces do
+// not resolve the contact.
+std::optional<std::vector<Piece>> resolving_pieces(const ContactDynamics& dynamics,
+                                                   const PeriodicStiffness& stiffness, double frequency,
+                                                   const MonodromyOptions& options) {
+  const double phase = options.max_phase * frequency, resolved = phase * options.max_pieces;
+  const double contact = contact_rate(dynamics, stiffness);
+  if (!(contact <= resolved)) return std::nullopt;
+  return pieces(stiffness, phase / std::clamp(largest_exponent(dynamics), contact, resolved));
+}
+
+}  // namespace
+
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const MonodromyOptions& options) {
   options.validate();
@@ -301,13 +318,25 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
                                 std::string(to_string(stiffness.status)) + "; it must be converged");
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
   const Eigen::Index size = propagator.states().size();
+  const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
+  if (!resolving) return Eigen::MatrixXd::Constant(size, size, std::nan(""));
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
-  const double phase = options.max_phase * frequency, resolved = phase * options.max_pieces;
-  const double contact = contact_rate(dynamics, stiffness);
-  if (!(contact <= resolved)) return Eigen::MatrixXd::Constant(size, size, std::nan(""));
-  const double fastest = std::clamp(largest_exponent(dynamics), contact, resolved);
-  for (const Piece& piece : pieces(stiffness, phase / fastest)) propagator.pass(piece, map);
+  for (const Piece& piece : *resolving) propagator.pass(piece, map);
   return map;
+}
+
+double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                            double frequency, const MonodromyOptions& options) {
+  const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
+  if (!resolving) return std::numeric_limits<double>::infinity();
+  const double states = double(States(dynamics, 1.0 / frequency).size());
+  double operations = 25.0 * states * states * states;  // of the eigenvalues [Golub & Van Loan]
+  for (const Piece& piece : *resolving) {
+    const double rows = options.nodes * double(piece.closed.size());
+    operations +=
+        piece.parts * rows * (2.0 / 3.0 * rows * rows + 2.0 * rows * states + 4.0 * states * states);
+  }
+  return operations;
 }
 
 Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,

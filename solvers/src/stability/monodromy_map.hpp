@@ -11,4 +11,9 @@ namespace wavebalance::solvers {
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const MonodromyOptions& options);
 
+/// Real operations that monodromy() takes, estimated: factorizations and substitutions of the parts, and the
+/// eigenvalues.
+double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                            double frequency, const MonodromyOptions& options);
+
 }  // namespace wavebalance::solvers

@@ -9,6 +9,7 @@
 
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
+#include "stability/monodromy_map.hpp"
 #include "stability/stability_checks.hpp"
 #include "stability/winding.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
@@ -24,10 +25,12 @@ double operations_of(const FloquetDeterminant& determinant) {
   return nodes * nodes * (8.0 * (2 * determinant.harmonics() + 1) + 8.0 / 3.0 * nodes);
 }
 
-// True where the monodromy costs less: many nodes, which many contacts that last long have.
-bool is_costly(const FloquetDeterminant& determinant) {
+// True where the monodromy costs much less: many nodes on few modes, which many contacts that last long have.
+bool is_costly(const FloquetDeterminant& determinant, const PeriodicStiffness& stiffness, double frequency) {
   constexpr double many_operations = 1e9;
-  return operations_of(determinant) * first_evaluations(determinant) > many_operations;
+  const double operations = operations_of(determinant) * first_evaluations(determinant);
+  return operations > many_operations &&
+         operations > 2.0 * monodromy_operations(determinant.dynamics(), stiffness, frequency, {});
 }
 
 int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
@@ -142,7 +145,7 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const 
     return counted_by_monodromy(dynamics, stiffness, frequency, options)
         .value_or(without_count(StabilityStatus::too_few_harmonics));
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (is_costly(determinant))
+  if (is_costly(determinant, stiffness, frequency))
     if (const auto counted = counted_by_monodromy(dynamics, stiffness, frequency, options)) return *counted;
   result.harmonics = options.harmonics;
   const int own = unstable_poles(dynamics);

@@ -85,7 +85,8 @@ std::vector<double> first_points(const FloquetDeterminant& determinant) {
   return points;
 }
 
-// Half the number of points on the circle with which to begin: the multipliers that have not decayed.
+// Half the number of points on the circle with which to begin. Those that have not decayed are the least
+// degree of the polynomial, whose high coefficients are small.
 int first_count(const FloquetDeterminant& determinant) {
   constexpr double decayed = -3.5;
   const double period = 2.0 * pi / determinant.angular_frequency();
@@ -93,7 +94,7 @@ int first_count(const FloquetDeterminant& determinant) {
   for (const ContactPole& pole : determinant.dynamics().poles())
     if (pole.exponent.imag() <= highest_frequency(determinant) && pole.exponent.real() * period > decayed)
       lasting += pole.exponent.imag() == 0.0 ? 1 : 2;
-  while (count < lasting) count *= 2;
+  while (4 * count < lasting) count *= 2;
   return count;
 }
 
