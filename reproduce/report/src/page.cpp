@@ -16,6 +16,7 @@ h2 { border-bottom: 2px solid #ddd; padding-bottom: .2rem; margin-top: 3rem; }
 section { margin: 2.5rem 0; }
 img { max-width: 100%; height: auto; border: 1px solid #eee; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; margin: .8rem 0; }
+div.wide { overflow-x: auto; }
 th, td { text-align: left; vertical-align: top; padding: .35rem .6rem; border-top: 1px solid #ddd; }
 th { background: #f6f6f6; }
 q { font-style: italic; }
@@ -51,9 +52,9 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
 
 std::string data_table(const TextTable& table) {
   if (table.empty()) return "";
-  std::string text = "<table>\n";
+  std::string text = "<div class=\"wide\"><table>\n";
   for (std::size_t i = 0; i < table.size(); ++i) text += table_row(table[i], i == 0 ? "th" : "td");
-  return text + "</table>\n";
+  return text + "</table></div>\n";
 }
 
 /// `folder` is that of the results as seen from the page: "extremes/", or empty on a page beside them.
