@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curve_parts.hpp"
 #include "figures.hpp"
 #include "forced_blade.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::blade {
@@ -33,6 +35,7 @@ struct Study {
   app::Scene scene;
   Responses linear;               ///< without contact
   app::Sweep traced;              ///< Fourier, by arc length
+  CurveParts parts;               ///< of that curve, with their stability
   std::vector<Responses> curves;  ///< one per pair, upwards in steps
   Responses down;                 ///< Fourier, downwards in steps
 
@@ -68,6 +71,23 @@ app::Series points_of(const std::string& label, const Responses& responses, doub
   return series;
 }
 
+/// The curve by arc length, dashed where it is unstable, with its folds.
+void add_traced(app::Panel& panel, const Study& study) {
+  std::vector<double> x, y;
+  for (const auto& point : study.traced.curve.points) {
+    x.push_back(point.frequency);
+    y.push_back(point.max_displacement / study.gap());
+  }
+  app::Series traced("by arc length", x, y);
+  traced.colour = Colour::black;
+  traced.width = 1.2;
+  std::vector<app::PlacedPoint> folds;
+  for (const auto& fold : study.parts.folds)
+    folds.push_back({solvers::SpecialPointType::fold, fold.frequency, fold.max_displacement / study.gap()});
+  app::draw_by_stability(panel, traced, study.parts.points, folds);
+  app::draw_special_points(panel, folds);
+}
+
 void add_curves(app::Figure& figure, const Study& study) {
   auto& panel = figure.add_panel("frequency response");
   panel.x.label = "Frequency (Hz)";
@@ -75,23 +95,14 @@ void add_curves(app::Figure& figure, const Study& study) {
   panel.x.upper = study.linear.back().frequency;
   panel.y.label = "Largest u_z at the tip over the gap";
   panel.y.lower = 0.0;
-  panel.y.upper = 6.0;
+  panel.y.upper = 10.0;  // space for the legend
   panel.legend = app::Legend::top_right;
   app::Series straight("without contact", frequencies(study.linear),
                        over_gap(largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
   straight.dash = app::Dash::dashed;
   panel.add(straight);
-  const auto& points = study.traced.curve.points;
-  std::vector<double> x, y;
-  for (const auto& point : points) {
-    x.push_back(point.frequency);
-    y.push_back(point.max_displacement / study.gap());
-  }
-  app::Series traced("Fourier, by arc length", x, y);
-  traced.colour = Colour::black;
-  traced.width = 1.2;
-  panel.add(traced);
+  add_traced(panel, study);
   for (std::size_t i = 0; i < study.curves.size(); ++i)
     panel.add(points_of(pairs[i].label + std::string(", upwards"), study.curves[i], study.gap(),
                         pairs[i].colour, static_cast<int>(i) + 1));
@@ -215,6 +226,16 @@ void notes(report::Artefact& artefact, const Study& study) {
       turns.empty() ? "no frequency" : turns));
 }
 
+void note_stability(report::Artefact& artefact, const CurveParts& parts) {
+  if (parts.folds.empty()) return;
+  artefact.note(fmt::format(
+      "Stability of the curve by arc length, by the number of multipliers outside the unit circle: {}. Dashed is the part between "
+      "the folds at {} and {} Hz if both of its points are unstable; a count takes about a second here, those "
+      "of all points minutes.",
+      parts.counts_text(), report::number(parts.folds[0].frequency, 5),
+      report::number(parts.folds[1].frequency, 5)));
+}
+
 Study solved(report::Artefact& artefact) {
   const std::string file = "forced_response.toml";
   Study study;
@@ -223,10 +244,11 @@ Study solved(report::Artefact& artefact) {
   // A gap of 1 m is never closed; without contact eight functions are as good as any.
   study.linear = stepped_sweep(
       artefact.scene(file, {"contact.gap=1.0", "time.functions=8", "analysis.largest_step=1.0"}), model);
-  study.traced = app::frequency_sweep(
-      artefact.scene(file, {"time.functions=31", "time.quadrature_points=64", "analysis.first_step=0.2",
-                            "analysis.largest_step=2.5", "analysis.output_points=256"}),
-      model);
+  const app::Scene traced = artefact.scene(
+      file, {"time.functions=31", "time.quadrature_points=64", "analysis.first_step=0.2",
+             "analysis.largest_step=2.5", "analysis.output_points=256", "analysis.stability=true"});
+  study.traced = app::frequency_sweep(traced, model);
+  study.parts = curve_parts(traced, model, study.traced);
   for (const Pair& pair : pairs)
     study.curves.push_back(stepped_sweep(artefact.scene(file, pair_overrides(pair)), model));
   study.down = stepped_sweep(reversed(study.scene), model);
@@ -260,7 +282,7 @@ app::Figure drawn(const Study& study) {
   app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 520;
-  figure.panel_height = 300;
+  figure.panel_height = 370;
   add_curves(figure, study);
   add_map(figure, at(study.curves[0], study.frequency()));
   for (const bool force : {false, true})
@@ -279,10 +301,12 @@ void forced_response(report::Artefact& artefact) {
       "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
       "functions and 64 points, and each pair in steps of the frequency with {} functions and {} points a "
       "period: what JL14 names as its next step. Steps go up, each response from the one before, and down "
-      "again; dotted lines mark the gap and the frequency of the histories, whose colours are those of (a).",
+      "again; dotted lines mark the gap and the frequency of the histories, whose colours are those of (a). "
+      "The curve is dashed where it is unstable, by counts at two points of each of its three parts.",
       study.scene.time.functions, study.scene.time.quadrature_points));
   claims(artefact, study);
   notes(artefact, study);
+  note_stability(artefact, study.parts);
 }
 
 }  // namespace wavebalance::blade

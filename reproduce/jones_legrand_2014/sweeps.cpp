@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
@@ -24,13 +25,28 @@ Series curve(const std::string& label, const Points& points) {
   return Series(label, x, y);
 }
 
+std::vector<app::PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points) {
+  std::vector<app::PlacedPoint> marks;
+  for (const auto& point : points)
+    marks.push_back({point.type, point.frequency, millimetres * point.max_displacement});
+  return marks;
+}
+
+/// The sweep of a scene with its stability.
+app::Sweep stable_sweep(const app::Scene& scene) {
+  const auto model = app::make_model(scene);
+  app::Sweep sweep = app::frequency_sweep(scene, model);
+  app::add_stability(scene, model, sweep);
+  return sweep;
+}
+
 }  // namespace
 
 Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs) {
   Resonance resonance{pairs, {}, {}, 0.0};
   for (const auto& pair : pairs) {
     const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
-    resonance.sweeps.push_back(app::frequency_sweep(scene));
+    resonance.sweeps.push_back(resonance.sweeps.empty() ? stable_sweep(scene) : app::frequency_sweep(scene));
     resonance.gap = scene.contact.gap;
     const auto& sweep = resonance.sweeps.back();
     if (!sweep.converged())
@@ -44,7 +60,7 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
 }
 
 app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file) {
-  return app::frequency_sweep(
+  return stable_sweep(
       artefact.scene(file, {"time.functions=63", "analysis.first_step=0.5", "analysis.largest_step=1.0"}));
 }
 
@@ -68,8 +84,11 @@ std::string all_turning_points_text(report::Artefact& artefact, const std::strin
   return ended ? text : text + " (" + std::string(to_string(curve.status)) + ")";
 }
 
-Series sweep_series(const std::string& label, const app::Sweep& sweep) {
-  return curve(label, sweep.curve.points);
+void add_stable_sweep(app::Panel& panel, Series style, const app::Sweep& sweep) {
+  const Series points = curve(style.label, sweep.curve.points);
+  style.x = points.x;
+  style.y = points.y;
+  app::draw_by_stability(panel, style, sweep.stability.points, placed(sweep.stability.special_points));
 }
 
 void note_nyquist_resonances(report::Artefact& artefact, const std::string& file, const app::Sweep& full) {
@@ -116,6 +135,33 @@ double turning_points_spread(const std::vector<app::Sweep>& sweeps) {
   return largest;
 }
 
+std::string unstable_text(const app::Sweep& sweep) {
+  std::vector<std::string> ends;
+  for (const auto& point : sweep.stability.special_points) {
+    if (point.type == solvers::SpecialPointType::grazing) continue;
+    std::string kind(to_string(point.type));
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    ends.push_back(fmt::format("the {} at {} Hz", kind, report::number(point.frequency, 6)));
+  }
+  std::vector<solvers::PointStability> points = sweep.stability.points;
+  // Where contact has just begun, between two points of the period, its stability is not known.
+  std::erase_if(points,
+                [](const auto& one) { return one.status == solvers::StabilityStatus::too_few_samples; });
+  const auto known = [](const auto& one) { return one.status == solvers::StabilityStatus::converged; };
+  if (points.empty() || !std::all_of(points.begin(), points.end(), known)) return "not known";
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    changes += (points[i].unstable > 0) != (points[i - 1].unstable > 0) ? 1 : 0;
+  if (changes == 0 && ends.empty()) return points.front().unstable > 0 ? "everywhere" : "nowhere";
+  if (changes != ends.size() || points.front().unstable > 0)
+    return fmt::format("on parts that end at {}", fmt::join(ends, ", "));
+  std::string text;
+  for (std::size_t i = 0; i < ends.size(); i += 2)
+    text += (i == 0 ? "from " : " and from ") + ends[i] +
+            (i + 1 < ends.size() ? " to " + ends[i + 1] : std::string(" on"));
+  return text;
+}
+
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
   app::Panel panel;
   panel.title = title;
@@ -126,15 +172,15 @@ app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
   for (std::size_t i = 0; i < resonance.pairs.size(); ++i) {
     Series series = curve(resonance.pairs[i].label, resonance.sweeps[i].curve.points);
     series.colour = resonance.pairs[i].colour;
-    if (i > 0) series.dash = app::Dash::dotted;
-    series.width = i > 0 ? 2.4 : 1.6;
+    if (i == 0) {
+      add_stable_sweep(panel, std::move(series), resonance.sweeps[i]);
+      continue;
+    }
+    series.dash = app::Dash::dotted;
+    series.width = 2.4;
     panel.add(std::move(series));
   }
-  Series turns = curve("turning points", resonance.sweeps[0].curve.turning_points);
-  turns.style = app::SeriesStyle::points;
-  turns.colour = app::Colour::black;
-  turns.marker = 1;
-  panel.add(std::move(turns));
+  app::draw_special_points(panel, placed(resonance.sweeps[0].stability.special_points));
   panel.mark_y(millimetres * resonance.gap);
   panel.x.label = "Forcing frequency (Hz)";
   panel.y.label = "Largest tip displacement (mm)";

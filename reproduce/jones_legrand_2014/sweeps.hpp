@@ -10,7 +10,7 @@ namespace wavebalance::jl14 {
 /// The frequency response of one scene with some pairs, and of the same without contact.
 struct Resonance {
   std::vector<Pair> pairs;
-  std::vector<app::Sweep> sweeps;  ///< one per pair
+  std::vector<app::Sweep> sweeps;  ///< one per pair, the first with its stability
   app::Sweep free;
   double gap = 0.0;  ///< m
 };
@@ -25,8 +25,8 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
 /// All turning points of the scene's curve with a pair, those of small returns included, as "6 at 1315.034 to
 /// 1338.035 Hz" and the status if the curve ends early. Every grazing point is solved for.
 std::string all_turning_points_text(report::Artefact& artefact, const std::string& file, const Pair& pair);
-/// The curve of a sweep in mm over Hz.
-Series sweep_series(const std::string& label, const app::Sweep& sweep);
+/// Adds the curve of a sweep in mm over Hz in the style given, dashed where it is unstable.
+void add_stable_sweep(app::Panel& panel, Series style, const app::Sweep& sweep);
 
 /// The point of the largest displacement.
 solvers::SweepPoint peak(const app::Sweep& sweep);
@@ -35,8 +35,12 @@ std::string turning_points_text(const app::Sweep& sweep);
 /// Largest distance of a turning point from that of the first sweep, Hz; NaN where their numbers differ.
 double turning_points_spread(const std::vector<app::Sweep>& sweeps);
 
-/// One panel: the pairs' curves, the response without contact dashed, turning points of the first pair, the
-/// gap.
+/// Where the motions of a sweep are unstable, "from the fold at 1337.7 Hz to the fold at 1315 Hz"; "nowhere";
+/// or "not known".
+std::string unstable_text(const app::Sweep& sweep);
+
+/// One panel: the pairs' curves, that of the first pair dashed where it is unstable and with its special
+/// points, the response without contact, the gap.
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance);
 
 /// Columns trial, weight, frequency_Hz, max_displacement_m, rms_displacement_m of all pairs.

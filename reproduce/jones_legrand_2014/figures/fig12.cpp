@@ -17,10 +17,10 @@ app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonanc
   figure.panels.push_back(
       sweep_panel("first resonance, gap " + report::number(1e3 * first.gap) + " mm", first));
   figure.panels.push_back(sweep_panel("the same, enlarged", first));
-  auto series = sweep_series("", full);
-  series.colour = app::Colour::black;
-  series.width = 0.9;
-  figure.panels[1].add(series);
+  Series style;
+  style.colour = app::Colour::black;
+  style.width = 0.9;
+  add_stable_sweep(figure.panels[1], style, full);
   figure.panels[1].texts.push_back({1272.0, 14.0, "thin black: Fourier:Fourier, 63 functions"});
   figure.panels[1].x = axis("Forcing frequency (Hz)", 1215.0, 1355.0);
   figure.panels[1].y = axis("Largest tip displacement (mm)", 13.5, 16.0);
@@ -28,10 +28,23 @@ app::Figure drawn(const Resonance& first, const app::Sweep& full, const Resonanc
     auto panel =
         sweep_panel("second resonance, gap " + report::number(1e3 * resonance->gap) + " mm", *resonance);
     panel.y.upper = 1.3;
+    panel.legend = app::Legend::none;
     figure.panels.push_back(panel);
   }
-  for (std::size_t i = 1; i < figure.panels.size(); ++i) figure.panels[i].legend = app::Legend::none;
+  figure.panels[0].y.upper = 40.0;  // space for the legend
+  figure.panels[1].legend = app::Legend::none;
+  figure.panels[3].legend = app::Legend::bottom_left;  // of its own special points
+  for (auto& one : figure.panels[3].series)
+    if (one.style != app::SeriesStyle::points) one.label.clear();
   return figure;
+}
+
+void note_stability(report::Artefact& artefact, const Resonance& first, const Resonance& second,
+                    const Resonance& near) {
+  artefact.note(fmt::format(
+      "Stability, which the paper does not treat: motions of Fourier:Fourier are unstable in (a) {}; in (c) {}; in (d) {}. At a period doubling the motion of one period gives way to one of "
+      "two.",
+      unstable_text(first.sweeps[0]), unstable_text(second.sweeps[0]), unstable_text(near.sweeps[0])));
 }
 
 void claim_stiffening(report::Artefact& artefact, const Resonance& first) {
@@ -113,7 +126,10 @@ void fig12(report::Artefact& artefact) {
   artefact.more_data("second", sweeps_table(second), units);
   artefact.more_data("second_small_gap", sweeps_table(near), units);
   artefact.more_data("without_contact", app::sweep_table(first.free.curve), units);
-  artefact.caption("64 functions, constants of case 2 but for the gap of (d); dotted line: the gap.");
+  artefact.caption(
+      "64 functions, constants of case 2 but for the gap of (d); dotted line: the gap. The curve of "
+      "Fourier:Fourier is dashed where its motions are unstable.");
+  note_stability(artefact, first, second, near);
   note_nyquist_resonances(artefact, "case2_sweep.toml", full);
   claim_stiffening(artefact, first);
   claim_agreement(artefact, first, all);
