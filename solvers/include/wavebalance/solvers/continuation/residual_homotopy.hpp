@@ -9,8 +9,8 @@ namespace wavebalance::solvers {
 /// How far a residual homotopy is followed.
 struct ResidualHomotopyOptions {
   int max_points = 1500;
-  /// Up to 512 samples, beyond in proportion to them; 1e10 operations take about a second.
-  double max_operations = 1e9;
+  /// Up to 1536 samples, beyond in proportion to them; 1e10 operations take one to three seconds.
+  double max_operations = 3e9;
   Observer observer;  ///< called after each point with p
 
   /// Throws std::invalid_argument for a number out of its range.
