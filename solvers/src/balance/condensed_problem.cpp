@@ -98,21 +98,23 @@ void CondensedProblem::update_kernel() {
 
 // The median of three harmonics leaves out one at a resonance, and the static one of a structure that is
 // nearly free to move.
-Eigen::VectorXd CondensedProblem::contact_compliance() const {
-  Eigen::VectorXd compliance(contacts());
+Eigen::VectorXd CondensedProblem::median_compliance(int harmonics) const {
+  harmonics = std::min(harmonics, pair_.solved_size());
+  Eigen::VectorXd moduli(harmonics), medians(contacts());
   for (int c = 0; c < contacts(); ++c) {
-    const auto at = [&](int k) {
-      return std::abs(condensed_.compliance(k, c + contacts() * c) * factors_[2][k]);
-    };
-    double a = at(0);
-    if (pair_.solved_size() > 2) {
-      const double b = at(1), d = at(2);
-      a = std::max(std::min(a, b), std::min(std::max(a, b), d));
-    }
-    compliance[c] = a;
+    for (int k = 0; k < harmonics; ++k)
+      moduli[k] = std::abs(condensed_.compliance(k, c + contacts() * c) * factors_[2][k]);
+    std::nth_element(moduli.begin(), moduli.begin() + harmonics / 2, moduli.end());
+    medians[c] = moduli[harmonics / 2];
   }
-  return compliance;
+  return medians;
 }
+
+Eigen::VectorXd CondensedProblem::contact_compliance() const {
+  return median_compliance(pair_.solved_size() > 2 ? 3 : 1);
+}
+
+Eigen::VectorXd CondensedProblem::brief_compliance() const { return median_compliance(pair_.solved_size()); }
 
 // Samples of the motions whose coefficients have the columns of `spectra` over translates.
 void CondensedProblem::synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples) {

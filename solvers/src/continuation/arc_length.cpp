@@ -101,10 +101,17 @@ double ArcLength::evaluate(const CurvePoint& point, const ActiveMask* sides) {
   return sides ? system_.evaluate(point.displacement, *sides) : system_.evaluate(point.displacement);
 }
 
+// Long steps of few samples are halved soon: grazing events are then followed. Those of many samples contain
+// many events and need a correction for every few of them.
+int ArcLength::max_corrections(bool in_piece) const {
+  if (in_piece) return options_.max_corrections;
+  return many_samples_ ? 2 * options_.max_corrections : (options_.max_corrections + 1) / 2;
+}
+
 // Newton on R = 0 in the plane, on the smooth continuation of one piece when its sides are given.
 bool ArcLength::solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections) {
   double parameter_change = 0.0;
-  const int most = sides ? options_.max_corrections : (options_.max_corrections + 1) / 2;
+  const int most = max_corrections(sides != nullptr);
   for (corrections = 0; corrections <= most; ++corrections) {
     if (!parameter_.contains(point.parameter) || system_.operations() > operation_limit_) return false;
     point.residual = evaluate(point, sides);
@@ -171,7 +178,7 @@ double ArcLength::max_turn() const { return many_samples_ ? 2.0 * options_.max_a
 
 // Factor on the next long step.
 double ArcLength::growth(int corrections, double turn) const {
-  constexpr int comfortable_corrections = 3;
+  const int comfortable_corrections = many_samples_ ? 7 : 3;
   constexpr double least = 0.6, share = 0.7;
   const double factor = corrections < comfortable_corrections    ? 1.6
                         : corrections == comfortable_corrections ? 1.1

@@ -69,8 +69,10 @@ class CondensedProblem {
   const Eigen::VectorXd& regularization() const { return regularization_; }
 
   /// How far each contact yields to a unit force at it, m/N: the median of the moduli at the harmonics 0, 1
-  /// and 2, or the static one for fewer than five functions. The scale of 1 / epsilon.
+  /// and 2, or the static one for fewer than five functions.
   Eigen::VectorXd contact_compliance() const;
+  /// How far it yields to forces as brief as the functions resolve, m/N: the median over all harmonics.
+  Eigen::VectorXd brief_compliance() const;
 
   /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
   void apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement);
@@ -113,6 +115,7 @@ class CondensedProblem {
 
  private:
   ImpedanceCoefficients factors(int k) const;
+  Eigen::VectorXd median_compliance(int harmonics) const;
   void apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
                     const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);

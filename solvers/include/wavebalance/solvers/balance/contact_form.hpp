@@ -19,7 +19,8 @@ std::string_view to_string(ContactForm form);
 /// 1 / epsilon of each contact (m/N) for the force form, empty for the displacement form: the argument of
 /// CondensedProblem::set_regularization. Needs the problem's frequency. `automatic` takes the force form
 /// where all laws are unilateral and the slope of one, at the penetration that the contact-free response
-/// would cause, exceeds 1e4 / contact_compliance(). Throws std::invalid_argument for a
+/// would cause, exceeds 1e4 / contact_compliance(). epsilon is 30 / contact_compliance(), or 1 /
+/// (2 brief_compliance()) where this is more. Throws std::invalid_argument for a
 /// rigid law in the displacement form, and for a law in the force form that acts below its gap.
 Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,
                                        ContactForm form);

@@ -54,7 +54,8 @@ struct ArcLengthOptions {
   /// rad, between the tangent of a point and the chord to the next, and between the tangents of successive
   /// points; the latter may differ by twice as much after a long step of more than 512 samples.
   double max_angle = 0.35;
-  int max_corrections = 8;   ///< Newton steps per point, half as many after a long step
+  /// Newton steps per point; half as many after a long step, twice as many with more than 512 samples.
+  int max_corrections = 8;
   double tolerance = 1e-10;  ///< on the relative residual
   GrazingEvents grazing_events = GrazingEvents::at_turning_points;
   /// Operations of the linear systems of all points. The curve ends with no_point when they are used up.
@@ -128,6 +129,7 @@ class ArcLength {
   };
 
   double evaluate(const CurvePoint& point, const ActiveMask* sides);
+  int max_corrections(bool in_piece) const;
   bool solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections);
   bool correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to,
                int& corrections);
