@@ -76,14 +76,21 @@ bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
 }
 
 ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p, double direction) {
+  CurvePoint solution;
+  solution.displacement = displacement;
+  solution.parameter = p;
+  solution.displacement_tangent = Eigen::VectorXd::Zero(displacement.size());
+  solution.parameter_tangent = direction * options_.parameter_scale;
+  return start(solution);
+}
+
+ArcLength::Status ArcLength::start(const CurvePoint& solution) {
+  const CurvePoint along = solution;
   point_ = {};
-  point_.displacement = displacement;
-  point_.parameter = p;
-  parameter_.set(system_, p);
-  point_.residual = system_.evaluate(displacement);
-  CurvePoint along;
-  along.displacement_tangent = Eigen::VectorXd::Zero(displacement.size());
-  along.parameter_tangent = direction * options_.parameter_scale;
+  point_.displacement = solution.displacement;
+  point_.parameter = solution.parameter;
+  parameter_.set(system_, solution.parameter);
+  point_.residual = system_.evaluate(solution.displacement);
   previous_ = point_;
   last_step_ = 0.0;
   orientation_unknown_ = false;

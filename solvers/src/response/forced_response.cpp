@@ -9,6 +9,7 @@
 
 #include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -190,8 +191,9 @@ Candidate solve(const Task& task, const Start& first, int& attractor_periods) {
                       resample(motion.force, task.problem.points(), motion.start)};
   best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
   if (best.ended()) return best;
-  // A structure that does not settle to a motion of the load's period may have an unstable one.
-  return better(std::move(best), try_residual(task, form, attractor_periods == 1 ? settled : first));
+  // A structure that does not settle to a motion of the problem's period may have an unstable one.
+  const bool settles = attractor_periods > 0 && load_periods(task.problem) % attractor_periods == 0;
+  return better(std::move(best), try_residual(task, form, settles ? settled : first));
 }
 
 /// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.

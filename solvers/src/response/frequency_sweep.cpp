@@ -27,6 +27,8 @@ std::string_view to_string(SweepStatus status) {
       return "unbounded";
     case SweepStatus::point_limit:
       return "point_limit";
+    case SweepStatus::ended:
+      return "ended";
     case SweepStatus::cancelled:
       return "cancelled";
   }
@@ -34,8 +36,6 @@ std::string_view to_string(SweepStatus status) {
 }
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A response with contact larger than this many gaps, and than this many times that without contact.
 constexpr double bound = 100.0;
@@ -56,11 +56,13 @@ void leave_out_small_returns(std::vector<TurningPoint>& turns, double least) {
 
 class Sweep {
  public:
-  Sweep(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweepOptions& options)
+  Sweep(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweepOptions& options,
+        const SweepStart* start)
       : problem_(problem),
         laws_(laws),
         system_(problem, laws),
         options_(options),
+        start_(start),
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   ~Sweep() { problem_.set_regularization({}); }
@@ -84,11 +86,19 @@ class Sweep {
   }
 
  private:
-  void trace() {
+  PeriodicResponse first_response() {
+    if (start_) {
+      problem_.set_frequency(start_->response.frequency);
+      return start_->response;
+    }
     problem_.set_frequency(options_.from);
-    ForcedResponseOptions start = options_.start;
-    if (!start.observer) start.observer = options_.observer;
-    const PeriodicResponse first = forced_response(problem_, laws_, start);
+    ForcedResponseOptions how = options_.start;
+    if (!how.observer) how.observer = options_.observer;
+    return forced_response(problem_, laws_, how);
+  }
+
+  void trace() {
+    const PeriodicResponse first = first_response();
     result_.condition = std::max(problem_.condensation().condition(), first.condition);
     if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
@@ -96,23 +106,29 @@ class Sweep {
     system_ = ContactSystem(problem_, laws_);  // in the form of the first point
     result_.regularization = first.regularization;
     result_.form = first.regularization.size() > 0 ? ContactForm::force : ContactForm::displacement;
-    follow_until_open(first.unknown, scaled_options(first));
+    follow_until_open(first_point(first), scaled_options(first));
+  }
+
+  // With a tangent to the side on which the curve is followed.
+  CurvePoint first_point(const PeriodicResponse& first) const {
+    CurvePoint point;
+    point.displacement = first.unknown;
+    point.parameter = first.frequency;
+    const bool directed = start_ && start_->direction.size() > 0;
+    point.displacement_tangent = directed ? start_->direction : Eigen::VectorXd::Zero(first.unknown.size());
+    point.parameter_tangent = directed ? 0.0 : options_.to - options_.from;
+    return point;
   }
 
   // Follows the curve from the first point. Where it returns to a milestone, it is followed again from the
   // milestone before, each time with shorter steps.
-  void follow_until_open(const Eigen::VectorXd& first, ArcLengthOptions arc) {
+  void follow_until_open(CurvePoint from, ArcLengthOptions arc) {
     const FrequencyParameter parameter;
     Milestones milestones(arc);
-    CurvePoint from;
-    from.displacement = first;
-    from.parameter = options_.from;
-    from.parameter_tangent = options_.to - options_.from;
     turns_at_point_.clear();
     while (true) {
       ArcLength curve(system_, parameter, arc);
-      const double direction = from.parameter_tangent > 0.0 ? 1.0 : -1.0;
-      if (curve.start(from.displacement, from.parameter, direction) != ArcLength::Status::advanced) return;
+      if (start_curve(curve, from) != ArcLength::Status::advanced) return;
       if (result_.points.empty() && !record(curve.point())) {
         result_.status = SweepStatus::cancelled;
         return;
@@ -124,6 +140,12 @@ class Sweep {
       from = milestones[before].point;
       forget_points_after(milestones[before].count);
     }
+  }
+
+  ArcLength::Status start_curve(ArcLength& curve, const CurvePoint& from) const {
+    if (from.parameter_tangent == 0.0) return curve.start(from);
+    const double direction = from.parameter_tangent > 0.0 ? 1.0 : -1.0;
+    return curve.start(from.displacement, from.parameter, direction);
   }
 
   // Shorter steps than the last; false when there are none.
@@ -162,6 +184,7 @@ class Sweep {
     while (static_cast<int>(result_.points.size()) < options_.max_points) {
       milestones.pass(curve.point(), static_cast<int>(result_.points.size()));
       if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
+      if (start_ && start_->ends && start_->ends(curve.previous(), curve.point())) return SweepStatus::ended;
       note_turning_point(curve);
       const double ahead = direction * (curve.point().parameter - options_.to);
       const double behind = direction * (options_.from - curve.point().parameter);
@@ -202,20 +225,10 @@ class Sweep {
   }
 
   SweepPoint measure(const CurvePoint& point) {
-    problem_.set_frequency(point.parameter);
+    SweepPoint measured = sweep_point(system_, evaluator_, point);
     result_.condition = std::max(result_.condition, problem_.condensation().condition());
-    system_.evaluate(point.displacement);
     result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
-    const Eigen::MatrixXcd coefficients = problem_.coefficients(system_.force());
-    SweepPoint measured{point.parameter, -infinity,     0.0, 0.0, system_.force().maxCoeff(),
-                        point.residual,  point.grazing, {}};
-    if (options_.keep_unknowns) measured.unknown = point.displacement;
-    for (int c = 0; c < problem_.contacts(); ++c) {
-      const Eigen::VectorXd u = evaluator_(coefficients.col(c));
-      measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
-      measured.rms_displacement = std::max(measured.rms_displacement, u.norm() / std::sqrt(double(u.size())));
-      measured.max_abs_displacement = std::max(measured.max_abs_displacement, u.cwiseAbs().maxCoeff());
-    }
+    if (!options_.keep_unknowns) measured.unknown.resize(0);
     return measured;
   }
 
@@ -232,6 +245,7 @@ class Sweep {
   const ContactLaws& laws_;
   ContactSystem system_;
   const FrequencySweepOptions& options_;
+  const SweepStart* start_;  // null: the first response is sought at `from`
   TrialEvaluator evaluator_;
   FrequencySweep result_;
   double largest_free_ = 0.0;
@@ -241,6 +255,27 @@ class Sweep {
 };
 
 }  // namespace
+
+SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point) {
+  CondensedProblem& problem = system.problem();
+  problem.set_frequency(point.parameter);
+  system.evaluate(point.displacement);
+  const Eigen::MatrixXcd coefficients = problem.coefficients(system.force());
+  SweepPoint measured;
+  measured.frequency = point.parameter;
+  measured.max_displacement = -std::numeric_limits<double>::infinity();
+  measured.max_force = system.force().maxCoeff();
+  measured.residual = point.residual;
+  measured.grazing = point.grazing;
+  measured.unknown = point.displacement;
+  for (int c = 0; c < problem.contacts(); ++c) {
+    const Eigen::VectorXd u = evaluator(coefficients.col(c));
+    measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
+    measured.rms_displacement = std::max(measured.rms_displacement, u.norm() / std::sqrt(double(u.size())));
+    measured.max_abs_displacement = std::max(measured.max_abs_displacement, u.cwiseAbs().maxCoeff());
+  }
+  return measured;
+}
 
 void FrequencySweepOptions::validate() const {
   const bool valid = std::isfinite(from) && std::isfinite(to) && from > 0.0 && to > 0.0 && from != to;
@@ -259,7 +294,17 @@ void FrequencySweepOptions::validate() const {
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options) {
   options.validate();
-  return Sweep(problem, laws, options).run();
+  return Sweep(problem, laws, options, nullptr).run();
+}
+
+FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options, const SweepStart& start) {
+  options.validate();
+  for (const auto* samples : {&start.response.unknown, &start.direction})
+    if (samples->size() != 0 && samples->size() != problem.samples())
+      throw std::invalid_argument("frequency_sweep: the start has " + std::to_string(samples->size()) +
+                                  " samples; expected the problem's " + std::to_string(problem.samples()));
+  return Sweep(problem, laws, options, &start).run();
 }
 
 }  // namespace wavebalance::solvers

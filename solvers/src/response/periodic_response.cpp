@@ -16,6 +16,8 @@ std::string_view to_string(Strategy strategy) {
       return "settling";
     case Strategy::residual_homotopy:
       return "residual_homotopy";
+    case Strategy::perturbation:
+      return "perturbation";
   }
   return "unknown";
 }

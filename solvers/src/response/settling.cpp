@@ -11,6 +11,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 #include "structure/modal_flow.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -75,18 +76,26 @@ Eigen::VectorXcd from_maximum(Eigen::VectorXcd harmonics, double& start) {
   return harmonics;
 }
 
+// Every `step`-th harmonic: those of a load that repeats `step` times within the period.
+Eigen::VectorXcd every(int step, const Eigen::VectorXcd& harmonics) {
+  if (step == 1) return harmonics;
+  const Eigen::Index count = (harmonics.size() + step - 1) / step;
+  return Eigen::VectorXcd(harmonics(Eigen::seqN(0, count, step)));
+}
+
 class Settling {
  public:
   Settling(const CondensedProblem& problem, const ContactLaws& laws, const SettlingOptions& options,
            ModalFlow flow)
-      : laws_(laws), options_(options), flow_(std::move(flow)) {
+      : laws_(laws), options_(options), flow_(std::move(flow)), repeats_(load_periods(problem)) {
     const LinearStructure& structure = problem.structure();
-    const Eigen::VectorXcd harmonics = from_maximum(problem.load_harmonics(), start_);
-    const Eigen::MatrixXcd responses = load_responses(structure, harmonics, problem.frequency());
+    const double frequency = repeats_ * problem.frequency();
+    const Eigen::VectorXcd harmonics = from_maximum(every(repeats_, problem.load_harmonics()), start_);
+    const Eigen::MatrixXcd responses = load_responses(structure, harmonics, frequency);
     free_ = contact_free_motion(structure.contact_directions * responses, options.steps);
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(structure.size());
     for (Eigen::Index n = 0; n < responses.cols(); ++n)
-      velocity -= 2.0 * std::numbers::pi * problem.frequency() * double(n) * responses.col(n).imag();
+      velocity -= 2.0 * std::numbers::pi * frequency * double(n) * responses.col(n).imag();
     // The state is the deviation from the motion without contact.
     free_state_ = flow_.state(responses.real().rowwise().sum(), velocity);
     state_ = -free_state_;
@@ -95,22 +104,24 @@ class Settling {
 
   SettledMotion run() {
     SettledMotion result;
-    result.start = start_;
-    result.displacement = free_;
-    result.force = Eigen::MatrixXd::Zero(free_.rows(), free_.cols());
+    result.start = start_ / repeats_;
+    result.displacement = free_.replicate(1, repeats_);
+    result.force = Eigen::MatrixXd::Zero(free_.rows(), repeats_ * free_.cols());
     std::deque<Eigen::VectorXd> past{state_};
     while (result.periods < options_.max_periods) {
       integrate_period(result);
       ++result.periods;
       if (!state_.allFinite()) return result;  // an undamped mode that is loaded at its own frequency
-      const double change = (state_ - past.front()).norm() / (state_ + free_state_).norm();
-      const int repeats = periods_to(past);
+      const double scale = (state_ + free_state_).norm();
+      const double change = (state_ - past.front()).norm() / scale;
+      double least = 0.0;
+      const int repeats = periods_to(past, least);
       past.push_front(state_);
       if (past.size() > static_cast<std::size_t>(options_.longest)) past.pop_back();
       constexpr int transient = 50;  // before a motion is taken for one of several periods
-      // A spiral towards a motion of one period comes near past states too, and nearly as near the last one.
+      // A spiral towards a motion of fewer periods comes near past states too, and nearly as near later ones.
       constexpr double apart = 100.0;
-      const bool subharmonic = repeats > 1 && change > apart * options_.tolerance;
+      const bool subharmonic = repeats > 1 && least > apart * options_.tolerance * scale;
       if (repeats == 1 || (subharmonic && result.periods > transient)) {
         result.attractor_periods = repeats;
         return result;
@@ -125,32 +136,39 @@ class Settling {
   }
 
  private:
-  // After how many periods the state repeats one of the past ones, the latest first; 0 for none.
-  int periods_to(const std::deque<Eigen::VectorXd>& past) const {
+  // After how many periods the state repeats one of the past ones, the latest first; 0 for none. `least` is
+  // set to its least distance from later ones.
+  int periods_to(const std::deque<Eigen::VectorXd>& past, double& least) const {
     const double close = options_.tolerance * (state_ + free_state_).norm();
-    const auto found = std::find_if(past.begin(), past.end(),
-                                    [&](const auto& one) { return (state_ - one).norm() <= close; });
-    return found == past.end() ? 0 : 1 + static_cast<int>(found - past.begin());
+    least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < past.size(); ++i) {
+      const double distance = (state_ - past[i]).norm();
+      if (distance <= close) return static_cast<int>(i) + 1;
+      least = std::min(least, distance);
+    }
+    return 0;
   }
 
   void integrate_period(SettledMotion& result) {
     const Eigen::MatrixXd& compliance = flow_.step_compliance();
     for (int k = 0; k < options_.steps; ++k) {
       const int next = k + 1 < options_.steps ? k + 1 : 0;
+      const int column = ((result.periods % repeats_) * options_.steps + k + 1) % (repeats_ * options_.steps);
       Eigen::VectorXd end = flow_.advance(state_, force_);
       const Eigen::VectorXd predicted = free_.col(next) + flow_.contact_displacement(end);
       solve_forces(laws_, compliance, predicted, force_);
       flow_.add_force(end, force_);
       state_.swap(end);
-      result.displacement.col(next) = predicted - compliance * force_;
-      result.force.col(next) = force_;
+      result.displacement.col(column) = predicted - compliance * force_;
+      result.force.col(column) = force_;
     }
   }
 
   const ContactLaws& laws_;
   const SettlingOptions& options_;
   ModalFlow flow_;
-  double start_ = 0.0;  // periods after t = 0 at which the motion starts
+  int repeats_ = 1;     // periods of the load within that of the problem
+  double start_ = 0.0;  // periods of the load after t = 0 at which the motion starts
   Eigen::MatrixXd free_;
   Eigen::VectorXd free_state_, state_, force_;
 };
@@ -173,8 +191,9 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
   if (structure.size() > options.max_size) return {};
-  const double step = 1.0 / (problem.frequency() * options.steps);
-  auto flow = ModalFlow::make(structure, problem.frequency(), step, options.max_modes);
+  const double frequency = load_periods(problem) * problem.frequency();
+  const double step = 1.0 / (frequency * options.steps);
+  auto flow = ModalFlow::make(structure, frequency, step, options.max_modes);
   if (!flow) return {};
   return Settling(problem, laws, options, *std::move(flow)).run();
 }

@@ -101,6 +101,9 @@ class ArcLength {
 
   /// Starts at a solution `displacement` of parameter p, towards growing (direction = +1) or falling p.
   Status start(const Eigen::VectorXd& displacement, double p, double direction);
+  /// Starts at a solution, on that side of it to which its tangent points. Only the sign of the product with
+  /// the curve's own tangent matters, which must not vanish.
+  Status start(const CurvePoint& solution);
   /// Goes one step along the curve. O(corrections (active^3 + N log N)).
   Status advance();
   /// Finds the zero of `value` between previous() and point(), by false position along the last step. False

@@ -1,9 +1,11 @@
 #pragma once
+#include <functional>
 #include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/continuation/arc_length.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
 
@@ -18,6 +20,7 @@ enum class SweepStatus {
   unbounded,  ///< the response grew past all bounds, as it does at a resonance without damping: that of a
               ///< Nyquist coefficient which the pair keeps
   point_limit,  ///< max_points was reached
+  ended,        ///< SweepStart::ends
   cancelled     ///< the observer returned false
 };
 
@@ -34,6 +37,10 @@ struct SweepPoint {
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown; empty unless keep_unknowns
 };
+
+/// The SweepPoint of a solution, with its unknown; the system is left at its frequency. O(C (N log N +
+/// points log points)), and a condensation.
+SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point);
 
 /// A point where the curve reverses in frequency: a smooth fold or a grazing event. With a sampled stop each
 /// sample that touches gives a kink, and near folds the curve reverses at many of them.
@@ -68,6 +75,16 @@ struct FrequencySweepOptions {
   void validate() const;
 };
 
+/// A curve's first point where it is known.
+struct SweepStart {
+  PeriodicResponse response;  ///< at a frequency within the interval; the curve has its form
+  /// Of the unknown, samples() values: the side to which the curve is followed; empty: towards `to`.
+  Eigen::VectorXd direction;
+  /// Called after each step with the points before and after it; where it returns true, the curve ends with
+  /// the former. Empty: the curve ends as any other.
+  std::function<bool(const CurvePoint& before, const CurvePoint& after)> ends;
+};
+
 /// A curve of periodic responses.
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
@@ -95,5 +112,11 @@ struct FrequencySweep {
 /// contact. O(points (active^3 + N log N)).
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options);
+
+/// The same from a response that is known, `options.start` without effect. A response that has not converged
+/// is no start. The curve may start between the ends of the interval, of which `from` is then the one at
+/// which it has `returned`.
+FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options, const SweepStart& start);
 
 }  // namespace wavebalance::solvers

@@ -29,8 +29,8 @@ struct SettledMotion {
   int attractor_periods = not_integrated;
   int periods = 0;         ///< integrated
   bool cancelled = false;  ///< the observer asked to stop
-  double start = 0.0;      ///< periods after t = 0 at which the load is largest and the columns begin
-  /// C x steps, m and N: of the last period.
+  double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
+  /// C x steps load_periods(), m and N: of the last period of the problem.
   Eigen::MatrixXd displacement, force;
 };
 

@@ -1,0 +1,26 @@
+#pragma once
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/response/periodic_response.hpp"
+
+namespace wavebalance::solvers {
+
+/// How often the load of a problem repeats within its period: the greatest common divisor of the load's
+/// harmonics above 0, 1 without any. A problem at the frequency f / n with its load in harmonic n has n: its
+/// responses are the motions of n periods of a load of frequency f, and those of fewer.
+int load_periods(const CondensedProblem& problem);
+
+/// ||u(t + p T) - u(t)|| / ||u - mean of u|| over all contacts, for p = `periods` periods T of the load; 0 of
+/// a motion at rest. O(C N).
+/// Throws std::invalid_argument for a number of periods below 1.
+double change_after(const CondensedProblem& problem, const PeriodicResponse& response, int periods);
+
+/// What change_after() a motion that repeats may have. Where the points of a problem are no multiple of its
+/// load_periods(), no period has the samples of another, and a motion repeats but for their error.
+inline constexpr double largest_change = 1e-3;
+
+/// The period of a motion in periods of the load: the least divisor p of load_periods() with change_after()
+/// at most `tolerance`.
+int motion_periods(const CondensedProblem& problem, const PeriodicResponse& response,
+                   double tolerance = largest_change);
+
+}  // namespace wavebalance::solvers

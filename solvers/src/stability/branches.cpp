@@ -1,0 +1,296 @@
+#include "wavebalance/solvers/stability/branches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "linalg/option_checks.hpp"
+#include "stability/branch_arrival.hpp"
+#include "stability/perturbation.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+BranchEnd end_of(SweepStatus status) {
+  switch (status) {
+    case SweepStatus::reached_end:
+      return BranchEnd::to_end;
+    case SweepStatus::returned:
+      return BranchEnd::from_end;
+    case SweepStatus::no_start:
+      return BranchEnd::no_start;
+    case SweepStatus::closed:
+      return BranchEnd::closed;
+    case SweepStatus::lost:
+      return BranchEnd::lost;
+    case SweepStatus::unbounded:
+      return BranchEnd::unbounded;
+    case SweepStatus::point_limit:
+      return BranchEnd::point_limit;
+    case SweepStatus::ended:
+      return BranchEnd::special_point;
+    case SweepStatus::cancelled:
+      break;
+  }
+  return BranchEnd::cancelled;
+}
+
+class Branches {
+ public:
+  Branches(const BranchProblems& problems, const ContactLaws& laws, const ContactDynamics& dynamics,
+           const BranchOptions& options)
+      : problems_(problems), laws_(laws), dynamics_(dynamics), options_(options) {}
+
+  std::vector<Branch> run(const FrequencySweep& main, const CurveStability& stability) {
+    branches_.reserve(std::size_t(options_.max_branches));  // parents point at them
+    follow_all_of({0, 1, &main, &stability});
+    for (std::size_t i = 0; i < branches_.size() && !cancelled_; ++i) {
+      const Branch& branch = branches_[i];
+      follow_all_of({int(i) + 1, branch.periods, &branch.curve, &branch.stability});
+    }
+    return std::move(branches_);
+  }
+
+ private:
+  void follow_all_of(const Parent& parent) {
+    std::vector<bool> arrived(parent.special_points().size(), false);
+    for (std::size_t i = 0; i < parent.special_points().size(); ++i) {
+      if (arrived[i] || cancelled_) continue;
+      for (const double side : sides_of(parent, parent.special_points()[i])) {
+        if (branches_.size() == std::size_t(options_.max_branches)) return;
+        branches_.push_back(follow(parent, int(i), side));
+        cancelled_ = branches_.back().end == BranchEnd::cancelled;
+        const int end_point = branches_.back().end_point;
+        if (end_point >= 0) arrived[std::size_t(end_point)] = true;
+      }
+    }
+  }
+
+  std::vector<double> sides_of(const Parent& parent, const SpecialPoint& point) const {
+    if (point.type == SpecialPointType::branch) return {1.0, -1.0};
+    const bool doubles =
+        point.type == SpecialPointType::period_doubling && 2 * parent.periods <= options_.largest_period;
+    return doubles ? std::vector<double>{1.0} : std::vector<double>{};
+  }
+
+  Branch follow(const Parent& parent, int special_point, double side) {
+    const SpecialPoint& from = parent.special_points()[std::size_t(special_point)];
+    const int times = from.type == SpecialPointType::period_doubling ? 2 : 1;
+    Branch branch;
+    branch.parent = parent.index;
+    branch.special_point = special_point;
+    branch.periods = times * parent.periods;
+    CondensedProblem problem = problems_(branch.periods);
+    if (problem.samples() != times * from.unknown.size())
+      throw std::invalid_argument("follow_branches: the problem of " + std::to_string(branch.periods) +
+                                  " periods has " + std::to_string(problem.samples()) +
+                                  " samples; expected " + std::to_string(times * from.unknown.size()));
+    problem.set_regularization(parent.curve->regularization);
+    FrequencySweepOptions sweep = sweep_options(branch.periods);
+    const Scales scales{scale_of(from), sweep.arc_length.parameter_scale};
+    SweepStart start;
+    if (!begin(parent, from, times, side, problem, scales, start)) return branch;
+    trace(parent, problem, sweep, scales, std::move(start), branch);
+    return branch;
+  }
+
+  double scale_of(const SpecialPoint& from) const {
+    const double given = options_.sweep.arc_length.displacement_scale, gap = laws_.largest_gap();
+    return given > 0.0 ? given : gap > 0.0 ? gap : std::max(from.max_abs_displacement, 1e-300);
+  }
+
+  FrequencySweepOptions sweep_options(int periods) const {
+    FrequencySweepOptions sweep = options_.sweep;
+    sweep.from /= periods;
+    sweep.to /= periods;
+    auto& scale = sweep.arc_length.parameter_scale;
+    scale = scale == 0.0 ? std::abs(sweep.to - sweep.from) / 20.0 : scale / periods;
+    sweep.smallest_return /= periods;
+    sweep.output_points *= periods;
+    sweep.keep_unknowns = true;
+    sweep.observer = observer(periods);
+    return sweep;
+  }
+
+  // Of the load's frequency in place of that of a problem of several periods.
+  Observer observer(int periods) const {
+    if (!options_.observer) return {};
+    return [this, periods](Progress progress) {
+      progress.value *= periods;
+      return options_.observer(progress);
+    };
+  }
+
+  // The direction of the branch in the unknown; empty where the perturbation was not found.
+  Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times) {
+    CondensedProblem before = problems_(parent.periods);
+    before.set_frequency(from.frequency);
+    before.set_regularization(parent.curve->regularization);
+    ContactSystem system(before, laws_);
+    FloquetOptions how;
+    how.stability = options_.stability.stability;
+    const double due = times == 2 ? -1.0 : 1.0;
+    const FloquetExponent* nearest = nullptr;
+    const FloquetExponents found =
+        floquet_exponents(dynamics_, before, laws_, response_at(system, from.unknown), how);
+    for (const FloquetExponent& one : found.values)
+      if (!nearest || std::abs(one.multiplier - due) < std::abs(nearest->multiplier - due)) nearest = &one;
+    if (!nearest || !(std::abs(nearest->multiplier - due) < 0.1)) return {};
+    FloquetExponent exact = *nearest;
+    exact.multiplier = due;
+    return perturbation(exact, times, times * before.points()).unknown(parent.curve->regularization);
+  }
+
+  // The first point of a branch: a small multiple of the direction away from the special point, and on the
+  // curve.
+  bool begin(const Parent& parent, const SpecialPoint& from, int times, double side,
+             CondensedProblem& problem, const Scales& scales, SweepStart& start) {
+    const Eigen::VectorXd way = side * direction(parent, from, times);
+    if (way.size() != problem.samples()) return false;
+    ContactSystem system(problem, laws_);
+    const FrequencyParameter frequency;
+    ArcLengthOptions lengths;
+    lengths.displacement_scale = scales.displacement;
+    lengths.parameter_scale = scales.frequency;
+    lengths.max_corrections = 32;
+    ArcLength path(system, frequency, lengths);
+    CurvePoint origin, beyond, first;
+    origin.displacement = repeated(from.unknown, problem.contacts(), times);
+    origin.parameter = beyond.parameter = from.frequency / times;
+    const double rms = origin.displacement.norm() / std::sqrt(double(origin.displacement.size()));
+    for (const double size : {0.01, 0.03, 0.1}) {
+      beyond.displacement = origin.displacement + 2.0 * size * rms * way;
+      if (!path.between(origin, beyond, 0.5, first)) continue;
+      if (times == 1 && lies_on(*parent.curve, origin, first, scales)) continue;
+      problem.set_frequency(first.parameter);
+      start.response = response_at(system, first.displacement);
+      start.direction = way;
+      return true;
+    }
+    return false;
+  }
+
+  void trace(const Parent& parent, CondensedProblem& problem, const FrequencySweepOptions& sweep,
+             const Scales& scales, SweepStart start, Branch& branch) {
+    Arrival arrival(parent, branch.special_point, problem.contacts(), scales);
+    start.ends = [&](const CurvePoint& before, const CurvePoint& after) { return arrival(before, after); };
+    branch.curve = frequency_sweep(problem, laws_, sweep, start);
+    branch.end = end_of(branch.curve.status);
+    if (branch.curve.points.empty()) return;
+    CurvePoint last;
+    last.displacement = branch.curve.points.back().unknown;
+    last.parameter = branch.curve.points.back().frequency;
+    if (branch.end == BranchEnd::lost && arrival.is_beside(last)) branch.end = BranchEnd::special_point;
+    if (branch.end == BranchEnd::special_point) {
+      arrival.note_nearest(last, 2.0 * std::max(arrival.step(), sweep.arc_length.max_step));
+      branch.end_point = arrival.end_point();
+      if (branch.end_point < 0) branch.end = BranchEnd::parent_curve;
+    }
+    CurveStabilityOptions stability = options_.stability;
+    stability.observer = observer(branch.periods);
+    stability.output_points *= branch.periods;
+    branch.stability = curve_stability(problem, laws_, branch.curve, dynamics_, stability);
+    if (branch.stability.cancelled) branch.end = BranchEnd::cancelled;
+    if (branch.end == BranchEnd::cancelled) return;
+    if (branch.periods > parent.periods) leave_out_parent(problem.contacts(), branch);
+    add_ends(parent, problem, branch);
+  }
+
+  // Beside a period doubling a multiplier of the doubled motion is near 1. Where it passes 1 there, the
+  // discretisation has the doubling of the curve and that of the multiplier at slightly different places:
+  // neither a fold nor a branch point, and the count is that of the points beyond.
+  static void leave_out_parent(int contacts, Branch& branch) {
+    constexpr double beside = 0.1;
+    const auto content = [&](const auto& point) { return alternating_part(point.unknown, contacts).norm(); };
+    double largest = 0.0;
+    for (const SweepPoint& point : branch.curve.points) largest = std::max(largest, content(point));
+    const auto is_beside = [&](const auto& point) { return content(point) < beside * largest; };
+    const auto removed = std::erase_if(branch.stability.special_points, [&](const SpecialPoint& point) {
+      const bool turn_of_samples = point.type == SpecialPointType::fold && !point.located;
+      return (turn_of_samples || point.type == SpecialPointType::branch) && is_beside(point);
+    });
+    if (removed == 0) return;
+    const auto& curve = branch.curve.points;
+    auto& counts = branch.stability.points;
+    std::size_t first = 0, last = curve.size() - 1;
+    while (first < last && is_beside(curve[first])) ++first;
+    while (last > first && is_beside(curve[last])) --last;
+    for (std::size_t i = 0; i < first; ++i) counts[i].unstable = counts[first].unstable;
+    for (std::size_t i = last + 1; i < curve.size(); ++i) counts[i].unstable = counts[last].unstable;
+  }
+
+  // The special points at which a branch begins and ends are points of it, with the counts beside them.
+  void add_ends(const Parent& parent, CondensedProblem& problem, Branch& branch) {
+    problem.set_regularization(parent.curve->regularization);
+    ContactSystem system(problem, laws_);
+    TrialEvaluator evaluator(problem.pair().trial(), options_.sweep.output_points * branch.periods, 0);
+    const auto point_of = [&](int special_point) {
+      const SpecialPoint& from = parent.special_points()[std::size_t(special_point)];
+      const int times = branch.periods / parent.periods;
+      CurvePoint point;
+      point.displacement = repeated(from.unknown, problem.contacts(), times);
+      point.parameter = from.frequency / times;
+      return sweep_point(system, evaluator, point);
+    };
+    auto& points = branch.curve.points;
+    auto& stability = branch.stability.points;
+    points.insert(points.begin(), point_of(branch.special_point));
+    stability.insert(stability.begin(), PointStability(stability.front()));
+    if (branch.end_point < 0) return;
+    points.push_back(point_of(branch.end_point));
+    stability.push_back(PointStability(stability.back()));
+  }
+
+  const BranchProblems& problems_;
+  const ContactLaws& laws_;
+  const ContactDynamics& dynamics_;
+  const BranchOptions& options_;
+  std::vector<Branch> branches_;
+  bool cancelled_ = false;
+};
+
+}  // namespace
+
+std::string_view to_string(BranchEnd end) {
+  switch (end) {
+    case BranchEnd::special_point:
+      return "special_point";
+    case BranchEnd::parent_curve:
+      return "parent_curve";
+    case BranchEnd::from_end:
+      return "frequency_from";
+    case BranchEnd::to_end:
+      return "frequency_to";
+    case BranchEnd::no_start:
+      return "no_start";
+    case BranchEnd::closed:
+      return "closed";
+    case BranchEnd::lost:
+      return "lost";
+    case BranchEnd::unbounded:
+      return "unbounded";
+    case BranchEnd::point_limit:
+      return "point_limit";
+    case BranchEnd::cancelled:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+void BranchOptions::validate() const {
+  sweep.validate();
+  stability.validate();
+  detail::require_at_least("BranchOptions", "largest_period", largest_period, 1);
+  detail::require_at_least("BranchOptions", "max_branches", max_branches, 0);
+}
+
+std::vector<Branch> follow_branches(const BranchProblems& problems, const ContactLaws& laws,
+                                    const ContactDynamics& dynamics, const FrequencySweep& main,
+                                    const CurveStability& stability, const BranchOptions& options) {
+  options.validate();
+  return Branches(problems, laws, dynamics, options).run(main, stability);
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,52 @@
+#include "stability/perturbation.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// sum_n harmonics.col(n + H) exp(i (arg mu + 2 pi n) t) at uniform points of `periods` periods,
+// contact-major.
+Eigen::VectorXcd samples(const Eigen::MatrixXcd& harmonics, double angle, int periods, int points) {
+  const Eigen::Index highest = harmonics.cols() / 2;
+  Eigen::VectorXcd values = Eigen::VectorXcd::Zero(harmonics.rows() * points);
+  for (int l = 0; l < points; ++l) {
+    const double time = double(periods) * l / points;
+    for (Eigen::Index n = -highest; n <= highest; ++n) {
+      const Complex wave = std::polar(1.0, angle * time + 2.0 * std::numbers::pi * double(n) * time);
+      for (Eigen::Index c = 0; c < harmonics.rows(); ++c)
+        values[c * points + l] += harmonics(c, n + highest) * wave;
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+Eigen::VectorXd Perturbation::unknown(const Eigen::VectorXd& regularization) const {
+  Eigen::VectorXd values = displacement;
+  const Eigen::Index points = regularization.size() > 0 ? values.size() / regularization.size() : 0;
+  for (Eigen::Index c = 0; c < regularization.size(); ++c)
+    values.segment(c * points, points) += regularization[c] * force.segment(c * points, points);
+  return values;
+}
+
+Perturbation perturbation(const FloquetExponent& exponent, int periods, int points, double phase) {
+  if (exponent.displacement.isZero(0.0)) return {};
+  const double angle = std::arg(exponent.multiplier);
+  const Eigen::VectorXcd motion = samples(exponent.displacement, angle, periods, points);
+  // Re(exp(i phi) w) is largest where exp(2 i phi) sum w^2 is real and positive.
+  const Complex turn = std::polar(1.0, phase - 0.5 * std::arg(motion.cwiseProduct(motion).sum()));
+  Perturbation result{(turn * motion).real(), {}};
+  const double rms = result.displacement.norm() / std::sqrt(double(result.displacement.size()));
+  if (!(rms > 0.0)) return {};
+  result.displacement /= rms;
+  result.force = (turn * samples(exponent.force, angle, periods, points)).real() / rms;
+  return result;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,22 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+
+namespace wavebalance::solvers {
+
+/// The real motion of a perturbation exp(sigma t) p(t) and its contact force without their growth.
+struct Perturbation {
+  Eigen::VectorXd displacement;  ///< contact-major, with the largest rms of all phases; its rms is 1 m
+  Eigen::VectorXd force;         ///< N
+
+  /// What it is in the unknown of a form, see CondensedProblem::set_regularization.
+  Eigen::VectorXd unknown(const Eigen::VectorXd& regularization) const;
+};
+
+/// Of an exponent found for a motion of one period, at `points` uniform points of `periods` periods. It
+/// repeats after them if the multiplier to that power is real and positive. `phase` (rad) is counted from the
+/// phase of the largest rms. O(C points H). Without an entry where the exponent has no motion.
+Perturbation perturbation(const FloquetExponent& exponent, int periods, int points, double phase = 0.0);
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,183 @@
+#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "linalg/option_checks.hpp"
+#include "stability/perturbation.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+class Search {
+ public:
+  Search(CondensedProblem& problem, const ContactLaws& laws, const SubharmonicOptions& options)
+      : problem_(problem), laws_(laws), options_(options), wanted_(load_periods(problem)) {}
+
+  int periods(const PeriodicResponse& response) const {
+    return motion_periods(problem_, response, options_.tolerance);
+  }
+  bool is_found(const PeriodicResponse& response) const {
+    return response.converged() && periods(response) == wanted_;
+  }
+
+  /// From the motion that the structure settles to; nothing where that has fewer periods. `attractor` and
+  /// `cancelled` are set.
+  std::optional<PeriodicResponse> settled(int& attractor, bool& cancelled) {
+    SettlingOptions how = options_.response.settling;
+    how.observer = options_.response.observer;
+    how.longest = std::max(how.longest, wanted_);
+    const SettledMotion motion = settle(problem_, laws_, how);
+    attractor = motion.attractor_periods;
+    cancelled = motion.cancelled;
+    const bool shorter = attractor > 0 && attractor < wanted_ && wanted_ % attractor == 0;
+    if (attractor == SettledMotion::not_integrated || cancelled || shorter) return std::nullopt;
+    return near(resample(motion.displacement, problem_.points(), motion.start),
+                resample(motion.force, problem_.points(), motion.start), Strategy::settling);
+  }
+
+  /// From perturbations of `response`: one of more periods, if any is found.
+  std::optional<PeriodicResponse> perturbed(const PeriodicResponse& response,
+                                            const ContactDynamics& dynamics) {
+    const double rms = response.displacement.norm() / std::sqrt(double(response.displacement.size()));
+    const int before = periods(response);
+    for (const FloquetExponent& exponent :
+         floquet_exponents(dynamics, problem_, laws_, response, options_.floquet).values) {
+      for (const Perturbation& way : ways(exponent)) {
+        for (const double size : {0.1, 0.3, 0.6, 1.0, -0.1, -0.3, -0.6, -1.0}) {
+          auto found = near(response.displacement + size * rms * way.displacement,
+                            response.contact_force + size * rms * way.force, Strategy::perturbation);
+          if (found.converged() && periods(found) > before) return found;
+          if (found.status == SolveStatus::cancelled) return std::nullopt;
+        }
+        if (auto found = along_curve(response, way)) return found;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // A perturbation that hardly changes its phase; of a pair near the real axis two, as if it were on it.
+  std::vector<Perturbation> ways(FloquetExponent exponent) const {
+    constexpr double small_angle = 0.8, least = 0.2;
+    const double angle = std::abs(std::arg(exponent.multiplier));
+    if (angle > small_angle || std::abs(exponent.multiplier) < least) return {};
+    exponent.multiplier = std::abs(exponent.multiplier);
+    std::vector<Perturbation> result{perturbation(exponent, 1, problem_.points())};
+    if (angle > 1e-6) result.push_back(perturbation(exponent, 1, problem_.points(), 0.5 * std::numbers::pi));
+    std::erase_if(result, [](const Perturbation& way) { return way.displacement.size() == 0; });
+    return result;
+  }
+
+  // The nearest motion of more periods with a given share of the perturbation has another frequency. From
+  // there its curve is followed to that of the problem.
+  std::optional<PeriodicResponse> along_curve(const PeriodicResponse& response, const Perturbation& way) {
+    const double wanted = response.frequency;
+    const int before = periods(response);
+    problem_.set_regularization(response.regularization);
+    const Eigen::VectorXd direction = way.unknown(response.regularization);
+    const double rms = response.unknown.norm() / std::sqrt(double(response.unknown.size()));
+    std::optional<PeriodicResponse> found;
+    for (const double size : {0.03, 0.1, -0.03, -0.1}) {
+      const auto start = beside(response, size * rms * direction, rms);
+      if (!start || start->response.frequency == wanted) continue;
+      const FrequencySweep curve =
+          frequency_sweep(problem_, laws_, towards(start->response.frequency, wanted, rms), *start);
+      problem_.set_regularization(response.regularization);
+      if (curve.status != SweepStatus::reached_end) continue;
+      problem_.set_frequency(wanted);
+      ContactSystem system(problem_, laws_);
+      PeriodicResponse last = response_at(system, curve.points.back().unknown);
+      last.strategy = Strategy::perturbation;
+      if (periods(last) > before) found = std::move(last);
+      if (found) break;
+    }
+    problem_.set_regularization({});
+    problem_.set_frequency(wanted);
+    return found;
+  }
+
+  // The solution in the plane perpendicular to `change` through its end, at whatever frequency.
+  std::optional<SweepStart> beside(const PeriodicResponse& response, const Eigen::VectorXd& change,
+                                   double rms) {
+    ContactSystem system(problem_, laws_);
+    const FrequencyParameter frequency;
+    ArcLengthOptions lengths;
+    lengths.displacement_scale = rms;
+    lengths.parameter_scale = 0.1 * response.frequency;
+    lengths.max_corrections = 32;
+    CurvePoint here, beyond, first;
+    here.displacement = response.unknown;
+    beyond.displacement = response.unknown + 2.0 * change;
+    here.parameter = beyond.parameter = response.frequency;
+    if (!ArcLength(system, frequency, lengths).between(here, beyond, 0.5, first)) return std::nullopt;
+    problem_.set_frequency(first.parameter);
+    return SweepStart{response_at(system, first.displacement), change, {}};
+  }
+
+  FrequencySweepOptions towards(double from, double to, double rms) const {
+    FrequencySweepOptions sweep;
+    sweep.from = from - 0.5 * (to - from);  // the curve may go the other way at first
+    sweep.to = to;
+    sweep.max_points = 300;
+    sweep.keep_unknowns = true;
+    sweep.arc_length.displacement_scale = rms;
+    sweep.arc_length.parameter_scale = 0.1 * to;
+    sweep.observer = options_.response.observer;
+    return sweep;
+  }
+
+  PeriodicResponse near(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,
+                        Strategy strategy) {
+    ForcedResponseOptions newton_alone = options_.response;
+    newton_alone.fallbacks = false;
+    PeriodicResponse response = forced_response(problem_, laws_, newton_alone, displacement, force);
+    if (response.converged()) response.strategy = strategy;
+    return response;
+  }
+
+  CondensedProblem& problem_;
+  const ContactLaws& laws_;
+  const SubharmonicOptions& options_;
+  int wanted_;
+};
+
+}  // namespace
+
+void SubharmonicOptions::validate() const {
+  response.validate();
+  floquet.validate();
+  detail::require_positive("SubharmonicOptions", "tolerance", tolerance);
+}
+
+PeriodicResponse subharmonic_response(CondensedProblem& problem, const ContactLaws& laws,
+                                      const ContactDynamics* dynamics, const SubharmonicOptions& options,
+                                      const Eigen::VectorXd& guess) {
+  options.validate();
+  PeriodicResponse best = forced_response(problem, laws, options.response, guess);
+  Search search(problem, laws, options);
+  const bool touches = !best.contact_force.isZero(0.0);
+  if (load_periods(problem) == 1 || !touches || search.is_found(best) ||
+      best.status == SolveStatus::cancelled)
+    return best;
+  int attractor = SettledMotion::not_integrated;
+  bool cancelled = false;
+  const auto settled = search.settled(attractor, cancelled);
+  if (settled && settled->converged() && (search.is_found(*settled) || !best.converged())) best = *settled;
+  best.attractor_periods = attractor;
+  if (cancelled) best.status = SolveStatus::cancelled;
+  while (dynamics && best.converged() && !search.is_found(best)) {
+    auto further = search.perturbed(best, *dynamics);
+    if (!further) break;
+    best = *std::move(further);
+    best.attractor_periods = attractor;
+  }
+  return best;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,207 @@
+#include "wavebalance/solvers/stability/branches.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "constants.hpp"
+#include "support/jl14_bar.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Type = SpecialPointType;
+
+/// Problems of one period of the load with these sizes, and of several periods with as many times more.
+BranchProblems problems_of(const LinearStructure& structure, int functions, int points) {
+  return [&structure, functions, points](int periods) {
+    Eigen::VectorXcd load = Eigen::VectorXcd::Zero(periods + 1);
+    load[periods] = 1.0;
+    const int odd = periods * (functions - 1) + 1;
+    return CondensedProblem(testing::fourier_pair(odd, periods * points), structure, load);
+  };
+}
+
+/// A curve, its stability and its branches.
+struct Traced {
+  FrequencySweep curve;
+  CurveStability stability;
+  std::vector<Branch> branches;
+};
+
+Traced trace(const BranchProblems& problems, const LinearStructure& structure, const ContactLaws& laws,
+             double from, double to, int largest_period, const Observer& observer = {}) {
+  CondensedProblem problem = problems(1);
+  BranchOptions options;
+  options.sweep.from = from;
+  options.sweep.to = to;
+  options.sweep.keep_unknowns = true;
+  options.largest_period = largest_period;
+  options.observer = observer;
+  const ContactDynamics dynamics(structure);
+  Traced traced;
+  traced.curve = frequency_sweep(problem, laws, options.sweep);
+  traced.stability = curve_stability(problem, laws, traced.curve, dynamics);
+  traced.branches = follow_branches(problems, laws, dynamics, traced.curve, traced.stability, options);
+  return traced;
+}
+
+std::vector<double> frequencies(const CurveStability& stability, Type type, double unit) {
+  std::vector<double> found;
+  for (const SpecialPoint& point : stability.special_points)
+    if (point.type == type) found.push_back(unit * point.frequency);
+  return found;
+}
+
+/// The response of the problem of a branch at one of its points.
+PeriodicResponse response_of(CondensedProblem& problem, const ContactLaws& laws, const SweepPoint& point) {
+  problem.set_frequency(point.frequency);
+  ContactSystem system(problem, laws);
+  return response_at(system, point.unknown);
+}
+
+/// Every point but the two ends, which are motions of the parent, solves the balance and has the whole
+/// period.
+void expect_motions_of_the_period(const Branch& branch, const BranchProblems& problems,
+                                  const ContactLaws& laws, double largest_residual = 1e-9) {
+  CondensedProblem problem = problems(branch.periods);
+  for (std::size_t i = 1; i + 1 < branch.curve.points.size(); ++i) {
+    const PeriodicResponse response = response_of(problem, laws, branch.curve.points[i]);
+    EXPECT_LE(response.residual, largest_residual);
+    EXPECT_EQ(motion_periods(problem, response), branch.periods) << branch.curve.points[i].frequency;
+  }
+}
+
+const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.8);
+const testing::LinearContact stop{10.0, 0.1};
+
+// Where the motion of one period is unstable, 2.2062 to 2.9737 rad/s. The branch turns back at 3.024
+// and 2.927 rad/s, and between 2.363 and 2.446 rad/s it is itself doubled.
+TEST(Branches, OfAnOscillatorLeaveAtOnePeriodDoublingAndArriveAtTheOther) {
+  const auto problems = problems_of(oscillator, 63, 512);
+  const Traced traced = trace(problems, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 4);
+  ASSERT_EQ(traced.branches.size(), 2u);
+  const Branch& doubled = traced.branches[0];
+  EXPECT_EQ(doubled.parent, 0);
+  EXPECT_EQ(doubled.periods, 2);
+  EXPECT_EQ(doubled.end, BranchEnd::special_point);
+  const auto at = [&](int index) { return traced.stability.special_points[std::size_t(index)]; };
+  EXPECT_EQ(at(doubled.end_point).type, Type::period_doubling);
+  EXPECT_NEAR(two_pi * at(doubled.special_point).frequency, 2.206199894019, 1e-4);
+  EXPECT_NEAR(two_pi * at(doubled.end_point).frequency, 2.973736781998, 1e-4);
+  EXPECT_EQ(doubled.curve.points.front().frequency, 0.5 * at(doubled.special_point).frequency);
+  EXPECT_EQ(doubled.curve.points.back().frequency, 0.5 * at(doubled.end_point).frequency);
+  const auto further = frequencies(doubled.stability, Type::period_doubling, 2.0 * two_pi);
+  ASSERT_EQ(further.size(), 2u);
+  EXPECT_NEAR(further[0], 2.36300, 2e-4);
+  EXPECT_NEAR(further[1], 2.44572, 2e-4);
+  const auto folds = frequencies(doubled.stability, Type::fold, 2.0 * two_pi);
+  ASSERT_EQ(folds.size(), 2u);
+  EXPECT_NEAR(folds[0], 3.02430, 2e-4);
+  EXPECT_NEAR(folds[1], 2.92686, 2e-4);
+  EXPECT_TRUE(frequencies(doubled.stability, Type::branch, 1.0).empty());
+  expect_motions_of_the_period(doubled, problems, stop);
+  const Branch& again = traced.branches[1];
+  EXPECT_EQ(again.parent, 1);
+  EXPECT_EQ(again.periods, 4);
+  EXPECT_EQ(again.end, BranchEnd::special_point);
+  EXPECT_EQ(again.end_point, again.special_point + 1);
+}
+
+TEST(Branches, OfAnOscillatorAreStableButWhereTheyDoubleAndBetweenTheirFolds) {
+  const auto problems = problems_of(oscillator, 63, 512);
+  const Traced traced = trace(problems, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 2);
+  ASSERT_EQ(traced.branches.size(), 1u);
+  const Branch& branch = traced.branches[0];
+  ASSERT_EQ(branch.stability.points.size(), branch.curve.points.size());
+  const auto peak = std::max_element(branch.curve.points.begin(), branch.curve.points.end(),
+                                     [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  for (auto point = branch.curve.points.begin(); point != peak; ++point) {
+    const double omega = 2.0 * two_pi * point->frequency;
+    if (std::abs(omega - 2.36300) < 1e-3 || std::abs(omega - 2.44572) < 1e-3 || omega > 3.024) continue;
+    const bool doubled = omega > 2.36300 && omega < 2.44572;
+    EXPECT_EQ(branch.stability.points[std::size_t(point - branch.curve.points.begin())].unstable,
+              int{doubled})
+        << omega;
+  }
+}
+
+// Subcritical at both ends: the motion of one period is stable between the doublings, that of two unstable.
+TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
+  const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
+  testing::ExponentialLaw law = testing::jl14_case_2.law;
+  law.start = 1e-4;
+  const auto problems = problems_of(bar, 63, 512);
+  const Traced traced = trace(problems, bar, law, 2800.0, 3050.0, 2);
+  ASSERT_EQ(traced.branches.size(), 1u);
+  const Branch& branch = traced.branches[0];
+  EXPECT_EQ(branch.end, BranchEnd::special_point);
+  EXPECT_NEAR(2.0 * branch.curve.points.front().frequency, 2840.476702, 0.5);
+  EXPECT_NEAR(2.0 * branch.curve.points.back().frequency, 2988.746353, 0.5);
+  for (const PointStability& point : branch.stability.points) EXPECT_EQ(point.unstable, 1);
+  for (const SweepPoint& point : branch.curve.points) {
+    EXPECT_GT(2.0 * point.frequency, 2840.0);
+    EXPECT_LT(2.0 * point.frequency, 2991.0);
+  }
+  expect_motions_of_the_period(branch, problems, law);
+}
+
+// The motion between equal stops loses its symmetry, u(t + T/2) = -u(t), at two branch points. Both sides are
+// the same motion mirrored.
+TEST(Branches, OfAnOscillatorBetweenEqualStopsAreTheMotionsWithoutItsSymmetry) {
+  LinearStructure structure = oscillator;
+  structure.contact_directions = Eigen::MatrixXd{{1.0}, {-1.0}}.sparseView();
+  const auto problems = problems_of(structure, 63, 512);
+  const Traced traced = trace(problems, structure, stop, 1.6 / two_pi, 0.77 / two_pi, 1);
+  const auto points = frequencies(traced.stability, Type::branch, two_pi);
+  ASSERT_EQ(points.size(), 2u);
+  ASSERT_EQ(traced.branches.size(), 2u);
+  const auto& left = traced.branches[0];
+  const auto& right = traced.branches[1];
+  for (const Branch& branch : traced.branches) {
+    EXPECT_EQ(branch.end, BranchEnd::special_point);
+    EXPECT_EQ(branch.periods, 1);
+    EXPECT_NEAR(two_pi * branch.curve.points.front().frequency, points[0], 1e-12);
+    EXPECT_NEAR(two_pi * branch.curve.points.back().frequency, points[1], 1e-12);
+  }
+  const auto middle = [](const Branch& branch) {
+    return branch.curve.points[branch.curve.points.size() / 2];
+  };
+  ASSERT_EQ(left.curve.points.size(), right.curve.points.size());
+  EXPECT_NEAR(middle(left).frequency, middle(right).frequency, 1e-6 * middle(left).frequency);
+  const Eigen::Index half = 256;
+  const Eigen::VectorXd u = middle(left).unknown.head(512), v = middle(right).unknown.head(512);
+  Eigen::VectorXd mirrored(512);
+  mirrored << -v.tail(half), -v.head(half);
+  EXPECT_LE((u - mirrored).norm(), 1e-5 * u.norm());
+  EXPECT_GE((u - v).norm(), 0.1 * u.norm());
+}
+
+TEST(Branches, StopWhenTheirObserverSaysSo) {
+  const auto problems = problems_of(oscillator, 31, 256);
+  const Traced traced = trace(problems, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 2,
+                              [](const Progress& progress) { return progress.step < 3; });
+  ASSERT_EQ(traced.branches.size(), 1u);
+  EXPECT_EQ(traced.branches[0].end, BranchEnd::cancelled);
+}
+
+TEST(Branches, NeedAProblemWithTheSamplesOfAllPeriods) {
+  const auto problems = problems_of(oscillator, 31, 256);
+  const BranchProblems too_small = [&](int) { return problems(1); };
+  try {
+    trace(too_small, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 2);
+    FAIL() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("512"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

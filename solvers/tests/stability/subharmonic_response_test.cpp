@@ -1,0 +1,153 @@
+#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "constants.hpp"
+#include "support/jl14_bar.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+/// The load in harmonic `periods` of the motion's period.
+Eigen::VectorXcd load_in(int periods) {
+  Eigen::VectorXcd load = Eigen::VectorXcd::Zero(periods + 1);
+  load[periods] = 1.0;
+  return load;
+}
+
+/// A problem of `periods` periods of a load of this frequency (Hz).
+CondensedProblem problem_of(TimePair pair, const LinearStructure& structure, int periods, double frequency) {
+  CondensedProblem problem(std::move(pair), structure, load_in(periods));
+  problem.set_frequency(frequency / periods);
+  return problem;
+}
+
+const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.8);
+const testing::LinearContact stop{10.0, 0.1};
+
+TEST(LoadPeriods, AreTheCommonDivisorOfTheHarmonics) {
+  for (const int periods : {1, 2, 3, 5}) {
+    const auto problem = problem_of(testing::fourier_pair(31, 64), oscillator, periods, 0.3);
+    EXPECT_EQ(load_periods(problem), periods);
+  }
+  Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(10);
+  harmonics[0] = harmonics[6] = harmonics[9] = 1.0;
+  EXPECT_EQ(load_periods(CondensedProblem(testing::fourier_pair(31, 64), oscillator, harmonics)), 3);
+}
+
+// Both are the same motion, written over 1 and over n periods.
+TEST(SubharmonicResponse, OfALinearStructureIsTheOrdinaryOne) {
+  const double frequency = 0.3;
+  auto once = problem_of(testing::fourier_pair(15, 32), oscillator, 1, frequency);
+  for (const int periods : {2, 3, 4}) {
+    auto problem = problem_of(testing::fourier_pair(31, 32 * periods), oscillator, periods, frequency);
+    const auto response = subharmonic_response(problem, testing::LinearContact{10.0, 1e3}, nullptr, {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_EQ(motion_periods(problem, response), 1);
+    EXPECT_LE(change_after(problem, response, 1), 1e-14);
+    for (int l = 0; l < problem.points(); ++l)
+      EXPECT_NEAR(response.displacement[l], once.contact_free_response()[l % 32], 1e-14);
+  }
+}
+
+/// rms of the difference over the rms, the second repeated or shifted by one period of the load where that is
+/// closer.
+double distance(const Eigen::VectorXd& u, Eigen::VectorXd v, int periods) {
+  double least = std::numeric_limits<double>::infinity();
+  const Eigen::Index shift = v.size() / periods;
+  for (int turn = 0; turn < periods; ++turn) {
+    least = std::min(least, (u - v).norm() / u.norm());
+    const Eigen::VectorXd before = v;
+    v << before.tail(v.size() - shift), before.head(shift);
+  }
+  return least;
+}
+
+/// The motion that the structure settles to, by steps of second order that share nothing with the balance.
+SettledMotion settled(CondensedProblem& problem, const ContactLaws& laws) {
+  SettlingOptions options;
+  options.steps = 16384;
+  options.tolerance = 1e-9;
+  options.max_periods = 2000;
+  return settle(problem, laws, options);
+}
+
+// Between its period doublings at 2.2062 and 2.9737 rad/s the motion of one period is unstable. Both have
+// errors of second order in their steps, 2e-6 here.
+TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheMotionThatItSettlesTo) {
+  const ContactDynamics dynamics(oscillator);
+  for (const double omega : {2.25, 2.5, 2.7, 2.9}) {
+    auto problem = problem_of(testing::fourier_pair(253, 2048), oscillator, 2, omega / two_pi);
+    const auto response = subharmonic_response(problem, stop, &dynamics, {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_EQ(motion_periods(problem, response), 2);
+    EXPECT_EQ(unstable_multipliers(dynamics, problem, stop, response).count, 0);
+    const SettledMotion motion = settled(problem, stop);
+    EXPECT_EQ(motion.attractor_periods, 2);
+    EXPECT_LE(distance(response.displacement, resample(motion.displacement, 2048, motion.start), 2), 5e-6);
+  }
+}
+
+// Where that of two periods is itself doubled.
+TEST(SubharmonicResponse, OfFourPeriodsIsTheMotionThatItSettlesTo) {
+  const ContactDynamics dynamics(oscillator);
+  auto problem = problem_of(testing::fourier_pair(505, 4096), oscillator, 4, 2.4 / two_pi);
+  const auto response = subharmonic_response(problem, stop, &dynamics, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_EQ(motion_periods(problem, response), 4);
+  EXPECT_EQ(unstable_multipliers(dynamics, problem, stop, response).count, 0);
+  const SettledMotion motion = settled(problem, stop);
+  EXPECT_EQ(motion.attractor_periods, 4);
+  EXPECT_LE(distance(response.displacement, resample(motion.displacement, 4096, motion.start), 4), 5e-6);
+}
+
+// Nothing settles to an unstable motion. It is beside that of one period, along its perturbation.
+TEST(SubharmonicResponse, IsFoundFromAPerturbationWhereItIsUnstable) {
+  const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
+  testing::ExponentialLaw law = testing::jl14_case_2.law;
+  law.start = 1e-4;
+  const ContactDynamics dynamics(bar);
+  for (const double frequency : {2845.0, 2850.0}) {
+    auto problem = problem_of(testing::fourier_pair(125, 1024), bar, 2, frequency);
+    const auto response = subharmonic_response(problem, law, &dynamics, {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_EQ(motion_periods(problem, response), 2) << frequency;
+    EXPECT_EQ(response.strategy, Strategy::perturbation);
+    EXPECT_NE(response.attractor_periods, 2);
+    EXPECT_EQ(unstable_multipliers(dynamics, problem, law, response).count, 1);
+  }
+}
+
+// No motion of three periods is near: what is found is that of one period, and its record can say so.
+TEST(SubharmonicResponse, IsTheOrdinaryOneWhereNoOtherIsFound) {
+  const ContactDynamics dynamics(oscillator);
+  auto problem = problem_of(testing::fourier_pair(187, 1536), oscillator, 3, 2.0 / two_pi);
+  auto once = problem_of(testing::fourier_pair(63, 512), oscillator, 1, 2.0 / two_pi);
+  const auto response = subharmonic_response(problem, stop, &dynamics, {});
+  const auto ordinary = forced_response(once, stop, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_EQ(motion_periods(problem, response), 1);
+  EXPECT_LE((response.displacement - ordinary.displacement.replicate(3, 1)).norm(),
+            1e-9 * response.displacement.norm());
+}
+
+// Without Floquet exponents, as of rigid contact.
+TEST(SubharmonicResponse, OfOtherPairsIsFoundBySettling) {
+  for (const auto& pair : {testing::make_pair(spectral::FourierBasis(64), spectral::FourierBasis(64), 512),
+                           testing::make_pair(testing::HaarBasis{64}, spectral::FourierBasis(64), 512)}) {
+    auto problem = problem_of(pair, oscillator, 2, 2.5 / two_pi);
+    const auto response = subharmonic_response(problem, stop, nullptr, {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_EQ(motion_periods(problem, response), 2);
+    EXPECT_LE(response.residual, 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
