@@ -1,5 +1,7 @@
 #include "wavebalance/app/analysis/analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,29 +14,15 @@
 #include "analysis/response_parts.hpp"
 #include "analysis/stability.hpp"
 #include "analysis/summary_parts.hpp"
+#include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  solvers::FrequencySweepOptions options;
-  options.from = analysis.frequency_from;
-  options.to = analysis.frequency_to;
-  options.output_points = analysis.output_points;
-  options.max_points = analysis.max_points;
-  options.start.form = scene.contact.form;
-  auto& arc = options.arc_length;
-  arc.parameter_scale = std::abs(options.to - options.from) / 20.0;
-  arc.initial_step = analysis.first_step / arc.parameter_scale;
-  arc.max_step = analysis.largest_step / arc.parameter_scale;
-  arc.min_step = std::min(arc.min_step, arc.initial_step / 20.0);
-  return options;
-}
 
 Table level_table(const Refinement& refinement) {
   Table table({"trial", "weight", "functions", "quadrature_points", "estimated_error", "truncation_error",
@@ -53,6 +41,33 @@ void append_refinement(Summary& summary, const Refinement& refinement, double to
   summary.emplace_back("ladder_seconds", refinement.seconds);
 }
 
+/// Which motion was found where those of several periods of the load were sought.
+void append_period(Record& record, int periods, int motion_periods) {
+  if (periods == 1) return;
+  record.summary.emplace_back("subharmonic", std::int64_t{periods});
+  record.summary.emplace_back("period_of_motion", std::int64_t{motion_periods});
+  if (motion_periods == periods) return;
+  record.warnings.push_back(fmt::format(
+      "analysis.subharmonic is {}, but the motion found repeats after {} of the load already: none of {} "
+      "periods was found.",
+      periods, motion_periods == 1 ? "one period" : fmt::format("{} periods", motion_periods), periods));
+}
+
+/// What the structure does from rest, where it was integrated.
+void append_attractor(Record& record, int periods, const Response& response) {
+  if (response.attractor_periods < 0) return;
+  record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
+  const int attractor = response.attractor_periods;
+  if (attractor > 0 && periods % attractor == 0) return;
+  record.warnings.push_back(
+      attractor == 0
+          ? std::string("From rest the structure settles to no motion of up to 16 periods of the load within "
+                        "600 periods.")
+          : fmt::format("From rest the structure settles to a motion of {} periods of the load, which "
+                        "analysis.subharmonic = {} computes.",
+                        attractor, attractor));
+}
+
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
   record.warnings = model.warnings;
@@ -65,8 +80,9 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back("strategy", response.strategy);
-  if (response.attractor_periods >= 0)
-    record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
+  append_period(record, response.periods, response.motion_periods);
+  if (response.periods > 1) record.summary.emplace_back("change_after_one_period", response.change_after_one);
+  append_attractor(record, response.periods, response);
   if (!response.form.empty()) record.summary.emplace_back("form", response.form);
   if (response.rigid) {
     record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
@@ -129,23 +145,35 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("contact_fraction", missing);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
+  append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
+  if (scene.analysis.branches) append_branches(record, sweep);
   append_discretisation(record.summary, scene.time);
   record.summary.emplace_back("form", std::string(to_string(sweep.curve.form)));
   append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   append_structure(record.summary, model);
-  record.sweep = sweep_table(sweep);
+  record.sweep = sweep_table(sweep, scene.analysis.branches);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
   return record;
 }
 
 Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
-  options.observer = observer;
+  options.observer = of_load(observer, scene.analysis.subharmonic);
   options.keep_unknowns = scene.analysis.stability;
   Sweep sweep;
   ComposedProblem composed = compose_problem(scene, model);
-  sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
+  if (scene.analysis.subharmonic == 1) {
+    sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
+    return sweep;
+  }
+  composed.problem.set_frequency(options.from);
+  options.start.observer = options.observer;
+  const auto first = several_periods(composed.problem, composed.laws, model.structure, options.start);
+  sweep.periods = scene.analysis.subharmonic;
+  sweep.motion_periods = solvers::motion_periods(composed.problem, first);
+  sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options, {first, {}, {}});
+  scale_frequencies(sweep.curve, sweep.periods);
   return sweep;
 }
 

@@ -36,7 +36,8 @@ std::vector<double> nyquist_resonances(const Scene& scene, double from, double t
     const Eigen::VectorXd shape = modes.shapes.col(mode);
     const double damping = shape.dot(structure.damping * shape), omega = modes.omega[mode];
     for (const double root : positive_roots(nyquist(2), nyquist(1) * damping, nyquist(0) * omega * omega))
-      if (root >= from && root <= to) frequencies.push_back(root);
+      if (const double load = scene.analysis.subharmonic * root; load >= from && load <= to)
+        frequencies.push_back(load);
   }
   std::sort(frequencies.begin(), frequencies.end());
   return frequencies;

@@ -1,6 +1,7 @@
 #include "analysis/record_figure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -95,17 +96,22 @@ Series thinned(const Series& series) {
   return result;
 }
 
+std::string time_label(int periods) {
+  if (periods == 1) return "Time (fraction of a period)";
+  return "Time (fraction of " + std::to_string(periods) + " periods of the load)";
+}
+
 void add_motion(Figure& figure, const std::string& quantity, const std::string& unit,
-                const Eigen::VectorXd& values, bool converged) {
+                const Eigen::VectorXd& values, const Response& response) {
   const Scale scale = scale_of(values.cwiseAbs().maxCoeff());
   Panel& panel = figure.add_panel();
   panel.x = {
-      .label = "Time (fraction of a period)", .lower = 0.0, .upper = 1.0, .ticks = {}, .tick_format = "%.1f"};
+      .label = time_label(response.periods), .lower = 0.0, .upper = 1.0, .ticks = {}, .tick_format = "%.1f"};
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
   const auto points = static_cast<Eigen::Index>(values.size());
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(points + 1, 0.0, 1.0);
   Series series("", time, closed(scale.factor * values));
-  if (!converged) {
+  if (!response.converged) {
     series.colour = Colour::grey;
     series.dash = Dash::dashed;
   }
@@ -187,6 +193,47 @@ void add_special_points(Panel& panel, const std::vector<solvers::SpecialPoint>& 
   }
 }
 
+/// One entry of the legend for the parts of a branch, the series from `first` on: dashes mean the same in
+/// all.
+void label_once(Panel& panel, std::size_t first) {
+  if (panel.series.size() < first + 2) return;
+  Series &stable = panel.series[first], &unstable = panel.series[first + 1];
+  unstable.label = "";
+  if (std::any_of(stable.y.begin(), stable.y.end(), [](double y) { return !std::isnan(y); })) return;
+  unstable.label = std::move(stable.label);
+  panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+/// The largest displacement along each branch.
+void add_branches(Panel& panel, const Sweep& sweep, double factor) {
+  constexpr std::array colours{Colour::green, Colour::vermillion, Colour::purple, Colour::sky_blue};
+  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
+    const solvers::Branch& branch = sweep.branches[i];
+    if (branch.curve.points.empty()) continue;
+    const int periods = branch.periods * sweep.periods;
+    Series series;
+    series.label = "branch " + std::to_string(i + 1) + ", " + std::to_string(periods) +
+                   (periods == 1 ? " period" : " periods");
+    for (const auto& point : branch.curve.points) {
+      series.x.push_back(point.frequency);
+      series.y.push_back(factor * point.max_displacement);
+    }
+    series.colour = colours[i % colours.size()];
+    const std::size_t before = panel.series.size();
+    add_by_stability(panel, std::move(series), branch.stability.points);
+    label_once(panel, before);
+  }
+}
+
+/// Those of the curve and of its branches.
+std::vector<solvers::SpecialPoint> all_special_points(const Sweep& sweep) {
+  std::vector<solvers::SpecialPoint> points = sweep.stability.special_points;
+  for (const solvers::Branch& branch : sweep.branches)
+    points.insert(points.end(), branch.stability.special_points.begin(),
+                  branch.stability.special_points.end());
+  return points;
+}
+
 }  // namespace
 
 Figure response_figure(const Scene& scene, const Response& response) {
@@ -201,9 +248,9 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   if (!response.converged) figure.title += " (NOT CONVERGED: last iterate)";
   figure.panel_height = 240;
   figure.panel_width = 600;
-  add_motion(figure, "Displacement", "m", response.displacement(), response.converged);
-  add_motion(figure, "Velocity", "m/s", response.velocity(), response.converged);
-  add_motion(figure, "Contact force", "N", response.force(), response.converged);
+  add_motion(figure, "Displacement", "m", response.displacement(), response);
+  add_motion(figure, "Velocity", "m/s", response.velocity(), response);
+  add_motion(figure, "Contact force", "N", response.force(), response);
   if (scene.contact.law != ContactLawType::none) {
     const double factor = scale_of(response.displacement().cwiseAbs().maxCoeff()).factor;
     figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact), "gap");
@@ -249,7 +296,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
     for (double& value : values) value *= factor;
     return values;
   };
-  const auto values = joined_columns(table, "max_displacement_m", "rms_displacement_m");
+  auto values = joined_columns(table, "max_displacement_m", "rms_displacement_m");
+  for (const solvers::Branch& branch : sweep.branches)
+    for (const auto& point : branch.curve.points) values.push_back(point.max_displacement);
   const double largest = *std::max_element(values.begin(), values.end());
   // Where the curve did not end well, one wild point must not set the axis.
   const double top = sweep.converged() ? largest : top_of_most(values);
@@ -269,7 +318,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
     series.colour = colour;
     add_by_stability(panel, std::move(series), sweep.stability.points);
   }
-  add_special_points(panel, sweep.stability.special_points, scale.factor);
+  add_branches(panel, sweep, scale.factor);
+  figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
+  add_special_points(panel, all_special_points(sweep), scale.factor);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
   if (scene.contact.law != ContactLawType::none && one_gap)
     panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");

@@ -17,6 +17,7 @@
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
@@ -47,7 +48,9 @@ void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem&
   solver.observer = options.observer;
   solver.form = scene.contact.form;
   auto& [problem, laws] = composed;
-  const auto found = solvers::forced_response(problem, laws, solver, options.guess);
+  const auto found = scene.analysis.subharmonic == 1
+                         ? solvers::forced_response(problem, laws, solver, options.guess)
+                         : several_periods(problem, laws, model.structure, solver, options.guess);
   note_solution(result, problem, found, scene, model);
   note_motion(problem, found, laws, scene, model, options, result);
 }
@@ -87,6 +90,9 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   result.iterations = found.iterations;
   result.strategy = to_string(found.strategy);
   result.attractor_periods = found.attractor_periods;
+  result.periods = solvers::load_periods(problem);
+  result.motion_periods = solvers::motion_periods(problem, found);
+  if (result.periods > 1) result.change_after_one = solvers::change_after(problem, found, 1);
   const bool force_form = found.regularization.size() > 0;
   result.form = to_string(force_form ? solvers::ContactForm::force : solvers::ContactForm::displacement);
   if (force_form) {

@@ -9,8 +9,10 @@
 #include <stdexcept>
 
 #include "analysis/summary_parts.hpp"
+#include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
+#include "wavebalance/solvers/stability/subharmonic_response.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -86,6 +88,18 @@ Table table_of(const std::vector<solvers::SpecialPoint>& points) {
   return table;
 }
 
+/// No branch is followed there.
+void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::SpecialPoint>& points) {
+  std::vector<double> frequencies;
+  for (const auto& point : points)
+    if (point.type == solvers::SpecialPointType::neimark_sacker) frequencies.push_back(point.frequency);
+  if (frequencies.empty()) return;
+  record.warnings.push_back(fmt::format(
+      "At the Neimark-Sacker point{} {:.6g} Hz the motion becomes quasi-periodic: what begins there has no "
+      "period and is not followed.",
+      frequencies.size() == 1 ? "" : "s", fmt::join(frequencies, ", ")));
+}
+
 void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   const std::vector<double> of_samples = frequencies_of(sweep.curve.turning_points);
   const std::vector<double> folds = folds_of(sweep.stability);
@@ -118,6 +132,18 @@ ResponseStability response_stability(const solvers::CondensedProblem& problem,
   return result;
 }
 
+solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
+                                          const solvers::ContactLaws& laws,
+                                          const solvers::LinearStructure& structure,
+                                          const solvers::ForcedResponseOptions& how,
+                                          const Eigen::VectorXd& guess) {
+  const auto dynamics = dynamics_of(structure);
+  solvers::SubharmonicOptions options;
+  options.response = how;
+  options.floquet.stability = options_for(problem);
+  return solvers::subharmonic_response(problem, laws, dynamics ? &*dynamics : nullptr, options, guess);
+}
+
 void append_stability(Record& record, const ResponseStability& stability) {
   record.summary.emplace_back("stability", stability.status);
   if (stability.unstable >= 0)
@@ -133,6 +159,30 @@ void append_stability(Record& record, const ResponseStability& stability) {
       stability.unstable, stability.unstable == 1 ? "" : "s"));
 }
 
+namespace {
+
+/// Period of a branch over that of the curve, at most. Each doubling takes twice the functions and points.
+constexpr int largest_period = 4;
+
+/// The curve in frequencies of its problem; those of the branches become frequencies of the load.
+void add_branches(const Scene& scene, const StructureModel& model, const solvers::ContactLaws& laws,
+                  const solvers::ContactDynamics& dynamics, const solvers::CurveStabilityOptions& stability,
+                  const Observer& observer, Sweep& sweep) {
+  solvers::BranchOptions options;
+  options.sweep = sweep_options(scene);
+  options.stability = stability;
+  options.largest_period = largest_period;
+  options.observer = of_load(observer, sweep.periods);
+  const auto problems = [&](int periods) { return make_problem(with_longer_period(scene, periods), model); };
+  sweep.branches = solvers::follow_branches(problems, laws, dynamics, sweep.curve, sweep.stability, options);
+  for (solvers::Branch& branch : sweep.branches) {
+    scale_frequencies(branch.curve, branch.periods * sweep.periods);
+    scale_frequencies(branch.stability, branch.periods * sweep.periods);
+  }
+}
+
+}  // namespace
+
 void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
   const auto dynamics = dynamics_of(model.structure);
   if (!scene.analysis.stability || sweep.curve.points.empty() || !dynamics) return;
@@ -140,9 +190,16 @@ void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep
   solvers::CurveStabilityOptions options;
   options.stability = options_for(composed.problem);
   options.output_points = scene.analysis.output_points;
-  options.observer = observer;
+  options.observer = of_load(observer, sweep.periods);
+  scale_frequencies(sweep.curve, 1.0 / sweep.periods);
   sweep.stability =
       solvers::curve_stability(composed.problem, composed.laws, sweep.curve, *dynamics, options);
+  if (scene.analysis.branches && !sweep.stability.cancelled) {
+    options.observer = {};
+    add_branches(scene, model, composed.laws, *dynamics, options, observer, sweep);
+  }
+  scale_frequencies(sweep.curve, sweep.periods);
+  scale_frequencies(sweep.stability, sweep.periods);
 }
 
 void append_stability(Record& record, const Sweep& sweep) {
@@ -152,6 +209,68 @@ void append_stability(Record& record, const Sweep& sweep) {
   record.summary.emplace_back("stability",
                               complete ? std::string(to_string(sweep.stability.status())) : "interrupted");
   record.summary.emplace_back("special_points", table_of(sweep.stability.special_points));
+  warn_of_quasi_periodic_motions(record, sweep.stability.special_points);
+}
+
+namespace {
+
+/// Where a branch began and how it ended.
+std::vector<Cell> branch_row(const Sweep& sweep, std::size_t index) {
+  const solvers::Branch& branch = sweep.branches[index];
+  const solvers::CurveStability& parent =
+      branch.parent == 0 ? sweep.stability : sweep.branches[std::size_t(branch.parent) - 1].stability;
+  const auto frequency_at = [&](int point) {
+    return point < 0 ? missing : parent.special_points[std::size_t(point)].frequency;
+  };
+  double lowest = missing, highest = missing, largest = missing;
+  for (const auto& point : branch.curve.points) {
+    lowest = std::fmin(lowest, point.frequency);
+    highest = std::fmax(highest, point.frequency);
+    largest = std::fmax(largest, point.max_displacement);
+  }
+  const double last = branch.curve.points.empty() ? missing : branch.curve.points.back().frequency;
+  return {std::int64_t(index) + 1,
+          std::int64_t{branch.parent},
+          std::string(to_string(parent.special_points[std::size_t(branch.special_point)].type)),
+          frequency_at(branch.special_point),
+          std::int64_t{branch.periods * sweep.periods},
+          lowest,
+          highest,
+          largest,
+          std::int64_t(branch.curve.points.size()),
+          std::string(to_string(branch.end)),
+          last,
+          std::string(branch.stability.points.empty() ? "none" : to_string(branch.stability.status()))};
+}
+
+bool ended_well(const solvers::Branch& branch) {
+  using solvers::BranchEnd;
+  return branch.end == BranchEnd::special_point || branch.end == BranchEnd::parent_curve ||
+         branch.end == BranchEnd::from_end || branch.end == BranchEnd::to_end ||
+         branch.end == BranchEnd::closed;
+}
+
+}  // namespace
+
+void append_branches(Record& record, const Sweep& sweep) {
+  Table table({"branch", "parent", "type", "frequency_Hz", "period", "lowest_frequency_Hz",
+               "highest_frequency_Hz", "max_displacement_m", "points", "end", "end_frequency_Hz",
+               "stability"});
+  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
+    table.append_row(branch_row(sweep, i));
+    if (ended_well(sweep.branches[i])) continue;
+    record.warnings.push_back(
+        fmt::format("Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end)));
+  }
+  record.summary.emplace_back("branches", table);
+  Table special({"branch", "type", "frequency_Hz", "bracket_Hz", "multiplier_real", "multiplier_imag",
+                 "max_displacement_m", "status"});
+  for (std::size_t i = 0; i < sweep.branches.size(); ++i)
+    for (const auto& point : sweep.branches[i].stability.special_points)
+      special.append_row({std::int64_t(i) + 1, std::string(to_string(point.type)), point.frequency,
+                          point.bracket, point.multiplier.real(), point.multiplier.imag(),
+                          point.max_displacement, std::string(point.located ? "located" : "bracketed")});
+  record.summary.emplace_back("special_points_of_branches", special);
 }
 
 Table sweep_table(const solvers::FrequencySweep& curve) {
@@ -161,7 +280,32 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
   return table;
 }
 
-Table sweep_table(const Sweep& sweep) {
+namespace {
+
+void append_rows(Table& table, const solvers::FrequencySweep& curve,
+                 const std::vector<solvers::PointStability>& stability, int branch, int period) {
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const auto& point = curve.points[i];
+    const bool known = i < stability.size();
+    const double unstable = known && stability[i].unstable >= 0 ? stability[i].unstable : missing;
+    const double contacts = known ? stability[i].contacts : missing;
+    table.append_row({point.frequency, point.max_displacement, point.rms_displacement, unstable, contacts,
+                      std::int64_t{branch}, std::int64_t{period}});
+  }
+}
+
+}  // namespace
+
+Table sweep_table(const Sweep& sweep, bool with_branches) {
+  if (with_branches) {
+    Table table({"frequency_Hz", "max_displacement_m", "rms_displacement_m", "unstable", "contacts", "branch",
+                 "period"});
+    append_rows(table, sweep.curve, sweep.stability.points, 0, sweep.periods);
+    int number = 0;
+    for (const solvers::Branch& branch : sweep.branches)
+      append_rows(table, branch.curve, branch.stability.points, ++number, branch.periods * sweep.periods);
+    return table;
+  }
   Table table = sweep_table(sweep.curve);
   const auto& points = sweep.stability.points;
   if (points.empty()) return table;

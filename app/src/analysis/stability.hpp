@@ -10,11 +10,22 @@ ResponseStability response_stability(const solvers::CondensedProblem& problem,
                                      const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
                                      const solvers::LinearStructure& structure);
 
+/// A response of a problem of several periods of the load, whose motion has no shorter period if one is
+/// found.
+solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
+                                          const solvers::ContactLaws& laws,
+                                          const solvers::LinearStructure& structure,
+                                          const solvers::ForcedResponseOptions& how,
+                                          const Eigen::VectorXd& guess = {});
+
 /// The fields of a response's stability, and a warning where it is unstable.
 void append_stability(Record& record, const ResponseStability& stability);
 
 /// The turning points of a sweep, its stability and its special points. Where stability is known the turning
 /// points are folds of the motion; those of the samples alone are named apart, with a warning.
 void append_stability(Record& record, const Sweep& sweep);
+
+/// The table `branches`, and a warning about each that was not followed to an end.
+void append_branches(Record& record, const Sweep& sweep);
 
 }  // namespace wavebalance::app

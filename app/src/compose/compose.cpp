@@ -146,10 +146,11 @@ ComposedProblem compose_problem(const Scene& scene, const StructureModel& model)
 solvers::CondensedProblem make_problem(const Scene& scene) { return make_problem(scene, make_model(scene)); }
 
 solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model) {
-  Eigen::VectorXcd cosine(2);
-  cosine << 0.0, 1.0;
+  const int periods = scene.analysis.subharmonic;
+  Eigen::VectorXcd cosine = Eigen::VectorXcd::Zero(periods + 1);
+  cosine[periods] = 1.0;
   solvers::CondensedProblem problem(make_pair(scene.time), model.structure, std::move(cosine));
-  if (scene.forcing.frequency > 0.0) problem.set_frequency(scene.forcing.frequency);
+  if (scene.forcing.frequency > 0.0) problem.set_frequency(scene.forcing.frequency / periods);
   return problem;
 }
 

@@ -69,6 +69,36 @@ void check_time(const Document& document, const Scene& scene) {
   check_pair(document, time);
 }
 
+/// Motions of several periods of the load: the load is one of the harmonics of the functions.
+void check_subharmonic(const Document& document, const Scene& scene) {
+  const int periods = scene.analysis.subharmonic;
+  if (periods == 1) return;
+  if (scene.time.tolerance > 0.0)
+    fail_rule(document, {"analysis.subharmonic"},
+              "not beside time.tolerance, which refines motions of one period; expected 1, or "
+              "time.functions in place of the tolerance");
+  if ((scene.time.functions - 1) / 2 < periods)
+    fail_rule(document, {"analysis.subharmonic", "time.functions"},
+              "the functions are those of " + std::to_string(periods) +
+                  " periods of the load, which is their harmonic " + std::to_string(periods) +
+                  "; expected subharmonic <= " + std::to_string((scene.time.functions - 1) / 2) +
+                  ", or more time.functions");
+}
+
+/// Branches begin where multipliers pass the unit circle.
+void check_branches(const Document& document, const Scene& scene) {
+  if (!scene.analysis.branches) return;
+  if (scene.contact.law == ContactLawType::rigid)
+    fail_rule(
+        document, {"analysis.branches", "contact.law"},
+        "not with contact.law = \"rigid\", whose perturbations have no finite stiffness; expected false, "
+        "or a stiff \"linear\" law");
+  if (!scene.analysis.stability)
+    fail_rule(document, {"analysis.branches", "analysis.stability"},
+              "not with analysis.stability = false, by which branches are found; expected false, or "
+              "analysis.stability = true");
+}
+
 void check_sweep(const Document& document, const Analysis& analysis) {
   if (analysis.frequency_from == analysis.frequency_to)
     fail_rule(document, {"analysis.frequency_to"}, "expected another frequency than frequency_from");
@@ -202,6 +232,8 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
+  if (!stepping && !mode) check_subharmonic(document, scene);
+  check_branches(document, scene);
   check_dense_size(document, scene);
 }
 

@@ -33,6 +33,16 @@ double Contact::gap_of(int contact) const {
   return gaps.empty() ? gap : gaps.at(static_cast<std::size_t>(contact));
 }
 
+Scene with_longer_period(Scene scene, int times) {
+  Time& time = scene.time;
+  const bool odd = time.functions % 2 == 1 && !is_wavelet(time.trial) && !is_wavelet(time.weight);
+  time.functions = odd ? times * (time.functions - 1) + 1 : times * time.functions;
+  time.quadrature_points *= times;
+  scene.analysis.output_points *= times;
+  scene.analysis.subharmonic *= times;
+  return scene;
+}
+
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep) return false;

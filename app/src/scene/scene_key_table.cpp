@@ -144,6 +144,8 @@ void add_sweep(std::vector<SceneKey>& keys) {
         positive, derived("|frequency_to - frequency_from| / 80", interval_over(80)));
   sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
         within(2, 10'000'000), optional);
+  sweep(&Analysis::branches, "branches", "",
+        "true also follows the curves that begin at period doublings and at branch points", optional);
 }
 
 void add_time_stepping(std::vector<SceneKey>& keys) {
@@ -316,6 +318,10 @@ void add_analysis(std::vector<SceneKey>& keys) {
            derived("true; false for curves of more than 30 contacts and modes of more than 6",
                    stability_by_default),
            only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
+  analysis(&Analysis::subharmonic, "subharmonic", "",
+           "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
+           "output_points are then those of n periods",
+           within(1, 1024), optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
   add_sweep(keys);
   add_time_stepping(keys);
   add_mode(keys);

@@ -8,14 +8,18 @@
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/stability/curve_stability.hpp"
+#include "wavebalance/solvers/stability/branches.hpp"
 
 namespace wavebalance::app {
 
-/// A curve of responses over the frequency.
+/// A curve of responses over the frequency. Frequencies are those of the load, also of the branches.
 struct Sweep {
   solvers::FrequencySweep curve;
-  solvers::CurveStability stability;  ///< set by add_stability(); without points otherwise
+  solvers::CurveStability stability;      ///< set by add_stability(); without points otherwise
+  std::vector<solvers::Branch> branches;  ///< set by add_stability() with analysis.branches
+  int periods = 1;                        ///< of the load, over which its motions are solved for
+  int motion_periods =
+      1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()
   double wall_seconds = 0.0;
 
   bool converged() const {
@@ -35,7 +39,8 @@ Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
-/// is false or the structure's modes cannot be computed. An observer that stops it leaves the points so far.
+/// is false or the structure's modes cannot be computed, and with analysis.branches its branches. An observer
+/// that stops it leaves the points so far.
 void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep,
                    const Observer& observer = {});
 
@@ -68,8 +73,9 @@ Record analyse(const Scene& scene, const Observer& observer = {});
 
 /// The table of a sweep's record; those of a motion are in contact_motion.hpp.
 Table sweep_table(const solvers::FrequencySweep& curve);
-/// The same with the columns `unstable`, missing where it is not known, and `contacts`.
-Table sweep_table(const Sweep& sweep);
+/// The same with the columns `unstable`, missing where it is not known, and `contacts`; with branches also
+/// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other.
+Table sweep_table(const Sweep& sweep, bool with_branches = false);
 
 /// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.
 std::string describe_scene(const Scene& scene);

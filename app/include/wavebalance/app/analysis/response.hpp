@@ -55,8 +55,11 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
   int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
-  std::string strategy;        ///< solvers::Strategy that found it; empty for time stepping and shooting
-  std::string form;            ///< solvers::ContactForm in which it was solved; empty for references
+  int periods = 1;             ///< of the load, over which the motion is written: analysis.subharmonic
+  int motion_periods = 1;      ///< of the load, after which it repeats: solvers::motion_periods()
+  double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
+  std::string strategy;  ///< solvers::Strategy that found it; empty for time stepping and shooting
+  std::string form;      ///< solvers::ContactForm in which it was solved; empty for references
   /// The unknown of the force form, solvers::PeriodicResponse::unknown_coefficients, and its 1 / epsilon of
   /// each contact (m/N); empty in the displacement form.
   Eigen::MatrixXcd unknown_coefficients;

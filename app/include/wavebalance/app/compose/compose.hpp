@@ -55,7 +55,8 @@ struct ComposedProblem {
 /// The scene's pair and contact laws with its structure composed before.
 ComposedProblem compose_problem(const Scene& scene, const StructureModel& model);
 
-/// The scene's pair and structure, condensed on the contacts; at forcing.frequency if that is set.
+/// The scene's pair and structure, condensed on the contacts; at forcing.frequency if that is set. The period
+/// of the problem is that of analysis.subharmonic periods of the load, and its frequency accordingly.
 solvers::CondensedProblem make_problem(const Scene& scene);
 /// The same for the scene's structure composed before.
 solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model);

@@ -177,6 +177,10 @@ struct Analysis {
 
   int motion_points = -1;  ///< instants of the period at which the whole structure's motion is written
   bool stability = true;   ///< forced_response, frequency_sweep: whether Floquet multipliers are counted
+  /// forced_response, frequency_sweep: periods of the load after which motions repeat. Time's functions and
+  /// points and output_points are then those of all of them.
+  int subharmonic = 1;
+  bool branches = false;  ///< frequency_sweep: whether curves that begin at special points are followed
 
   double frequency_from = 0.0;  ///< Hz, frequency_sweep: where the branch starts
   double frequency_to = 0.0;    ///< Hz, frequency_sweep: where it ends; may lie below frequency_from
@@ -225,6 +229,11 @@ std::string name_of(InnerProducts value);
 std::string name_of(NyquistCoefficient value);
 std::string name_of(ModeFormulation value);
 std::string name_of(AnalysisType value);
+
+/// The scene whose motions have `times` times the period: with as many times the quadrature and output
+/// points, and the functions of as many times the harmonics, so that a motion of the scene repeated is one of
+/// its own.
+Scene with_longer_period(Scene scene, int times);
 
 /// Whether the mass of the contacts is redistributed: in responses and sweeps, as contact.mass says.
 bool redistributes_mass(const Scene& scene);
