@@ -61,8 +61,9 @@ void append_attractor(Record& record, int periods, const Response& response) {
   if (attractor > 0 && periods % attractor == 0) return;
   record.warnings.push_back(
       attractor == 0
-          ? std::string("From rest the structure settles to no motion of up to 16 periods of the load within "
-                        "600 periods.")
+          ? std::string(
+                "From rest the structure settles to no motion of up to 16 periods of the load within the "
+                "periods integrated: it is aperiodic, or has not settled yet.")
           : fmt::format("From rest the structure settles to a motion of {} periods of the load, which "
                         "analysis.subharmonic = {} computes.",
                         attractor, attractor));
@@ -124,7 +125,10 @@ double frequency_of_peak(const solvers::FrequencySweep& curve) {
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
   Record record;
   record.converged = sweep.converged();
-  record.interrupted = sweep.interrupted() || sweep.stability.cancelled;
+  record.interrupted = sweep.interrupted() || sweep.stability.cancelled ||
+                       std::any_of(sweep.branches.begin(), sweep.branches.end(), [](const auto& branch) {
+                         return branch.end == solvers::BranchEnd::cancelled;
+                       });
   record.status = sweep.status();
   record.warnings = model.warnings;
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);

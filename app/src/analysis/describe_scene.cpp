@@ -109,8 +109,10 @@ std::string forcing_line(const Scene& scene) {
   std::string frequency = number_text(scene.forcing.frequency);
   if (analysis.type == AnalysisType::frequency_sweep)
     frequency = number_text(analysis.frequency_from) + " to " + number_text(analysis.frequency_to);
-  return fmt::format("forcing    {} N {}, {} Hz\n", number_text(scene.forcing.amplitude), force_place(scene),
-                     frequency);
+  const std::string periods =
+      analysis.subharmonic == 1 ? "" : fmt::format(", motions of {} periods", analysis.subharmonic);
+  return fmt::format("forcing    {} N {}, {} Hz{}{}\n", number_text(scene.forcing.amplitude),
+                     force_place(scene), frequency, periods, analysis.branches ? ", with branches" : "");
 }
 
 std::string chosen_text(const Time& time) {

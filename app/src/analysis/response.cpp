@@ -171,6 +171,7 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   result.residual =
       found.period_error.empty() ? std::numeric_limits<double>::quiet_NaN() : found.period_error.back();
   result.iterations = found.periods;
+  result.attractor_periods = found.attractor_periods;
   result.unknowns = 2 * model.size();
   result.contacts = std::move(found.contacts);
   result.contact = leading_contact(result.contacts, model.gaps);

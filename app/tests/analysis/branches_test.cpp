@@ -66,7 +66,7 @@ bool warns(const Record& record, const std::string& part) {
 TEST(SubharmonicScene, HasAMotionOfTwoPeriodsOfTheLoad) {
   const Record record = analyse(scene_with({"analysis.subharmonic=2", "analysis.output_points=2048"}));
   ASSERT_TRUE(record.converged) << record.status;
-  EXPECT_EQ(value_of<double>(record.summary, "frequency_Hz"), 2.7 / two_pi);
+  EXPECT_NEAR(value_of<double>(record.summary, "frequency_Hz"), 2.7 / two_pi, 1e-12);
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "subharmonic"), 2);
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "period_of_motion"), 2);
   EXPECT_GT(value_of<double>(record.summary, "change_after_one_period"), 1.0);
@@ -102,6 +102,15 @@ TEST(SubharmonicScene, WithoutContactIsTheOrdinaryResponse) {
     for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], once[i % once.size()], 1e-13);
     EXPECT_EQ(value_of<std::int64_t>(twice.summary, "period_of_motion"), 1);
   }
+}
+
+// At 2.7 rad/s from rest.
+TEST(TimeSteppingRecord, SaysAfterHowManyPeriodsAMotionRepeats) {
+  const Record record = analyse(scene_with({"analysis.type=time_stepping"}));
+  EXPECT_FALSE(record.converged);
+  EXPECT_EQ(record.status, "subharmonic");
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "attractor_periods"), 2);
+  EXPECT_TRUE(warns(record, "analysis.subharmonic = 2"));
 }
 
 // Frequencies are those of the load. The sweep starts on the motion of two periods at 2.7 rad/s, which turns
@@ -159,6 +168,22 @@ TEST(SweepWithBranches, IsDrawnWithAColourForEachAndUnstablePartsDashed) {
   EXPECT_EQ(dashed->dash, Dash::dashed);
   EXPECT_EQ(dashed->colour, first->colour);
   EXPECT_NE(labelled("period doubling"), series.end());
+}
+
+TEST(SweepWithBranches, SaysThatItWasInterruptedOnABranch) {
+  bool main_is_done = false;
+  const Record record = analyse(sweep_with({"analysis.branches=true"}), [&](const Progress& progress) {
+    main_is_done = main_is_done || progress.phase == "stability";
+    return !(main_is_done && progress.phase == "frequency sweep");
+  });
+  EXPECT_TRUE(record.interrupted);
+  EXPECT_EQ(value_of<Table>(record.summary, "branches").texts("end"),
+            std::vector<std::string>{"interrupted"});
+}
+
+TEST(CheckOfAScene, NamesThePeriodsAndTheBranches) {
+  const std::string text = describe_scene(sweep_with({"analysis.branches=true", "analysis.subharmonic=2"}));
+  EXPECT_NE(text.find("motions of 2 periods, with branches"), std::string::npos) << text;
 }
 
 TEST(SweepWithoutBranches, HasTheColumnsOfOneCurve) {

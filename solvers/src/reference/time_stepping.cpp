@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <new>
@@ -141,8 +142,8 @@ struct QuinticWeights {
 /// Fills the samples of the period under way from the steps that pass over their times.
 class PeriodRecorder {
  public:
-  PeriodRecorder(const FirstOrderSystem& system, int points)
-      : system_(system), states_(system.states(), points) {}
+  PeriodRecorder(const FirstOrderSystem& system, int points, int longest)
+      : system_(system), states_(system.states(), points), longest_(static_cast<std::size_t>(longest)) {}
 
   /// Records up to the end of the step or of the period; true when the period is complete.
   bool record(const Integrator& step) {
@@ -153,14 +154,23 @@ class PeriodRecorder {
   /// Opens the next period; returns the relative rms difference of this one's contact displacement to the
   /// last one's.
   double close_period() {
-    const Eigen::MatrixXd contact = at_contacts(states_.topRows(system_.dofs())).transpose();
-    const double difference = period_ == 0 ? contact.norm() : (contact - contact_).norm();
-    const double size = contact.norm();
-    const double relative = difference == 0.0 ? 0.0 : difference / size;
-    contact_ = contact;
+    past_.emplace_front(at_contacts(states_.topRows(system_.dofs())).transpose());
+    if (past_.size() > longest_ + 1) past_.pop_back();
     next_ = 0;
     ++period_;
-    return period_ == 1 ? std::numeric_limits<double>::infinity() : relative;
+    return period_ == 1 ? std::numeric_limits<double>::infinity() : difference_to(1);
+  }
+
+  /// The least number of periods, 2 or more, after which the last period repeats one to `tolerance`, and all
+  /// in between are clearly others; 0 for none.
+  int repeats(double tolerance) const {
+    constexpr double apart = 100.0;
+    for (std::size_t lag = 1; lag < past_.size(); ++lag) {
+      const double difference = difference_to(lag);
+      if (lag > 1 && difference < tolerance) return static_cast<int>(lag);
+      if (difference < apart * tolerance) return 0;
+    }
+    return 0;
   }
 
   Motion contacts() const {
@@ -178,6 +188,12 @@ class PeriodRecorder {
   }
 
  private:
+  // Relative rms difference of the last period's contact displacement and that `lag` periods before.
+  double difference_to(std::size_t lag) const {
+    const double difference = (past_.front() - past_[lag]).norm();
+    return difference == 0.0 ? 0.0 : difference / past_.front().norm();
+  }
+
   Eigen::MatrixXd at_contacts(const Eigen::Ref<const Eigen::MatrixXd>& of_all_dofs) const {
     return system_.contact_directions() * of_all_dofs;
   }
@@ -204,11 +220,22 @@ class PeriodRecorder {
   }
 
   const FirstOrderSystem& system_;
-  Eigen::MatrixXd states_;   // 2n x points
-  Eigen::MatrixXd contact_;  // points x contacts, of the last period, as in the state
+  Eigen::MatrixXd states_;  // 2n x points
+  std::size_t longest_;
+  std::deque<Eigen::MatrixXd> past_;  // points x contacts, as in the state, the last period first
   Eigen::Index next_ = 0;
   int period_ = 0;
 };
+
+/// Whether periods differ as they did 16 periods ago. The difference of a motion that spirals into one of a
+/// single period decreases.
+bool is_steady(const std::vector<double>& period_error) {
+  constexpr std::size_t before = 16;
+  constexpr double steady = 1e-3;
+  if (period_error.size() <= before) return false;
+  const double now = period_error.back(), then = period_error[period_error.size() - 1 - before];
+  return std::abs(now - then) <= steady * now;
+}
 
 }  // namespace
 
@@ -216,6 +243,8 @@ std::string_view to_string(TimeSteppingStatus status) {
   switch (status) {
     case TimeSteppingStatus::converged:
       return "converged";
+    case TimeSteppingStatus::subharmonic:
+      return "subharmonic";
     case TimeSteppingStatus::iteration_limit:
       return "iteration_limit";
     case TimeSteppingStatus::step_failure:
@@ -231,6 +260,7 @@ void TimeSteppingOptions::validate(int dofs) const {
   detail::require_at_least(who, "output_points", output_points, 2);
   detail::require_positive(who, "period_tolerance", period_tolerance);
   detail::require_at_least(who, "max_periods", max_periods, 1);
+  detail::require_at_least(who, "longest", longest, 1);
   detail::require_at_least(who, "max_steps_per_period", max_steps_per_period, 1);
   detail::require_positive(who, "step_tolerance", step_tolerance);
   detail::require_positive(who, "step_floor", step_floor);
@@ -248,7 +278,7 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
   const detail::SilencedGslErrors silence;
   Integrator integrator(system, initial, options,
                         state_scale(structure, system.angular_frequency(), initial));
-  PeriodRecorder recorder(system, options.output_points);
+  PeriodRecorder recorder(system, options.output_points, options.longest);
   TimeSteppingResult result;
   const auto run = [&] {
     while (result.periods < options.max_periods) {
@@ -265,12 +295,20 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
             !goes_on(options.observer, {"time stepping", result.periods, difference,
                                         "relative difference of periods", std::clamp(done, 0.0, 1.0)});
         if (difference < options.period_tolerance) return TimeSteppingStatus::converged;
+        if (is_steady(result.period_error) && options.longest > 1) {
+          const int periods = recorder.repeats(options.period_tolerance);
+          if (periods > 1) result.attractor_periods = periods;
+          if (periods > 1) return TimeSteppingStatus::subharmonic;
+        }
         if (stop) return TimeSteppingStatus::cancelled;
       }
     }
     return TimeSteppingStatus::iteration_limit;
   };
   result.status = run();
+  if (result.status == TimeSteppingStatus::converged) result.attractor_periods = 1;
+  const bool long_enough = result.periods == options.max_periods && result.periods > 2 * options.longest;
+  if (result.status == TimeSteppingStatus::iteration_limit && long_enough) result.attractor_periods = 0;
   result.steps = integrator.steps();
   result.failed_steps = integrator.failed_steps();
   return result;

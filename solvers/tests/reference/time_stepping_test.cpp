@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "constants.hpp"
@@ -179,6 +180,35 @@ TEST(TimeStepping, RejectsOptionsOutOfRangeAndNamesThem) {
   LinearStructure misfit = bar;
   misfit.contact_directions = contact_rows({3}, 4);
   EXPECT_THROW(integrate_to_periodic(misfit, AnyContactLaw(), 150.0), std::invalid_argument);
+}
+
+// An oscillator with a stop between its period doublings.
+TEST(TimeStepping, NamesThePeriodsAfterWhichASubharmonicMotionRepeats) {
+  const LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
+  for (const auto& [omega, periods] : {std::pair{2.7, 2}, std::pair{2.4, 4}}) {
+    const auto result = integrate_to_periodic(structure, LinearContact{10.0, 0.1}, omega / two_pi);
+    EXPECT_EQ(result.status, TimeSteppingStatus::subharmonic);
+    EXPECT_EQ(to_string(result.status), "subharmonic");
+    EXPECT_EQ(result.attractor_periods, periods);
+    EXPECT_GT(result.period_error.back(), 0.1);
+  }
+  TimeSteppingOptions options;
+  options.longest = 1;
+  options.max_periods = 40;
+  const auto ordinary = integrate_to_periodic(structure, LinearContact{10.0, 0.1}, 2.7 / two_pi, options);
+  EXPECT_EQ(ordinary.status, TimeSteppingStatus::iteration_limit);
+  EXPECT_EQ(ordinary.attractor_periods, 0);
+}
+
+// Driven at twice its natural frequency, so that every second period of the transient is alike: a multiplier
+// of -0.995.
+TEST(TimeStepping, DoesNotTakeADecayingAlternationForASubharmonicMotion) {
+  const LinearStructure structure = testing::unit_oscillator(0.0032, 0.8);
+  TimeSteppingOptions options;
+  options.period_tolerance = 1e-4;
+  const auto result = integrate_to_periodic(structure, AnyContactLaw(), 2.0 / two_pi, options);
+  EXPECT_EQ(result.status, TimeSteppingStatus::converged);
+  EXPECT_EQ(result.attractor_periods, 1);
 }
 
 }  // namespace

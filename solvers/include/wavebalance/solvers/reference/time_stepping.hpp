@@ -13,6 +13,7 @@ namespace wavebalance::solvers {
 /// How time stepping ended.
 enum class TimeSteppingStatus {
   converged,        ///< two successive periods agree
+  subharmonic,      ///< the motion repeats after several periods, TimeSteppingResult::attractor_periods
   iteration_limit,  ///< max_periods or max_steps_per_period was reached
   step_failure,     ///< the integrator found no step that meets its tolerance
   cancelled         ///< the observer returned false
@@ -25,6 +26,7 @@ struct TimeSteppingOptions {
   int output_points = 1024;        ///< uniform samples of one period, also those that periods are compared on
   double period_tolerance = 1e-7;  ///< on the relative rms difference of two periods [JL14, section 4]
   int max_periods = 2000;          ///< periods integrated at most
+  int longest = 16;  ///< periods after which a motion may repeat; 1 integrates on until two agree
   int max_steps_per_period = 200000;  ///< steps accepted at most, on average over the periods so far
   double step_tolerance = 1e-10;      ///< local error of a step, relative to the state
   double step_floor = 1e-2;   ///< states below step_floor * (largest linear response) count as that large
@@ -43,6 +45,9 @@ struct TimeSteppingOptions {
 struct TimeSteppingResult {
   TimeSteppingStatus status = TimeSteppingStatus::iteration_limit;
   int periods = 0;        ///< complete periods integrated
+  /// Periods after which the motion repeats: 1 if converged; 0 where max_periods ended without any, as an
+  /// aperiodic motion does and one that still settles; -1 where fewer periods were integrated.
+  int attractor_periods = -1;
   long steps = 0;         ///< accepted steps
   long failed_steps = 0;  ///< steps tried and rejected
   /// Relative rms difference of the contact displacements of periods i+2 and i+1; periods - 1 entries.
@@ -56,6 +61,9 @@ struct TimeSteppingResult {
 /// integrator is the variable-step, variable-order (1..5) backward differentiation of GSL (msbdf) with the
 /// analytic Jacobian; [JL14, section 4] used the closely related NDF. Steps do not end at output times:
 /// samples come from the quintic that matches displacement, velocity and acceleration at both ends of a step.
+///
+/// A motion repeats after p periods, up to `longest`, if it agrees likewise with that p periods ago, differs a
+/// hundred times as much from all in between, and has differed as much 16 periods ago.
 ///
 /// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
 /// Floquet multiplier; the distance to the periodic motion is then about multiplier / (1 - multiplier)
