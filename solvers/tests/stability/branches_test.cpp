@@ -17,8 +17,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-using Type = SpecialPointType;
-
 /// Problems of one period of the load with these sizes, and of several periods with as many times more.
 BranchProblems problems_of(const LinearStructure& structure, int functions, int points) {
   return [&structure, functions, points](int periods) {
@@ -30,14 +28,15 @@ BranchProblems problems_of(const LinearStructure& structure, int functions, int 
 }
 
 /// A curve, its stability and its branches.
-struct Traced {
+struct TracedBranches {
   FrequencySweep curve;
   CurveStability stability;
   std::vector<Branch> branches;
 };
 
-Traced trace(const BranchProblems& problems, const LinearStructure& structure, const ContactLaws& laws,
-             double from, double to, int largest_period, const Observer& observer = {}) {
+TracedBranches trace_branches(const BranchProblems& problems, const LinearStructure& structure,
+                              const ContactLaws& laws, double from, double to, int largest_period,
+                              const Observer& observer = {}) {
   CondensedProblem problem = problems(1);
   BranchOptions options;
   options.sweep.from = from;
@@ -46,14 +45,14 @@ Traced trace(const BranchProblems& problems, const LinearStructure& structure, c
   options.largest_period = largest_period;
   options.observer = observer;
   const ContactDynamics dynamics(structure);
-  Traced traced;
+  TracedBranches traced;
   traced.curve = frequency_sweep(problem, laws, options.sweep);
   traced.stability = curve_stability(problem, laws, traced.curve, dynamics);
   traced.branches = follow_branches(problems, laws, dynamics, traced.curve, traced.stability, options);
   return traced;
 }
 
-std::vector<double> frequencies(const CurveStability& stability, Type type, double unit) {
+std::vector<double> frequencies(const CurveStability& stability, SpecialPointType type, double unit) {
   std::vector<double> found;
   for (const SpecialPoint& point : stability.special_points)
     if (point.type == type) found.push_back(unit * point.frequency);
@@ -79,35 +78,36 @@ void expect_motions_of_the_period(const Branch& branch, const BranchProblems& pr
   }
 }
 
-const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.8);
-const testing::LinearContact stop{10.0, 0.1};
+const LinearStructure impacting_oscillator = testing::unit_oscillator(0.1, 0.8);
+const testing::LinearContact elastic_stop{10.0, 0.1};
 
 // Where the motion of one period is unstable, 2.2062 to 2.9737 rad/s. The branch turns back at 3.024
 // and 2.927 rad/s, and between 2.363 and 2.446 rad/s it is itself doubled.
 TEST(Branches, OfAnOscillatorLeaveAtOnePeriodDoublingAndArriveAtTheOther) {
-  const auto problems = problems_of(oscillator, 63, 512);
-  const Traced traced = trace(problems, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 4);
+  const auto problems = problems_of(impacting_oscillator, 63, 512);
+  const TracedBranches traced =
+      trace_branches(problems, impacting_oscillator, elastic_stop, 2.1 / two_pi, 3.1 / two_pi, 4);
   ASSERT_EQ(traced.branches.size(), 2u);
   const Branch& doubled = traced.branches[0];
   EXPECT_EQ(doubled.parent, 0);
   EXPECT_EQ(doubled.periods, 2);
   EXPECT_EQ(doubled.end, BranchEnd::special_point);
   const auto at = [&](int index) { return traced.stability.special_points[std::size_t(index)]; };
-  EXPECT_EQ(at(doubled.end_point).type, Type::period_doubling);
+  EXPECT_EQ(at(doubled.end_point).type, SpecialPointType::period_doubling);
   EXPECT_NEAR(two_pi * at(doubled.special_point).frequency, 2.206199894019, 1e-4);
   EXPECT_NEAR(two_pi * at(doubled.end_point).frequency, 2.973736781998, 1e-4);
   EXPECT_EQ(doubled.curve.points.front().frequency, 0.5 * at(doubled.special_point).frequency);
   EXPECT_EQ(doubled.curve.points.back().frequency, 0.5 * at(doubled.end_point).frequency);
-  const auto further = frequencies(doubled.stability, Type::period_doubling, 2.0 * two_pi);
+  const auto further = frequencies(doubled.stability, SpecialPointType::period_doubling, 2.0 * two_pi);
   ASSERT_EQ(further.size(), 2u);
   EXPECT_NEAR(further[0], 2.36300, 2e-4);
   EXPECT_NEAR(further[1], 2.44572, 2e-4);
-  const auto folds = frequencies(doubled.stability, Type::fold, 2.0 * two_pi);
+  const auto folds = frequencies(doubled.stability, SpecialPointType::fold, 2.0 * two_pi);
   ASSERT_EQ(folds.size(), 2u);
   EXPECT_NEAR(folds[0], 3.02430, 2e-4);
   EXPECT_NEAR(folds[1], 2.92686, 2e-4);
-  EXPECT_TRUE(frequencies(doubled.stability, Type::branch, 1.0).empty());
-  expect_motions_of_the_period(doubled, problems, stop);
+  EXPECT_TRUE(frequencies(doubled.stability, SpecialPointType::branch, 1.0).empty());
+  expect_motions_of_the_period(doubled, problems, elastic_stop);
   const Branch& again = traced.branches[1];
   EXPECT_EQ(again.parent, 1);
   EXPECT_EQ(again.periods, 4);
@@ -116,8 +116,9 @@ TEST(Branches, OfAnOscillatorLeaveAtOnePeriodDoublingAndArriveAtTheOther) {
 }
 
 TEST(Branches, OfAnOscillatorAreStableButWhereTheyDoubleAndBetweenTheirFolds) {
-  const auto problems = problems_of(oscillator, 63, 512);
-  const Traced traced = trace(problems, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 2);
+  const auto problems = problems_of(impacting_oscillator, 63, 512);
+  const TracedBranches traced =
+      trace_branches(problems, impacting_oscillator, elastic_stop, 2.1 / two_pi, 3.1 / two_pi, 2);
   ASSERT_EQ(traced.branches.size(), 1u);
   const Branch& branch = traced.branches[0];
   ASSERT_EQ(branch.stability.points.size(), branch.curve.points.size());
@@ -139,7 +140,7 @@ TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
   testing::ExponentialLaw law = testing::jl14_case_2.law;
   law.start = 1e-4;
   const auto problems = problems_of(bar, 63, 512);
-  const Traced traced = trace(problems, bar, law, 2800.0, 3050.0, 2);
+  const TracedBranches traced = trace_branches(problems, bar, law, 2800.0, 3050.0, 2);
   ASSERT_EQ(traced.branches.size(), 1u);
   const Branch& branch = traced.branches[0];
   EXPECT_EQ(branch.end, BranchEnd::special_point);
@@ -156,11 +157,12 @@ TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
 // The motion between equal stops loses its symmetry, u(t + T/2) = -u(t), at two branch points. Both sides are
 // the same motion mirrored.
 TEST(Branches, OfAnOscillatorBetweenEqualStopsAreTheMotionsWithoutItsSymmetry) {
-  LinearStructure structure = oscillator;
+  LinearStructure structure = impacting_oscillator;
   structure.contact_directions = Eigen::MatrixXd{{1.0}, {-1.0}}.sparseView();
   const auto problems = problems_of(structure, 63, 512);
-  const Traced traced = trace(problems, structure, stop, 1.6 / two_pi, 0.77 / two_pi, 1);
-  const auto points = frequencies(traced.stability, Type::branch, two_pi);
+  const TracedBranches traced =
+      trace_branches(problems, structure, elastic_stop, 1.6 / two_pi, 0.77 / two_pi, 1);
+  const auto points = frequencies(traced.stability, SpecialPointType::branch, two_pi);
   ASSERT_EQ(points.size(), 2u);
   ASSERT_EQ(traced.branches.size(), 2u);
   const auto& left = traced.branches[0];
@@ -185,18 +187,19 @@ TEST(Branches, OfAnOscillatorBetweenEqualStopsAreTheMotionsWithoutItsSymmetry) {
 }
 
 TEST(Branches, StopWhenTheirObserverSaysSo) {
-  const auto problems = problems_of(oscillator, 31, 256);
-  const Traced traced = trace(problems, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 2,
-                              [](const Progress& progress) { return progress.step < 3; });
+  const auto problems = problems_of(impacting_oscillator, 31, 256);
+  const TracedBranches traced =
+      trace_branches(problems, impacting_oscillator, elastic_stop, 2.1 / two_pi, 3.1 / two_pi, 2,
+                     [](const Progress& progress) { return progress.step < 3; });
   ASSERT_EQ(traced.branches.size(), 1u);
   EXPECT_EQ(traced.branches[0].end, BranchEnd::cancelled);
 }
 
 TEST(Branches, NeedAProblemWithTheSamplesOfAllPeriods) {
-  const auto problems = problems_of(oscillator, 31, 256);
+  const auto problems = problems_of(impacting_oscillator, 31, 256);
   const BranchProblems too_small = [&](int) { return problems(1); };
   try {
-    trace(too_small, oscillator, stop, 2.1 / two_pi, 3.1 / two_pi, 2);
+    trace_branches(too_small, impacting_oscillator, elastic_stop, 2.1 / two_pi, 3.1 / two_pi, 2);
     FAIL() << "no error";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("512"), std::string::npos) << error.what();

@@ -28,25 +28,25 @@ CondensedProblem problem_of(TimePair pair, const LinearStructure& structure, int
   return problem;
 }
 
-const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.8);
-const testing::LinearContact stop{10.0, 0.1};
+const LinearStructure driven_oscillator = testing::unit_oscillator(0.1, 0.8);
+const testing::LinearContact hard_stop{10.0, 0.1};
 
 TEST(LoadPeriods, AreTheCommonDivisorOfTheHarmonics) {
   for (const int periods : {1, 2, 3, 5}) {
-    const auto problem = problem_of(testing::fourier_pair(31, 64), oscillator, periods, 0.3);
+    const auto problem = problem_of(testing::fourier_pair(31, 64), driven_oscillator, periods, 0.3);
     EXPECT_EQ(load_periods(problem), periods);
   }
   Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(10);
   harmonics[0] = harmonics[6] = harmonics[9] = 1.0;
-  EXPECT_EQ(load_periods(CondensedProblem(testing::fourier_pair(31, 64), oscillator, harmonics)), 3);
+  EXPECT_EQ(load_periods(CondensedProblem(testing::fourier_pair(31, 64), driven_oscillator, harmonics)), 3);
 }
 
 // Both are the same motion, written over 1 and over n periods.
 TEST(SubharmonicResponse, OfALinearStructureIsTheOrdinaryOne) {
   const double frequency = 0.3;
-  auto once = problem_of(testing::fourier_pair(15, 32), oscillator, 1, frequency);
+  auto once = problem_of(testing::fourier_pair(15, 32), driven_oscillator, 1, frequency);
   for (const int periods : {2, 3, 4}) {
-    auto problem = problem_of(testing::fourier_pair(31, 32 * periods), oscillator, periods, frequency);
+    auto problem = problem_of(testing::fourier_pair(31, 32 * periods), driven_oscillator, periods, frequency);
     const auto response = subharmonic_response(problem, testing::LinearContact{10.0, 1e3}, nullptr, {});
     ASSERT_TRUE(response.converged());
     EXPECT_EQ(motion_periods(problem, response), 1);
@@ -81,14 +81,14 @@ SettledMotion settled(CondensedProblem& problem, const ContactLaws& laws) {
 // Between its period doublings at 2.2062 and 2.9737 rad/s the motion of one period is unstable. Both have
 // errors of second order in their steps, 2e-6 here.
 TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheMotionThatItSettlesTo) {
-  const ContactDynamics dynamics(oscillator);
+  const ContactDynamics dynamics(driven_oscillator);
   for (const double omega : {2.25, 2.5, 2.7, 2.9}) {
-    auto problem = problem_of(testing::fourier_pair(253, 2048), oscillator, 2, omega / two_pi);
-    const auto response = subharmonic_response(problem, stop, &dynamics, {});
+    auto problem = problem_of(testing::fourier_pair(253, 2048), driven_oscillator, 2, omega / two_pi);
+    const auto response = subharmonic_response(problem, hard_stop, &dynamics, {});
     ASSERT_TRUE(response.converged());
     EXPECT_EQ(motion_periods(problem, response), 2);
-    EXPECT_EQ(unstable_multipliers(dynamics, problem, stop, response).count, 0);
-    const SettledMotion motion = settled(problem, stop);
+    EXPECT_EQ(unstable_multipliers(dynamics, problem, hard_stop, response).count, 0);
+    const SettledMotion motion = settled(problem, hard_stop);
     EXPECT_EQ(motion.attractor_periods, 2);
     EXPECT_LE(distance(response.displacement, resample(motion.displacement, 2048, motion.start), 2), 5e-6);
   }
@@ -96,13 +96,13 @@ TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheMotionThatItSettlesTo) {
 
 // Where that of two periods is itself doubled.
 TEST(SubharmonicResponse, OfFourPeriodsIsTheMotionThatItSettlesTo) {
-  const ContactDynamics dynamics(oscillator);
-  auto problem = problem_of(testing::fourier_pair(505, 4096), oscillator, 4, 2.4 / two_pi);
-  const auto response = subharmonic_response(problem, stop, &dynamics, {});
+  const ContactDynamics dynamics(driven_oscillator);
+  auto problem = problem_of(testing::fourier_pair(505, 4096), driven_oscillator, 4, 2.4 / two_pi);
+  const auto response = subharmonic_response(problem, hard_stop, &dynamics, {});
   ASSERT_TRUE(response.converged());
   EXPECT_EQ(motion_periods(problem, response), 4);
-  EXPECT_EQ(unstable_multipliers(dynamics, problem, stop, response).count, 0);
-  const SettledMotion motion = settled(problem, stop);
+  EXPECT_EQ(unstable_multipliers(dynamics, problem, hard_stop, response).count, 0);
+  const SettledMotion motion = settled(problem, hard_stop);
   EXPECT_EQ(motion.attractor_periods, 4);
   EXPECT_LE(distance(response.displacement, resample(motion.displacement, 4096, motion.start), 4), 5e-6);
 }
@@ -126,11 +126,11 @@ TEST(SubharmonicResponse, IsFoundFromAPerturbationWhereItIsUnstable) {
 
 // No motion of three periods is near: what is found is that of one period, and its record can say so.
 TEST(SubharmonicResponse, IsTheOrdinaryOneWhereNoOtherIsFound) {
-  const ContactDynamics dynamics(oscillator);
-  auto problem = problem_of(testing::fourier_pair(187, 1536), oscillator, 3, 2.0 / two_pi);
-  auto once = problem_of(testing::fourier_pair(63, 512), oscillator, 1, 2.0 / two_pi);
-  const auto response = subharmonic_response(problem, stop, &dynamics, {});
-  const auto ordinary = forced_response(once, stop, {});
+  const ContactDynamics dynamics(driven_oscillator);
+  auto problem = problem_of(testing::fourier_pair(187, 1536), driven_oscillator, 3, 2.0 / two_pi);
+  auto once = problem_of(testing::fourier_pair(63, 512), driven_oscillator, 1, 2.0 / two_pi);
+  const auto response = subharmonic_response(problem, hard_stop, &dynamics, {});
+  const auto ordinary = forced_response(once, hard_stop, {});
   ASSERT_TRUE(response.converged());
   EXPECT_EQ(motion_periods(problem, response), 1);
   EXPECT_LE((response.displacement - ordinary.displacement.replicate(3, 1)).norm(),
@@ -141,8 +141,8 @@ TEST(SubharmonicResponse, IsTheOrdinaryOneWhereNoOtherIsFound) {
 TEST(SubharmonicResponse, OfOtherPairsIsFoundBySettling) {
   for (const auto& pair : {testing::make_pair(spectral::FourierBasis(64), spectral::FourierBasis(64), 512),
                            testing::make_pair(testing::HaarBasis{64}, spectral::FourierBasis(64), 512)}) {
-    auto problem = problem_of(pair, oscillator, 2, 2.5 / two_pi);
-    const auto response = subharmonic_response(problem, stop, nullptr, {});
+    auto problem = problem_of(pair, driven_oscillator, 2, 2.5 / two_pi);
+    const auto response = subharmonic_response(problem, hard_stop, nullptr, {});
     ASSERT_TRUE(response.converged());
     EXPECT_EQ(motion_periods(problem, response), 2);
     EXPECT_LE(response.residual, 1e-10);
