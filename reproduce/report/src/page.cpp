@@ -34,14 +34,14 @@ std::string verdict(const Claim& claim) {
 
 std::string claims_table(const std::vector<Claim>& claims, const char* who) {
   if (claims.empty()) return "";
-  std::string text = std::string("<table><tr><th>") + who +
+  std::string text = std::string("<div class=\"wide\"><table><tr><th>") + who +
                      "</th><th>Measured, and what decides</th><th>Found in this run</th><th></th></tr>\n";
   for (const Claim& claim : claims)
     text +=
         fmt::format("<tr><td><q>{}</q> <span class=\"place\">({})</span></td><td>{}</td><td>{}</td>{}</tr>\n",
                     escaped(claim.quote), escaped(claim.place), escaped(claim.criterion),
                     escaped(claim.measured), verdict(claim));
-  return text + "</table>\n";
+  return text + "</table></div>\n";
 }
 
 std::string table_row(const std::vector<std::string>& cells, const char* tag) {
@@ -100,8 +100,8 @@ std::string differing(const Section& section) {
             escaped(claim.measured));
   if (rows.empty()) return "";
   return "<h3>Statements that do not hold as measured here</h3>\n"
-         "<table><tr><th></th><th>" +
-         std::string(speaker(section.paper)) + "</th><th>Found in this run</th></tr>\n" + rows + "</table>\n";
+         "<div class=\"wide\"><table><tr><th></th><th>" +
+         std::string(speaker(section.paper)) + "</th><th>Found in this run</th></tr>\n" + rows + "</table></div>\n";
 }
 
 std::string overview(const Section& section) {
