@@ -11,12 +11,15 @@ void report_curve(report::Artefact& artefact, const Curve& curve, const std::vec
   artefact.more_data("special_points", special_points_table(curve), "Hz, m");
   app::Figure figure;
   figure.panel_width = 640;
-  figure.panel_height = 420;
+  figure.panel_height = 460;
   figure.panels.push_back(curve_panel(curve, "63 harmonics", 1e3));
   figure.panels.back().y.label = "Largest tip displacement (mm)";
   figure.panels.back().mark_y(1e3 * curve.scene.contact.gap, "gap");
   artefact.picture(std::move(figure));
   report_rows(artefact, rows);
+  if (curve.sweep.branches.empty()) return;
+  artefact.more_data("branches", app::sweep_table(curve.sweep, true), "Hz, m; branch 0 is the curve itself");
+  artefact.note(branches_text(curve));
 }
 
 }  // namespace
@@ -25,7 +28,8 @@ void small_gap_bar(report::Artefact& artefact) {
   const Curve curve = followed(artefact, "small_gap_bar.toml", 1.0);
   artefact.caption(
       "The bar of JL14 with the load of case 2, a quarter of its damping and a gap of 0.1 mm. The motion of one "
-      "period loses its stability just after contact begins and has it between two period doublings.");
+      "period loses its stability just after contact begins and has it between "
+      "two period doublings. Branches are motions of two periods that begin at period doublings.");
   report_curve(artefact, curve,
                compare(curve, references::small_gap_points, references::bar_point_tolerance,
                        references::modal_shooting));

@@ -1,5 +1,7 @@
 #include "curve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -129,6 +131,27 @@ app::Table special_points_table(const Curve& curve) {
   return table;
 }
 
+std::string branches_text(const Curve& curve) {
+  std::string text;
+  int number = 0;
+  for (const auto& branch : curve.sweep.branches) {
+    const auto& parent = branch.parent == 0
+                             ? curve.sweep.stability
+                             : curve.sweep.branches[static_cast<std::size_t>(branch.parent) - 1].stability;
+    const auto& start = parent.special_points[static_cast<std::size_t>(branch.special_point)];
+    const auto& points = branch.curve.points;
+    if (points.empty()) continue;
+    const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(), [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+    text += fmt::format(
+        "{}Branch {} has motions of {} periods; it begins at {} {} and lies between {} and {}.",
+        text.empty() ? "" : " ", ++number, branch.periods * curve.sweep.periods,
+        report::number(curve.unit * start.frequency, 6), curve.unit_name(),
+        report::number(curve.unit * low->frequency, 6), report::number(curve.unit * high->frequency, 6));
+  }
+  return text;
+}
+
 app::Panel curve_panel(const Curve& curve, const std::string& label, double scale, const Ordinate& ordinate) {
   app::Panel panel;
   panel.x.label = std::string("Frequency (") + curve.unit_name() + ")";
@@ -145,6 +168,11 @@ app::Panel curve_panel(const Curve& curve, const std::string& label, double scal
     marks.push_back({point.type, curve.unit * point.frequency,
                      scale * (ordinate ? ordinate(point.unknown) : point.max_displacement)});
   app::draw_by_stability(panel, series, curve.sweep.stability.points, marks);
+  if (!ordinate) app::draw_branches(panel, curve.sweep, curve.unit, scale);
+  for (const auto& branch : curve.sweep.branches)
+    for (const auto& point : branch.stability.special_points)
+      if (!ordinate)
+        marks.push_back({point.type, curve.unit * point.frequency, scale * point.max_displacement});
   app::draw_special_points(panel, marks);
   return panel;
 }

@@ -49,8 +49,11 @@ app::Table curve_table(const Curve& curve, const Ordinate& ordinate = {});
 /// max_displacement.
 app::Table special_points_table(const Curve& curve);
 
+/// Where each branch begins and goes, one sentence for each.
+std::string branches_text(const Curve& curve);
+
 /// The curve with its special points, unstable parts dashed. Without an ordinate: the largest displacement,
-/// times `scale`.
+/// times `scale`, and also the branches.
 app::Panel curve_panel(const Curve& curve, const std::string& label, double scale,
                        const Ordinate& ordinate = {});
 

@@ -39,15 +39,18 @@ void oscillator_with_stop(report::Artefact& artefact) {
   artefact.more_data("special_points", special_points_table(curve), "rad/s, without unit");
   app::Figure figure;
   figure.panel_width = 640;
-  figure.panel_height = 400;
+  figure.panel_height = 500;
   figure.panels.push_back(curve_panel(curve, "63 harmonics", 1.0));
   figure.panels.back().y.label = "Largest displacement";
   figure.panels.back().mark_y(curve.scene.contact.gap, "gap");
   artefact.picture(std::move(figure));
   artefact.caption(
       "An oscillator with a stop ten times as stiff as its spring, from 3.2 rad/s down. Between the period "
-      "doublings its motion of one period is unstable.");
+      "doublings its motion of one period is unstable; the branches are motions of two and four periods.");
   report_rows(artefact, rows);
+  artefact.more_data("branches", app::sweep_table(curve.sweep, true),
+                     "Hz; displacements without unit; branch 0 is the curve itself");
+  artefact.note(branches_text(curve));
   claim_count(artefact, curve, 2.97373, 2.2062, 1, "unstable between the period doublings",
               references::shooting);
 }

@@ -1,13 +1,13 @@
 #include "analysis/record_figure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "analysis/response_parts.hpp"
+#include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 
@@ -133,105 +133,23 @@ std::vector<double> joined_columns(const Table& table, std::string_view first, s
   return values;
 }
 
-bool is_unstable(const std::vector<solvers::PointStability>& points, std::size_t index) {
-  return index < points.size() && points[index].unstable > 0;
+/// Special points at their largest displacement.
+std::vector<PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points, double factor) {
+  std::vector<PlacedPoint> marks;
+  for (const auto& point : points)
+    marks.push_back({point.type, point.frequency, factor * point.max_displacement});
+  return marks;
 }
 
-/// Adds a curve, dashed where one end of a line is unstable.
-void add_by_stability(Panel& panel, Series curve, const std::vector<solvers::PointStability>& points) {
-  Series dashed = curve;
-  dashed.label += ", unstable";
-  dashed.dash = Dash::dashed;
-  bool any = false;
-  for (std::size_t i = 0; i < curve.y.size(); ++i) {
-    const bool here = is_unstable(points, i);
-    const bool beside = is_unstable(points, i + 1) || (i > 0 && is_unstable(points, i - 1));
-    if (here) curve.y[i] = std::nan("");
-    if (!here && !beside) dashed.y[i] = std::nan("");
-    any = any || here;
-  }
-  panel.add(any ? std::move(curve) : thinned(curve));
-  if (any) panel.add(std::move(dashed));
-}
-
-std::string label_of(solvers::SpecialPointType type) {
-  switch (type) {
-    case solvers::SpecialPointType::fold:
-      return "fold";
-    case solvers::SpecialPointType::period_doubling:
-      return "period doubling";
-    case solvers::SpecialPointType::neimark_sacker:
-      return "Neimark-Sacker point";
-    case solvers::SpecialPointType::grazing:
-      return "grazing";
-    case solvers::SpecialPointType::branch:
-      return "branch point";
-    case solvers::SpecialPointType::krein_collision:
-      return "Krein collision";
-  }
-  return "";
-}
-
-/// Marks special points at their largest displacement, one symbol for each kind.
-void add_special_points(Panel& panel, const std::vector<solvers::SpecialPoint>& points, double factor) {
-  using Type = solvers::SpecialPointType;
-  int marker = 0;
-  for (const Type type :
-       {Type::fold, Type::period_doubling, Type::neimark_sacker, Type::branch, Type::grazing}) {
-    ++marker;
-    std::vector<double> x, y;
-    for (const auto& point : points) {
-      if (point.type != type) continue;
-      x.push_back(point.frequency);
-      y.push_back(factor * point.max_displacement);
-    }
-    if (x.empty()) continue;
-    Series series(label_of(type), x, y, SeriesStyle::points);
-    series.colour = Colour::black;
-    series.marker = marker;
-    panel.add(std::move(series));
-  }
-}
-
-/// One entry of the legend for the parts of a branch, the series from `first` on: dashes mean the same in
-/// all.
-void label_once(Panel& panel, std::size_t first) {
-  if (panel.series.size() < first + 2) return;
-  Series &stable = panel.series[first], &unstable = panel.series[first + 1];
-  unstable.label = "";
-  if (std::any_of(stable.y.begin(), stable.y.end(), [](double y) { return !std::isnan(y); })) return;
-  unstable.label = std::move(stable.label);
-  panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
-}
-
-/// The largest displacement along each branch.
-void add_branches(Panel& panel, const Sweep& sweep, double factor) {
-  constexpr std::array colours{Colour::green, Colour::vermillion, Colour::purple, Colour::sky_blue};
-  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
-    const solvers::Branch& branch = sweep.branches[i];
-    if (branch.curve.points.empty()) continue;
-    const int periods = branch.periods * sweep.periods;
-    Series series;
-    series.label = "branch " + std::to_string(i + 1) + ", " + std::to_string(periods) +
-                   (periods == 1 ? " period" : " periods");
-    for (const auto& point : branch.curve.points) {
-      series.x.push_back(point.frequency);
-      series.y.push_back(factor * point.max_displacement);
-    }
-    series.colour = colours[i % colours.size()];
-    const std::size_t before = panel.series.size();
-    add_by_stability(panel, std::move(series), branch.stability.points);
-    label_once(panel, before);
-  }
-}
-
-/// Those of the curve and of its branches.
-std::vector<solvers::SpecialPoint> all_special_points(const Sweep& sweep) {
-  std::vector<solvers::SpecialPoint> points = sweep.stability.special_points;
-  for (const solvers::Branch& branch : sweep.branches)
-    points.insert(points.end(), branch.stability.special_points.begin(),
-                  branch.stability.special_points.end());
-  return points;
+/// A stable curve of many points is thinned.
+void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
+               const std::vector<PlacedPoint>& special) {
+  const bool unstable =
+      std::any_of(points.begin(), points.end(), [](const auto& point) { return point.unstable > 0; });
+  if (unstable)
+    draw_by_stability(panel, curve, points, special);
+  else
+    panel.add(thinned(curve));
 }
 
 }  // namespace
@@ -316,11 +234,17 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
                                               {"rms", "rms_displacement_m", Colour::orange}}) {
     Series series(label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor));
     series.colour = colour;
-    add_by_stability(panel, std::move(series), sweep.stability.points);
+    const bool largest_one = colour == Colour::blue;  // that of the special points
+    add_curve(
+        panel, series, sweep.stability.points,
+        largest_one ? placed(sweep.stability.special_points, scale.factor) : std::vector<PlacedPoint>());
   }
-  add_branches(panel, sweep, scale.factor);
+  draw_branches(panel, sweep, 1.0, scale.factor);
   figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
-  add_special_points(panel, all_special_points(sweep), scale.factor);
+  std::vector<PlacedPoint> marks = placed(sweep.stability.special_points, scale.factor);
+  for (const solvers::Branch& branch : sweep.branches)
+    for (const PlacedPoint& one : placed(branch.stability.special_points, scale.factor)) marks.push_back(one);
+  draw_special_points(panel, marks);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
   if (scene.contact.law != ContactLawType::none && one_gap)
     panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");

@@ -121,13 +121,28 @@ Series drawn(const Series& curve, const std::vector<Piece>& pieces, bool unstabl
   return series;
 }
 
+/// One entry of the legend for the parts of a branch, the series from `first` on: dashes mean the same in
+/// all.
+void label_once(Panel& panel, std::size_t first) {
+  if (panel.series.size() < first + 2) return;
+  Series &stable = panel.series[first], &unstable = panel.series[first + 1];
+  unstable.label = "";
+  if (std::any_of(stable.y.begin(), stable.y.end(), [](double y) { return !std::isnan(y); })) return;
+  unstable.label = std::move(stable.label);
+  panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
 }  // namespace
 
 void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
                        const std::vector<PlacedPoint>& special) {
   const std::vector<Piece> pieces = pieces_of(curve, points, special);
-  Series dashed = drawn(curve, pieces, true);
-  panel.add(drawn(curve, pieces, false));
+  Series solid = drawn(curve, pieces, false), dashed = drawn(curve, pieces, true);
+  if (solid.x.empty() && !dashed.x.empty()) {
+    solid.x = {dashed.x.front()};
+    solid.y = {std::nan("")};
+  }
+  panel.add(std::move(solid));
   if (dashed.x.empty()) return;
   if (!dashed.label.empty()) dashed.label += ", unstable";
   dashed.dash = Dash::dashed;
@@ -147,6 +162,29 @@ void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points) {
     series.colour = Colour::black;
     series.marker = static_cast<int>(kind) + 1;
     panel.add(std::move(series));
+  }
+}
+
+void draw_branches(Panel& panel, const Sweep& sweep, double x_factor, double y_factor) {
+  constexpr std::array colours{Colour::green, Colour::vermillion, Colour::purple, Colour::sky_blue};
+  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
+    const solvers::Branch& branch = sweep.branches[i];
+    if (branch.curve.points.empty()) continue;
+    const int periods = branch.periods * sweep.periods;
+    Series series;
+    series.label = "branch " + std::to_string(i + 1) + ", " + std::to_string(periods) +
+                   (periods == 1 ? " period" : " periods");
+    for (const auto& point : branch.curve.points) {
+      series.x.push_back(x_factor * point.frequency);
+      series.y.push_back(y_factor * point.max_displacement);
+    }
+    series.colour = colours[i % colours.size()];
+    std::vector<PlacedPoint> special;
+    for (const auto& point : branch.stability.special_points)
+      special.push_back({point.type, x_factor * point.frequency, y_factor * point.max_displacement});
+    const std::size_t before = panel.series.size();
+    draw_by_stability(panel, series, branch.stability.points, special);
+    label_once(panel, before);
   }
 }
 

@@ -119,9 +119,8 @@ double largest_displacement(const Eigen::VectorXd& samples) { return samples.max
 /// The curve of a scene, coarser, to start from.
 Curve coarse_curve(const std::string& name) {
   const std::vector<std::string> overrides{"time.functions=63", "time.quadrature_points=1024",
-                                           "analysis.stability=false"};
+                                           "analysis.branches=false"};
   Curve curve{app::load_scene(scene_file(name), overrides), {}, {}, two_pi};
-  curve.scene.analysis.stability = true;  // for the unknowns
   curve.model = app::make_model(curve.scene);
   curve.sweep = app::frequency_sweep(curve.scene, curve.model);
   return curve;
