@@ -258,6 +258,7 @@ void append_branches(Record& record, const Sweep& sweep) {
                "stability"});
   for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
     table.append_row(branch_row(sweep, i));
+    warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points);
     if (ended_well(sweep.branches[i])) continue;
     record.warnings.push_back(
         fmt::format("Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end)));

@@ -113,6 +113,18 @@ TEST(TimeSteppingRecord, SaysAfterHowManyPeriodsAMotionRepeats) {
   EXPECT_TRUE(warns(record, "analysis.subharmonic = 2"));
 }
 
+// The force form. Its points are no multiple of three, so that a motion of one period repeats to 1e-4 only.
+TEST(SubharmonicScene, WithRigidContactSaysThatItsMotionHasOnePeriod) {
+  const std::vector<std::string> overrides{"analysis.subharmonic=3", "time.functions=127",
+                                           "time.quadrature_points=1024"};
+  const Record record =
+      analyse(load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case2_rigid.toml", overrides));
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "period_of_motion"), 1);
+  EXPECT_GT(value_of<double>(record.summary, "change_after_one_period"), 1e-8);
+  EXPECT_LT(value_of<double>(record.summary, "change_after_one_period"), 2e-4);
+}
+
 // Frequencies are those of the load. The sweep starts on the motion of two periods at 2.7 rad/s, which turns
 // back at 3.0243 rad/s.
 TEST(SubharmonicSweep, FollowsTheMotionOfTwoPeriods) {
@@ -150,6 +162,22 @@ TEST(SweepWithBranches, WritesEveryCurveWithItsPeriod) {
     EXPECT_LT(two_pi * frequency[i], 3.15);
     if (branch[i] == 0.0 && two_pi * frequency[i] > 2.21 && two_pi * frequency[i] < 2.97)
       EXPECT_EQ(unstable[i], 1.0);
+  }
+}
+
+// Their motions of two periods have twice the functions and points, so that one of the curve repeated is one.
+TEST(SweepWithBranches, IsThatOfEveryPairOfBases) {
+  using Pair = std::vector<std::string>;
+  for (const Pair& pair :
+       {Pair{"bspline", "bspline"}, Pair{"daubechies6", "bspline"}, Pair{"fourier", "fourier"}}) {
+    SCOPED_TRACE(pair[0] + ":" + pair[1]);
+    const Record record = analyse(sweep_with(
+        {"analysis.branches=true", "time.trial=" + pair[0], "time.weight=" + pair[1], "time.functions=64"}));
+    const Table branches = value_of<Table>(record.summary, "branches");
+    ASSERT_EQ(branches.rows(), 2u);
+    EXPECT_NEAR(two_pi * branches.numbers("frequency_Hz")[0], 2.206199894019, 2e-4);
+    EXPECT_NEAR(two_pi * branches.numbers("end_frequency_Hz")[0], 2.973736781998, 2e-4);
+    EXPECT_EQ(branches.numbers("period"), (std::vector<double>{2.0, 4.0}));
   }
 }
 
@@ -199,6 +227,22 @@ TEST(Sweep, WarnsThatMotionsBecomeQuasiPeriodicAtNeimarkSackerPoints) {
       analyse(load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep.toml", overrides));
   EXPECT_TRUE(warns(record, "quasi-periodic"));
   EXPECT_TRUE(warns(record, "1312."));
+}
+
+// That of two periods which begins just after contact does, at 2734.17 Hz.
+TEST(SweepWithBranches, WarnsOfNeimarkSackerPointsOnBranchesToo) {
+  const std::vector<std::string> overrides{"time.trial=fourier",
+                                           "time.weight=fourier",
+                                           "time.functions=63",
+                                           "time.quadrature_points=512",
+                                           "structure.stiffness_damping=1.25e-6",
+                                           "contact.gap=1e-4",
+                                           "analysis.frequency_from=2550",
+                                           "analysis.frequency_to=3000",
+                                           "analysis.branches=true"};
+  const Record record =
+      analyse(load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep.toml", overrides));
+  EXPECT_TRUE(warns(record, "2916."));
 }
 
 TEST(SceneWithSeveralPeriods, RefusesWhatHasNone) {

@@ -34,6 +34,11 @@ Eigen::VectorXd alternating_part(const Eigen::VectorXd& samples, int contacts) {
   return result;
 }
 
+double alternating_share(const Eigen::VectorXd& samples, int contacts) {
+  const double whole = samples.norm();
+  return whole > 0.0 ? std::sqrt(2.0) * alternating_part(samples, contacts).norm() / whole : 0.0;
+}
+
 double Scales::inner(const CurvePoint& a, const CurvePoint& b) const {
   return a.displacement.dot(b.displacement) / (double(a.displacement.size()) * displacement * displacement) +
          a.parameter * b.parameter / (frequency * frequency);
@@ -85,8 +90,8 @@ bool Arrival::operator()(const CurvePoint& before, const CurvePoint& after) {
 }
 
 bool Arrival::is_beside(const CurvePoint& last) const {
-  constexpr double beside = 0.2;  // of the largest difference between half periods
-  return doubled_ && alternating_part(last.displacement, contacts_).norm() < beside * largest_;
+  constexpr double beside = 0.1;
+  return doubled_ && alternating_share(last.displacement, contacts_) < beside;
 }
 
 void Arrival::note_nearest(const CurvePoint& last, double reach) {

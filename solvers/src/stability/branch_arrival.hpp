@@ -13,6 +13,9 @@ Eigen::VectorXd repeated(const Eigen::VectorXd& samples, int contacts, int times
 /// repeats after half the period.
 Eigen::VectorXd alternating_part(const Eigen::VectorXd& samples, int contacts);
 
+/// The rms of that part over the rms of the samples; 0 of a motion at rest.
+double alternating_share(const Eigen::VectorXd& samples, int contacts);
+
 /// A curve whose special points begin branches, with its index as in Branch::parent.
 struct Parent {
   int index = 0;

@@ -69,7 +69,8 @@ class Branches {
   }
 
   std::vector<double> sides_of(const Parent& parent, const SpecialPoint& point) const {
-    if (point.type == SpecialPointType::branch && point.located) return {1.0, -1.0};
+    // Of a branch they are mostly crossings with curves that are followed already.
+    if (point.type == SpecialPointType::branch && point.located && parent.index == 0) return {1.0, -1.0};
     const bool doubles =
         point.type == SpecialPointType::period_doubling && 2 * parent.periods <= options_.largest_period;
     return doubles ? std::vector<double>{1.0} : std::vector<double>{};
@@ -202,14 +203,12 @@ class Branches {
   // discretisation has the doubling of the curve and that of the multiplier at slightly different places:
   // neither a fold nor a branch point, and the count is that of the points beyond.
   static void leave_out_parent(int contacts, Branch& branch) {
-    constexpr double beside = 0.1, beside_unlocated = 0.3;  // of the largest difference between half periods
-    const auto content = [&](const auto& point) { return alternating_part(point.unknown, contacts).norm(); };
-    double largest = 0.0;
-    for (const SweepPoint& point : branch.curve.points) largest = std::max(largest, content(point));
-    const auto is_beside = [&](const auto& point) { return content(point) < beside * largest; };
+    constexpr double beside = 0.03, beside_unlocated = 0.06;
+    const auto content = [&](const auto& point) { return alternating_share(point.unknown, contacts); };
+    const auto is_beside = [&](const auto& point) { return content(point) < beside; };
     const auto removed = std::erase_if(branch.stability.special_points, [&](const SpecialPoint& point) {
       if (point.type != SpecialPointType::fold && point.type != SpecialPointType::branch) return false;
-      if (!point.located) return content(point) < beside_unlocated * largest;
+      if (!point.located) return content(point) < beside_unlocated;
       return point.type == SpecialPointType::branch && is_beside(point);
     });
     if (removed == 0) return;

@@ -154,6 +154,34 @@ TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
   expect_motions_of_the_period(branch, problems, law);
 }
 
+// Far from its special point a branch has folds like any curve, also where the motion of two periods is still
+// small beside that at its end: where it turns at its lowest frequency a multiplier passes 1.
+TEST(Branches, OfTheBarHaveAFoldWhereTheyTurn) {
+  const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
+  testing::ExponentialLaw law = testing::jl14_case_2.law;
+  law.start = 1e-4;
+  const auto problems = problems_of(bar, 63, 512);
+  const TracedBranches traced = trace_branches(problems, bar, law, 2550.0, 3300.0, 2);
+  const auto from_grazing =
+      std::find_if(traced.branches.begin(), traced.branches.end(), [](const Branch& branch) {
+        return std::abs(2.0 * branch.curve.points.front().frequency - 2734.17) < 0.5;
+      });
+  ASSERT_NE(from_grazing, traced.branches.end());
+  const auto& points = from_grazing->curve.points;
+  const auto lowest = std::min_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  ASSERT_GT(lowest - points.begin(), 2);
+  ASSERT_GT(points.end() - lowest, 2);
+  const auto folds = frequencies(from_grazing->stability, SpecialPointType::fold, 2.0);
+  EXPECT_TRUE(std::any_of(folds.begin(), folds.end(), [&](double fold) {
+    return std::abs(fold - 2.0 * lowest->frequency) < 0.5;
+  })) << 2.0 * lowest->frequency;
+  const auto count_at = [&](auto point) {
+    return from_grazing->stability.points[std::size_t(point - points.begin())].unstable;
+  };
+  EXPECT_EQ(std::abs(count_at(lowest - 2) - count_at(lowest + 2)), 1);
+}
+
 // The motion between equal stops loses its symmetry, u(t + T/2) = -u(t), at two branch points. Both sides are
 // the same motion mirrored.
 TEST(Branches, OfAnOscillatorBetweenEqualStopsAreTheMotionsWithoutItsSymmetry) {

@@ -52,13 +52,14 @@ struct BranchOptions {
 /// motion of the main curve repeated is a solution. One without frequency or in the displacement form.
 using BranchProblems = std::function<CondensedProblem(int periods)>;
 
-/// Follows the branches of a curve, and theirs, up to largest_period and max_branches. At a period doubling
-/// the motions of two periods begin: u* repeated plus a small multiple of the null vector, by
-/// floquet_exponents(), is corrected in the plane perpendicular to that vector, and the curve from there by
-/// arc length. It is one curve, since its other side is the same motion one period later. At a branch point
-/// both sides are followed. A branch ends where it arrives at the curve that it left: there the difference
-/// between u and u one period later vanishes and changes sign [R. Seydel, Practical Bifurcation and Stability
-/// Analysis, 2010, chapter 5]. That special point begins no branch of its own.
+/// Follows the branches of a curve, and the period-doubled ones of these, up to largest_period and
+/// max_branches. At a period doubling the motions of two periods begin: u* repeated plus a small multiple of
+/// the null vector, by floquet_exponents(), is corrected in the plane perpendicular to that vector, and the
+/// curve from there by arc length. It is one curve, since its other side is the same motion one period later.
+/// At branch points of the main curve that are located both sides are followed. A branch ends where it
+/// arrives at the curve that it left: there the difference between u and u one period later vanishes and
+/// changes sign [R. Seydel, Practical Bifurcation and Stability Analysis, 2010, chapter 5]. That special
+/// point begins no branch of its own.
 ///
 /// Nothing is followed at folds, grazings and Neimark-Sacker points, where the motions that begin are not
 /// periodic. Throws std::invalid_argument for options out of range, a problem of other sizes, and a curve as
