@@ -24,7 +24,7 @@ class ResidualParameter final : public CurveParameter {
 
 // The operations of a point grow at least in proportion to the samples.
 double limit_of_operations(ContactSystem& system, const ResidualHomotopyOptions& options) {
-  constexpr double few_samples = 1536.0;
+  constexpr double few_samples = 6144.0;
   return options.max_operations * std::max(1.0, system.problem().samples() / few_samples);
 }
 
