@@ -1,9 +1,11 @@
 #include "wavebalance/app/compose/compose.hpp"
 
+#include <Eigen/Cholesky>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
@@ -121,13 +123,60 @@ solvers::TimePair make_pair(const Time& time) {
   return {std::move(parts.trial), std::move(parts.weight), std::move(parts.options)};
 }
 
-StructureModes make_modes(const StructureModel& model) {
-  const solvers::LinearStructure& structure = model.structure;
-  auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
+namespace {
+
+fem::EigenmodesResult all_modes(const Eigen::SparseMatrix<double>& stiffness,
+                                const Eigen::SparseMatrix<double>& mass) {
+  auto modes = fem::eigenmodes(stiffness, mass, static_cast<int>(mass.rows()));
   if (modes.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("make_modes: the eigenvalue solver did not find all linear modes");
-  Eigen::MatrixXd contact_shapes = structure.contact_directions * modes.shapes;
-  return {{modes.omega.cwiseAbs2(), std::move(contact_shapes), model.gaps}, std::move(modes.shapes)};
+  return modes;
+}
+
+/// Modes of a structure of which some degrees of freedom have no mass: those of the others, with the former
+/// condensed, and the deflections of the former alone as springs.
+StructureModes modes_beside_springs(const solvers::LinearStructure& structure, const std::vector<int>& moving,
+                                    const std::vector<int>& massless) {
+  constexpr double beyond = 1e10;  // omega^2 of springs over the largest of the others
+  const Eigen::MatrixXd stiffness(structure.stiffness), mass(structure.mass);
+  const Eigen::LLT<Eigen::MatrixXd> held(Eigen::MatrixXd(stiffness(massless, massless)));
+  if (held.info() != Eigen::Success)
+    throw std::runtime_error("make_modes: degrees of freedom without mass are not held by a stiffness");
+  const Eigen::MatrixXd coupling = held.solve(Eigen::MatrixXd(stiffness(massless, moving)));
+  const Eigen::MatrixXd condensed = stiffness(moving, moving) - stiffness(moving, massless) * coupling;
+  const auto modes = all_modes(Eigen::MatrixXd(0.5 * (condensed + condensed.transpose())).sparseView(),
+                               Eigen::MatrixXd(mass(moving, moving)).sparseView());
+  const auto count = static_cast<Eigen::Index>(moving.size()),
+             springs = static_cast<Eigen::Index>(massless.size());
+  const double far = beyond * modes.omega.cwiseAbs2().maxCoeff();
+  StructureModes result{{Eigen::VectorXd(count + springs), {}, {}, static_cast<int>(springs)},
+                        Eigen::MatrixXd::Zero(count + springs, count + springs)};
+  result.model.omega_squared << modes.omega.cwiseAbs2(), Eigen::VectorXd::Constant(springs, far);
+  Eigen::MatrixXd at_massless(springs, count + springs);
+  at_massless << -coupling * modes.shapes,
+      std::sqrt(far) * Eigen::MatrixXd(held.matrixU().solve(Eigen::MatrixXd::Identity(springs, springs)));
+  result.shapes(moving, Eigen::seqN(0, count)) = modes.shapes;
+  result.shapes(massless, Eigen::all) = at_massless;
+  return result;
+}
+
+}  // namespace
+
+StructureModes make_modes(const StructureModel& model) {
+  const solvers::LinearStructure& structure = model.structure;
+  std::vector<int> moving, massless;
+  for (int i = 0; i < structure.size(); ++i)
+    (structure.mass.col(i).cwiseAbs().sum() > 0.0 ? moving : massless).push_back(i);
+  StructureModes modes;
+  if (massless.empty()) {
+    auto found = all_modes(structure.stiffness, structure.mass);
+    modes = {{found.omega.cwiseAbs2(), {}, {}}, std::move(found.shapes)};
+  } else {
+    modes = modes_beside_springs(structure, moving, massless);
+  }
+  modes.model.contact_shapes = structure.contact_directions * modes.shapes;
+  modes.model.gaps = model.gaps;
+  return modes;
 }
 
 solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model) {

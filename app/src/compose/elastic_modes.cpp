@@ -7,7 +7,8 @@ namespace wavebalance::app {
 bool is_elastic_mode(const Scene& scene) {
   const ContactLawType law = scene.contact.law;
   return scene.analysis.type == AnalysisType::nonlinear_mode &&
-         (law == ContactLawType::exponential || law == ContactLawType::linear);
+         (law == ContactLawType::exponential || law == ContactLawType::linear ||
+          (law == ContactLawType::rigid && redistributes_mass(scene)));
 }
 
 Time mode_time(const Scene& scene) {

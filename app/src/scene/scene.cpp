@@ -45,8 +45,8 @@ Scene with_longer_period(Scene scene, int times) {
 
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep) return false;
-  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  if (type == AnalysisType::time_stepping) return false;
+  const bool rigid = scene.contact.law == ContactLawType::rigid && type != AnalysisType::nonlinear_mode;
   return scene.contact.mass == ContactMass::redistribute ||
          (scene.contact.mass == ContactMass::automatic && rigid && !scene.structure.massless_tip);
 }

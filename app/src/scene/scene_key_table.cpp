@@ -227,8 +227,9 @@ void add_contact(std::vector<SceneKey>& keys) {
       optional, only_with(balanced));
   contact(&Contact::mass, "mass", "",
           "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
-          "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law",
-          optional, only_with(balanced));
+          "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law, but not "
+          "in nonlinear modes",
+          optional, only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
 }
 
 void add_forcing(std::vector<SceneKey>& keys) {

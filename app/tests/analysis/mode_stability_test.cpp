@@ -73,6 +73,19 @@ TEST(ModeStabilityScene, RigidContactWithMassHasNoStabilityWithoutALawOfImpact) 
   EXPECT_TRUE(std::isnan(value_of<double>(motion.summary, "unstable_multipliers")));
 }
 
+TEST(ModeStabilityScene, RigidContactWithoutMassHasAStability) {
+  const std::vector<std::string> massless{"contact.mass=redistribute", "analysis.harmonics=20", "analysis.samples=160", "analysis.points=100",
+                                          "analysis.largest_energy=2"};
+  const Record record = analyse(parse_scene(rod_scene, "rod.toml", massless));
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "converged");
+  EXPECT_LT(value_of<double>(record.summary, "contact_mass_frequency_change"), 0.2);
+  const auto unstable = record.backbone.numbers("unstable"),
+             ratio = record.backbone.numbers("frequency_ratio");
+  EXPECT_EQ(unstable[0], 0.0);
+  EXPECT_GT(ratio.back(), 1.05);
+}
+
 TEST(ModeStabilityScene, IsLeftOutOnRequest) {
   const Record record = analyse(stopped_rod({"analysis.stability=false"}));
   EXPECT_FALSE(has(record, "stability"));

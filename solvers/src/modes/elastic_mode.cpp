@@ -65,6 +65,10 @@ Eigen::VectorXd flexibility_of(const ModalModel& model, const ContactLaws& laws,
   const bool takes_force =
       form == ContactForm::force || (form == ContactForm::automatic && stiff && laws.unilateral());
   if (!takes_force) return {};
+  // v is then the displacement of the other modes, on which the spring is a linear stop.
+  const Eigen::VectorXd springs = model.contact_shapes.rightCols(model.springs).cwiseAbs2() *
+                                  model.omega_squared.tail(model.springs).cwiseInverse();
+  if (rigid && springs.minCoeff() > 0.0) return springs;
   return compliance / relative_epsilon;
 }
 
@@ -119,8 +123,9 @@ ElasticMode::ElasticMode(ModalModel model, const TimePair& pair, ContactLaws law
     : trial_(pair.trial()), options_(options) {
   options_.validate();
   model.validate();
-  if (options_.mode > model.modes())
-    detail::reject("ElasticMode", "mode", options_.mode, ("in 1.." + std::to_string(model.modes())).c_str());
+  const int most = model.modes() - model.springs;
+  if (options_.mode > most)
+    detail::reject("ElasticMode", "mode", options_.mode, ("in 1.." + std::to_string(most)).c_str());
   require_gaps(model, laws);
   ModeProblem problem;
   problem.mode = options_.mode - 1;

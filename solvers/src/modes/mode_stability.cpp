@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -116,9 +117,19 @@ Eigen::VectorXcd linear_multipliers(const ModalModel& model, double omega, int o
   return values;
 }
 
+// A rigid obstacle holds contacts that are springs, so that its stiffness may be infinite.
+void hold_without_mass(const ModalModel& model, PeriodicStiffness& stiffness) {
+  if (stiffness.status != StabilityStatus::no_finite_stiffness || stiffness.intervals.empty()) return;
+  const Eigen::MatrixXd springs = model.contact_shapes.rightCols(model.springs);
+  for (const ContactInterval& interval : stiffness.intervals)
+    if (springs.row(interval.contact).isZero(0.0)) return;
+  stiffness.status = StabilityStatus::converged;
+  stiffness.tangent = [](int, double) { return std::numeric_limits<double>::infinity(); };
+}
+
 // Modes up to the highest harmonic of a motion, and at least the one continued.
 int dynamic_modes(const ElasticMode& mode, double omega) {
-  const double highest = mode.harmonics() * omega;
+  const double highest = mode.harmonics() * omega;  // far below those of springs
   const auto below = (mode.model().omega_squared.array() <= highest * highest).count();
   return std::max(mode.options().mode, static_cast<int>(below));
 }
@@ -142,7 +153,8 @@ ModeMultipliers::ModeMultipliers(const ElasticMode& mode, ModeStabilityOptions o
 ModeStability ModeMultipliers::operator()(const ModePoint& point) const {
   ModeStability result;
   if (point.amplitudes.size() == 0) return result;
-  const PeriodicStiffness stiffness = mode_.contact_stiffness(point);
+  PeriodicStiffness stiffness = mode_.contact_stiffness(point);
+  hold_without_mass(mode_.model(), stiffness);
   result.status = stiffness.status;
   result.contacts = static_cast<int>(stiffness.intervals.size());
   if (result.status != StabilityStatus::converged) return result;

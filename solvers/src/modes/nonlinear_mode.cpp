@@ -37,6 +37,8 @@ void ModalModel::validate() const {
     fail("contact_shapes is " + std::to_string(contact_shapes.rows()) + " x " +
          std::to_string(contact_shapes.cols()) + "; " + std::to_string(contacts()) + " gaps and " +
          std::to_string(modes()) + " modes need it to be of that size");
+  if (springs < 0 || springs >= modes())
+    fail("springs is " + std::to_string(springs) + "; it must be in 0.." + std::to_string(modes() - 1));
   if (!(omega_squared.minCoeff() > 0.0)) fail("omega_squared must be positive; rigid-body modes have none");
   if (!(gaps.minCoeff() > 0.0))
     fail("gaps must be positive; the smallest is " + std::to_string(gaps.minCoeff()));

@@ -185,9 +185,24 @@ class Propagator {
     for (const double point : rule_.points)
       for (const int contact : piece.closed)
         tangent[row++] = stiffness_.tangent(contact, begin + length * point);
+    const Eigen::MatrixXd free = detail::product(maps.free, states);
+    if (!tangent.allFinite()) return forces_of_rigid(tangent, maps.memory, free);
     Eigen::MatrixXd matrix = maps.memory * tangent.asDiagonal();
     matrix.diagonal().array() += 1.0;
-    return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(detail::product(maps.free, states));
+    return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(free);
+  }
+
+  // The same with rigid contacts, infinite tangents, which hold the displacement: f / D + h * f = free
+  // motion.
+  static Eigen::MatrixXd forces_of_rigid(const Eigen::VectorXd& tangent, Eigen::MatrixXd matrix,
+                                         Eigen::MatrixXd free) {
+    for (Eigen::Index row = 0; row < tangent.size(); ++row) {
+      if (std::isinf(tangent[row])) continue;
+      matrix.row(row) *= tangent[row];
+      matrix(row, row) += 1.0;
+      free.row(row) *= tangent[row];
+    }
+    return detail::Lu<double>(matrix).solve(free);
   }
 
   // integral up to node i of h(t_i - s) times the polynomials of the nodes.
@@ -279,7 +294,9 @@ double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& st
   for (const ContactInterval& interval : stiffness.intervals)
     for (int i = 0; i <= samples; ++i) {
       const double time = interval.begin + interval.length() * i / samples;
-      const double tangent = std::abs(stiffness.tangent(interval.contact, time));
+      const double stop = std::abs(stiffness.tangent(interval.contact, time));
+      const double yielding = dynamics.constant()(interval.contact, interval.contact);
+      const double tangent = std::isinf(stop) ? 1.0 / yielding : stop / (1.0 + yielding * stop);
       fastest = std::max({fastest, std::abs(jump[interval.contact]) * tangent,
                           std::sqrt(std::abs(rise[interval.contact]) * tangent)});
     }

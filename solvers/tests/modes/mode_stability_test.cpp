@@ -282,6 +282,37 @@ TEST(ModeStability, RigidContactWithMassHasNone) {
   EXPECT_EQ(found.unstable, -1);
 }
 
+/// The rod with a spring at its tip, without mass.
+ModalModel with_spring(ModalModel model, double stiffness) {
+  const Eigen::Index modes = model.omega_squared.size();
+  const double far = 1e10 * model.omega_squared[modes - 1];
+  model.omega_squared.conservativeResize(modes + 1);
+  model.contact_shapes.conservativeResize(Eigen::NoChange, modes + 1);
+  model.omega_squared[modes] = far;
+  model.contact_shapes(0, modes) = std::sqrt(far / stiffness);
+  model.springs = 1;
+  return model;
+}
+
+TEST(ModeStability, OfRigidContactOnASpringIsThatOfALinearStop) {
+  const UnitRod rod(4);
+  constexpr double stiffness = 2.0;
+  const TimePair pair = fourier_pair(127, 1024);
+  const ElasticMode rigid(with_spring(rod.model, stiffness), pair, RigidWall{});
+  const ElasticMode stop(rod.model, pair, LinearContact{stiffness, 1.0});
+  for (const double energy : {1.5, 2.2}) {
+    const ModePoint a = rigid.at_energy(energy, up_to(energy)), b = stop.at_energy(energy, up_to(energy));
+    ASSERT_EQ(a.status, ModeStatus::converged);
+    EXPECT_NEAR(a.omega, b.omega, 1e-6 * b.omega);
+    const ModeStability held = ModeMultipliers(rigid)(a), elastic = ModeMultipliers(stop)(b);
+    ASSERT_EQ(held.status, StabilityStatus::converged);
+    EXPECT_EQ(held.unstable, elastic.unstable);
+    ASSERT_EQ(held.multipliers.size(), elastic.multipliers.size());
+    for (const std::complex<double> mu : elastic.multipliers)
+      EXPECT_LT((held.multipliers.array() - mu).abs().minCoeff(), 1e-4) << energy;
+  }
+}
+
 TEST(ModeStability, EffortIsLimitedAndBadOptionsAreRefused) {
   const Twins twins{3.7, 2.0};
   const ElasticMode mode = twins.mode(15);

@@ -235,7 +235,8 @@ std::string name_of(AnalysisType value);
 /// its own.
 Scene with_longer_period(Scene scene, int times);
 
-/// Whether the mass of the contacts is redistributed: in responses and sweeps, as contact.mass says.
+/// Whether the mass of the contacts is redistributed: in responses and sweeps as contact.mass says, in modes
+/// where it says redistribute.
 bool redistributes_mass(const Scene& scene);
 
 /// Number of coefficients of the Daubechies basis called `basis` ("daubechies6" gives 6), 0 for any other

@@ -61,7 +61,7 @@ class ModeMultipliers {
   /// Of one motion of the mode; the linear mode below contact has all multipliers on the circle. The cost is
   /// that of monodromy(). too_few_harmonics where the closure is above its limit, effort_limit where there
   /// are more than max_states states or contact is too stiff for the monodromy, no_finite_stiffness for a
-  /// rigid law, whose contacts have mass.
+  /// rigid law at contacts that have mass, none of ModalModel::springs.
   ModeStability operator()(const ModePoint& point) const;
 
   const ModeStabilityOptions& options() const { return options_; }

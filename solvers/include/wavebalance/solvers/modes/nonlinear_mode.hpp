@@ -13,6 +13,9 @@ struct ModalModel {
   Eigen::VectorXd omega_squared;   ///< r, (rad/s)^2, ascending, > 0
   Eigen::MatrixXd contact_shapes;  ///< c x r, mass-normalised mode shapes at the contact degrees of freedom
   Eigen::VectorXd gaps;            ///< c, m, > 0: a contact degree of freedom may move up to +gap
+  /// How many of the last modes are deflections of contacts without mass: springs, with frequencies so far
+  /// beyond the others that they have no dynamics.
+  int springs = 0;
 
   int contacts() const { return static_cast<int>(gaps.size()); }
   int modes() const { return static_cast<int>(omega_squared.size()); }
