@@ -52,10 +52,10 @@ Eigen::MatrixXd turned(const Eigen::MatrixXd& x) {
 
 // K map, K = (I - A/2)^-1 (I + A/2) with the least A = J S, S symmetric, for which K takes map x to x.
 Eigen::MatrixXd closed(const Eigen::MatrixXd& map, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd image = map * x, middle = 0.5 * (x + image), missing = -turned(x - image);
+  const Eigen::VectorXd image = map * x, middle = 0.5 * (x + image), wanted = -turned(x - image);
   const double square = middle.squaredNorm();
   if (!(square > 0.0)) return map;
-  const Eigen::VectorXd left = missing - 0.5 * missing.dot(middle) / square * middle;
+  const Eigen::VectorXd left = wanted - 0.5 * wanted.dot(middle) / square * middle;
   // S = (left middle^T + middle left^T) / square, of rank 2.
   const Eigen::MatrixXd half = 0.5 / square * turned(left * middle.transpose() + middle * left.transpose());
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(map.rows(), map.cols());
