@@ -287,17 +287,23 @@ void add_time(std::vector<SceneKey>& keys) {
       optional);
 }
 
+int contacts_of(const Scene& scene) {
+  if (scene.structure.type == StructureType::bar) return 1;
+  if (scene.structure.type == StructureType::blade)
+    return 2 * (scene.structure.blade.chord_elements + 1);  // nodes along its tip
+  return static_cast<int>(scene.structure.matrices.contact_dofs.size() +
+                          scene.contact.pair_contacts().size());
+}
+
 /// Whether counts take a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   if (scene.analysis.type != AnalysisType::frequency_sweep && !mode) return true;
   if (mode && scene.contact.law == ContactLawType::rigid) return true;  // not known
-  if (scene.structure.type == StructureType::bar) return true;
-  const int most = mode ? 6 : 30;
-  if (scene.structure.type == StructureType::blade)
-    return 2 * (scene.structure.blade.chord_elements + 1) <= most;  // nodes along its tip
-  const auto contacts = scene.structure.matrices.contact_dofs.size() + scene.contact.pair_contacts().size();
-  return static_cast<int>(contacts) <= most;
+  constexpr int few = 6;
+  constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
+  const int contacts = contacts_of(scene);
+  return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
 }
 
 void add_analysis(std::vector<SceneKey>& keys) {
@@ -316,7 +322,8 @@ void add_analysis(std::vector<SceneKey>& keys) {
   analysis(&Analysis::stability, "stability", "",
            "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
            "curve, and finds the curve's special points",
-           derived("true; false for curves of more than 30 contacts and modes of more than 6",
+           derived("true; with more than 6 contacts false for modes, and for curves where contacts times "
+                   "functions exceed 400",
                    stability_by_default),
            only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
   analysis(&Analysis::subharmonic, "subharmonic", "",

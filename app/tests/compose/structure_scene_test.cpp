@@ -223,6 +223,18 @@ TEST(BladeScene, TypeAloneIsTheOpenBlade) {
   EXPECT_EQ(parse_scene(write_scene(scene), "written.toml"), scene);
 }
 
+// 24 contacts: counts of 15 functions take three points of the curve, those of 63 tens of them.
+TEST(BladeScene, CountsMultipliersAlongCurvesByDefaultWhereThatCostsAFewPoints) {
+  const std::filesystem::path path = std::filesystem::path(WAVEBALANCE_SCENES) / "blade" / "sweep.toml";
+  const auto counts = [&](const std::vector<std::string>& overrides) {
+    return load_scene(path, overrides).analysis.stability;
+  };
+  EXPECT_TRUE(counts({"time.functions=15"}));
+  EXPECT_FALSE(counts({"time.functions=63"}));
+  EXPECT_TRUE(counts({"time.functions=63", "analysis.stability=true"}));
+  EXPECT_TRUE(counts({"time.functions=63", "structure.chord_elements=2"}));
+}
+
 TEST(BladeScene, WrongValuesAreErrorsAtTheirPlace) {
   const auto message = [](const std::string& line) {
     try {

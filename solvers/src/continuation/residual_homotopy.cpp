@@ -22,10 +22,11 @@ class ResidualParameter final : public CurveParameter {
   Eigen::VectorXd start_residual_;
 };
 
-// The operations of a point grow at least in proportion to the samples.
+// The operations of a point grow at least in proportion to the samples. Those of very many are limited to a
+// few seconds.
 double limit_of_operations(ContactSystem& system, const ResidualHomotopyOptions& options) {
-  constexpr double few_samples = 6144.0;
-  return options.max_operations * std::max(1.0, system.problem().samples() / few_samples);
+  constexpr double few_samples = 1536.0, most = 2.5;
+  return options.max_operations * std::clamp(system.problem().samples() / few_samples, 1.0, most);
 }
 
 HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualHomotopyOptions& options) {

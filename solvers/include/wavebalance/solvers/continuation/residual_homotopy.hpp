@@ -9,7 +9,8 @@ namespace wavebalance::solvers {
 /// How far a residual homotopy is followed.
 struct ResidualHomotopyOptions {
   int max_points = 1500;
-  /// Up to 6144 samples, beyond in proportion to them; 1e10 operations take one to three seconds.
+  /// Up to 1536 samples, beyond in proportion to them up to 2.5 times as many; 1e10 take one to three
+  /// seconds.
   double max_operations = 3e9;
   Observer observer;  ///< called after each point with p
 
