@@ -263,6 +263,33 @@ TEST(FloquetExponents, OfAContactOnASpringAreThoseOfTheMonodromyInFewHarmonics) 
 }
 
 // Negative damping makes the structure itself unstable: its own exponents are poles inside the contour.
+// The low modes and static residuals of a bar of 600 elements carry the multipliers outside the circle.
+TEST(UnstableMultipliers, OfAReducedBarAreThoseOfTheWholeOne) {
+  LinearStructure bar = testing::jl14_bar(600, 5e-7);
+  bar.contact_directions = contact_rows({599, 311}, bar.size());
+  const ContactDynamics reduced(bar, {.max_size = 100, .reduced_size = 40}), whole(bar, {.max_size = 600});
+  ASSERT_TRUE(reduced.reduced());
+  ASSERT_FALSE(whole.reduced());
+  const PeriodicStiffness stiffness = testing::PrescribedStiffness::stiffness();
+  FloquetOptions options;
+  options.stability.harmonics = 31;
+  int unstable = 0;
+  for (const double frequency : {1100.0, 1550.0, 2650.0, 3150.0}) {
+    SCOPED_TRACE(frequency);
+    const auto expected = unstable_multipliers(whole, stiffness, frequency, options.stability);
+    const auto found = unstable_multipliers(reduced, stiffness, frequency, options.stability);
+    ASSERT_EQ(expected.status, StabilityStatus::converged);
+    ASSERT_EQ(found.status, StabilityStatus::converged);
+    EXPECT_EQ(found.count, expected.count);
+    unstable += expected.count;
+    const auto a = floquet_exponents(reduced, stiffness, frequency, options).values;
+    const auto b = floquet_exponents(whole, stiffness, frequency, options).values;
+    ASSERT_FALSE(a.empty() || b.empty());
+    EXPECT_LT(std::abs(a.front().multiplier - b.front().multiplier), 1e-4);
+  }
+  EXPECT_GE(unstable, 4);
+}
+
 TEST(UnstableMultipliers, IncludeThoseOfAnUnstableStructure) {
   LinearStructure structure = testing::unit_oscillator(-0.1, 1.0);
   const ContactDynamics dynamics(structure);
