@@ -177,6 +177,13 @@ app::Panel curve_panel(const Curve& curve, const std::string& label, double scal
   return panel;
 }
 
+app::Series published_points(const std::string& label, const std::vector<double>& x,
+                             const std::vector<double>& y) {
+  app::Series points(label, x, y, app::SeriesStyle::points);
+  points.colour = app::Colour::vermillion;
+  return points;
+}
+
 app::Figure with_enlargement(app::Panel panel, const app::Rectangle& part) {
   app::Figure figure;
   figure.columns = 2;

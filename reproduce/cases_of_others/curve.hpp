@@ -57,6 +57,10 @@ std::string branches_text(const Curve& curve);
 app::Panel curve_panel(const Curve& curve, const std::string& label, double scale,
                        const Ordinate& ordinate = {});
 
+/// Points of another program's curve.
+app::Series published_points(const std::string& label, const std::vector<double>& x,
+                             const std::vector<double>& y);
+
 /// The panel, and beside it the part of it within the rectangle.
 app::Figure with_enlargement(app::Panel panel, const app::Rectangle& part);
 

@@ -44,10 +44,8 @@ std::vector<Row> harmonic_rows(report::Artefact& artefact, const Curve& curve) {
 
 app::Figure nlvib_figure(const Curve& curve) {
   app::Panel panel = curve_panel(curve, "127 harmonics", 1.0, fundamental);
-  app::Series point("NLvib, 21 harmonics", std::vector{references::nlvib_frequency},
-                    std::vector{references::nlvib_harmonics[0].amplitude}, app::SeriesStyle::points);
-  point.colour = app::Colour::vermillion;
-  panel.add(point);
+  panel.add(published_points("NLvib, 21 harmonics", {references::nlvib_frequency},
+                             {references::nlvib_harmonics[0].amplitude}));
   panel.y.label = "Fundamental harmonic of u1";
   return with_enlargement(std::move(panel), {0.735, 1.2, 0.757, 1.36});
 }

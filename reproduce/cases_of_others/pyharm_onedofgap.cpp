@@ -39,9 +39,7 @@ app::Figure pyharm_figure(const Curve& curve) {
     x.push_back(frequency);
     y.push_back(value);
   }
-  app::Series points("pyHarm, 7 harmonics", x, y, app::SeriesStyle::points);
-  points.colour = app::Colour::vermillion;
-  panel.add(points);
+  panel.add(published_points("pyHarm, 7 harmonics", x, y));
   panel.y.label = "Norm of all harmonics over the gap";
   return with_enlargement(std::move(panel), {5.4, 0.96, 7.2, 1.06});
 }

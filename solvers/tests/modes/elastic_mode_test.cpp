@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include "linalg/dense.hpp"
 #include "support/ll10_rod.hpp"
 #include "support/oscillator.hpp"
+#include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 
@@ -41,18 +41,6 @@ struct ExponentialContact {
   double tangent(double u) const { return u >= 1.0 ? stiffness * std::exp(u - 1.0) : 0.0; }
   double potential(double u) const { return u > 1.0 ? stiffness * (std::expm1(u - 1.0) - (u - 1.0)) : 0.0; }
   double gap() const { return 1.0; }
-};
-
-/// u <= 1.
-struct RigidStop {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  double force(double u) const { return u > 1.0 ? infinity : 0.0; }
-  double tangent(double u) const { return u >= 1.0 ? infinity : 0.0; }
-  double potential(double u) const { return u > 1.0 ? infinity : 0.0; }
-  double gap() const { return 1.0; }
-  ForceSlope resolvent(double v, double flexibility) const {
-    return v > 1.0 ? ForceSlope{(v - 1.0) / flexibility, 1.0 / flexibility} : ForceSlope{};
-  }
 };
 
 /// m = k = gap = 1.
@@ -245,7 +233,7 @@ TEST(ElasticMode, StiffStopTendsToTheRigidModeLikeItsFlexibility) {
 
 TEST(ElasticMode, RigidLawIsTheLimitOfStiffStops) {
   const ModalModel model = rod_with_light_tip();
-  const ElasticMode rigid(model, fourier_pair(21, 160), RigidStop{});
+  const ElasticMode rigid(model, fourier_pair(21, 160), testing::Rigid{1.0});
   const ElasticMode stiff(model, fourier_pair(21, 160), LinearContact{1e9, 1.0});
   const ModePoint a = rigid.at_energy(2.0, far(2.0)), b = stiff.at_energy(2.0, far(2.0));
   ASSERT_EQ(a.status, ModeStatus::converged);

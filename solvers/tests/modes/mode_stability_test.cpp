@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include "constants.hpp"
 #include "support/ll10_rod.hpp"
 #include "support/oscillator.hpp"
+#include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
 
 namespace wavebalance::solvers {
@@ -263,20 +263,9 @@ TEST(ModeStability, MotionOfTooFewHarmonicsHasAnUnknownStability) {
   for (const ModeStability& point : stability.points) EXPECT_EQ(point.unstable >= 0, point.closure <= 0.01);
 }
 
-/// u <= 1.
-struct RigidWall {
-  double force(double u) const { return u > 1.0 ? infinity : 0.0; }
-  double tangent(double u) const { return u >= 1.0 ? infinity : 0.0; }
-  double potential(double u) const { return u > 1.0 ? infinity : 0.0; }
-  double gap() const { return 1.0; }
-  ForceSlope resolvent(double v, double flexibility) const {
-    return v > 1.0 ? ForceSlope{(v - 1.0) / flexibility, 1.0 / flexibility} : ForceSlope{};
-  }
-};
-
 TEST(ModeStability, RigidContactWithMassHasNone) {
   const UnitRod rod(4);
-  const ElasticMode mode(rod.model, fourier_pair(11, 80), RigidWall{});
+  const ElasticMode mode(rod.model, fourier_pair(11, 80), testing::Rigid{1.0});
   const ModeStability found = ModeMultipliers(mode)(mode.at_energy(1.2, up_to(1.2)));
   EXPECT_EQ(found.status, StabilityStatus::no_finite_stiffness);
   EXPECT_EQ(found.unstable, -1);
@@ -298,7 +287,7 @@ TEST(ModeStability, OfRigidContactOnASpringIsThatOfALinearStop) {
   const UnitRod rod(4);
   constexpr double stiffness = 2.0;
   const TimePair pair = fourier_pair(127, 1024);
-  const ElasticMode rigid(with_spring(rod.model, stiffness), pair, RigidWall{});
+  const ElasticMode rigid(with_spring(rod.model, stiffness), pair, testing::Rigid{1.0});
   const ElasticMode stop(rod.model, pair, LinearContact{stiffness, 1.0});
   for (const double energy : {1.5, 2.2}) {
     const ModePoint a = rigid.at_energy(energy, up_to(energy)), b = stop.at_energy(energy, up_to(energy));
