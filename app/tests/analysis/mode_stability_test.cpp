@@ -74,7 +74,8 @@ TEST(ModeStabilityScene, RigidContactWithMassHasNoStabilityWithoutALawOfImpact) 
 }
 
 TEST(ModeStabilityScene, RigidContactWithoutMassHasAStability) {
-  const std::vector<std::string> massless{"contact.mass=redistribute", "analysis.harmonics=20", "analysis.samples=160", "analysis.points=100",
+  const std::vector<std::string> massless{"contact.mass=redistribute", "analysis.harmonics=20",
+                                          "analysis.samples=160", "analysis.points=100",
                                           "analysis.largest_energy=2"};
   const Record record = analyse(parse_scene(rod_scene, "rod.toml", massless));
   EXPECT_TRUE(record.converged) << record.status;

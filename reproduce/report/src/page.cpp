@@ -101,7 +101,8 @@ std::string differing(const Section& section) {
   if (rows.empty()) return "";
   return "<h3>Statements that do not hold as measured here</h3>\n"
          "<div class=\"wide\"><table><tr><th></th><th>" +
-         std::string(speaker(section.paper)) + "</th><th>Found in this run</th></tr>\n" + rows + "</table></div>\n";
+         std::string(speaker(section.paper)) + "</th><th>Found in this run</th></tr>\n" + rows +
+         "</table></div>\n";
 }
 
 std::string overview(const Section& section) {
@@ -168,8 +169,8 @@ const std::vector<Paper>& papers() {
        "https://hal.science/hal-00492775", "the right of quotation"},
       {"blade", "The blade further: beyond the papers", "", ""},
       {"cases_of_others",
-       "Cases of others: curves that other programs publish or whose special points are known exactly", "", "",
-       true},
+       "Cases of others: curves that other programs publish or whose special points are known exactly", "",
+       "", true},
       {"extremes", "Extremes: inputs at the edge of what numbers, structures and bases can be", "", "", true},
   };
   return all;

@@ -32,9 +32,7 @@ void substitute(lapack_int n, lapack_int columns, const std::complex<double>* lu
 
 template <class Scalar>
 struct Lu<Scalar>::Factors {
-  explicit Factors(const Matrix& matrix)
-      : lu(matrix),
-        pivots(static_cast<std::size_t>(matrix.rows())) {
+  explicit Factors(const Matrix& matrix) : lu(matrix), pivots(static_cast<std::size_t>(matrix.rows())) {
     if constexpr (std::same_as<Scalar, double>) norm = matrix.cwiseAbs().colwise().sum().maxCoeff();
     factorize(rows(), lu.data(), pivots.data());
   }

@@ -49,7 +49,7 @@ class ModeEquations {
   void evaluate(const Eigen::VectorXd& y);
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::VectorXd& unknowns() const { return y_; }  ///< of that state
-  double omega() const { return omega_; }  ///< rad/s, of that state
+  double omega() const { return omega_; }                 ///< rad/s, of that state
   double relative_residual() const;
   /// The equation left out, over the amplitude of the linear mode's elastic force at grazing.
   double imbalance() const;

@@ -44,7 +44,7 @@ struct TimeSteppingOptions {
 /// The last period integrated.
 struct TimeSteppingResult {
   TimeSteppingStatus status = TimeSteppingStatus::iteration_limit;
-  int periods = 0;        ///< complete periods integrated
+  int periods = 0;  ///< complete periods integrated
   /// Periods after which the motion repeats: 1 if converged; 0 where max_periods ended without any, as an
   /// aperiodic motion does and one that still settles; -1 where fewer periods were integrated.
   int attractor_periods = -1;
@@ -62,8 +62,8 @@ struct TimeSteppingResult {
 /// analytic Jacobian; [JL14, section 4] used the closely related NDF. Steps do not end at output times:
 /// samples come from the quintic that matches displacement, velocity and acceleration at both ends of a step.
 ///
-/// A motion repeats after p periods, up to `longest`, if it agrees likewise with that p periods ago, differs a
-/// hundred times as much from all in between, and has differed as much 16 periods ago.
+/// A motion repeats after p periods, up to `longest`, if it agrees likewise with that p periods ago, differs
+/// a hundred times as much from all in between, and has differed as much 16 periods ago.
 ///
 /// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
 /// Floquet multiplier; the distance to the periodic motion is then about multiplier / (1 - multiplier)
