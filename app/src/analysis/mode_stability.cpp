@@ -1,11 +1,10 @@
 #include "analysis/mode_stability.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "analysis/stability.hpp"
 #include "analysis/summary_parts.hpp"
 #include "wavebalance/app/analysis/stability_figure.hpp"
 
@@ -27,15 +26,6 @@ Table table_of(const ModeStudy& study, const std::vector<solvers::ModeSpecialPoi
                       point.energy_ratio, point.multiplier.real(), point.multiplier.imag(),
                       std::string(point.located ? "located" : "bracketed")});
   return table;
-}
-
-void append_leading(Summary& summary, std::int64_t unstable, std::complex<double> leading) {
-  if (unstable >= 0)
-    summary.emplace_back("unstable_multipliers", unstable);
-  else
-    summary.emplace_back("unstable_multipliers", missing);
-  summary.emplace_back("leading_multiplier_real", leading.real());
-  summary.emplace_back("leading_multiplier_imag", leading.imag());
 }
 
 /// `y` where `shown`, and where `beside` it there is a point that is shown.
@@ -83,25 +73,17 @@ void append_stability(Summary& summary, const ModeStudy& study, const solvers::B
 
 void append_stability(Record& record, const ModeStudy& study, const solvers::ModePoint& point) {
   if (!study.scene().analysis.stability) return;
-  if (!study.elastic_mode()) {
-    record.summary.emplace_back("stability", std::string(no_law_of_impact));
-    append_leading(record.summary, -1, {missing, missing});
-    return;
+  ResponseStability stability;
+  stability.status = no_law_of_impact;
+  if (study.elastic_mode()) {
+    const auto found = solvers::ModeMultipliers(*study.elastic_mode())(point);
+    const bool known = found.status == StabilityStatus::converged;
+    stability.status = !known ? to_string(found.status) : found.unstable > 0 ? "unstable" : "stable";
+    stability.unstable = found.unstable;
+    if (found.multipliers.size() > 0)
+      stability.leading = {found.multipliers[0].real(), std::abs(found.multipliers[0].imag())};
   }
-  const auto found = solvers::ModeMultipliers(*study.elastic_mode())(point);
-  const bool known = found.status == StabilityStatus::converged;
-  record.summary.emplace_back("stability", !known               ? std::string(to_string(found.status))
-                                           : found.unstable > 0 ? "unstable"
-                                                                : "stable");
-  std::complex<double> leading(missing, missing);
-  if (found.multipliers.size() > 0)
-    leading = {found.multipliers[0].real(), std::abs(found.multipliers[0].imag())};
-  append_leading(record.summary, found.unstable, leading);
-  if (found.unstable > 0)
-    record.warnings.push_back(fmt::format(
-        "The free motion is unstable, with {} Floquet multiplier{} outside the unit circle: a structure that "
-        "is disturbed leaves it.",
-        found.unstable, found.unstable == 1 ? "" : "s"));
+  append_stability(record, stability, "free motion");
 }
 
 void draw_stability(Figure& figure, const Table& backbone, const ModeStudy& study,

@@ -144,7 +144,7 @@ solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
   return solvers::subharmonic_response(problem, laws, dynamics ? &*dynamics : nullptr, options, guess);
 }
 
-void append_stability(Record& record, const ResponseStability& stability) {
+void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
   record.summary.emplace_back("stability", stability.status);
   if (stability.unstable >= 0)
     record.summary.emplace_back("unstable_multipliers", std::int64_t{stability.unstable});
@@ -154,9 +154,9 @@ void append_stability(Record& record, const ResponseStability& stability) {
   record.summary.emplace_back("leading_multiplier_imag", stability.leading.imag());
   if (stability.unstable <= 0) return;
   record.warnings.push_back(fmt::format(
-      "The response is unstable, with {} Floquet multiplier{} outside the unit circle: a structure "
-      "that is disturbed leaves it.",
-      stability.unstable, stability.unstable == 1 ? "" : "s"));
+      "The {} is unstable, with {} Floquet multiplier{} outside the unit circle: a structure that is "
+      "disturbed leaves it.",
+      motion, stability.unstable, stability.unstable == 1 ? "" : "s"));
 }
 
 namespace {

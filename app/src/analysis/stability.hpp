@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
@@ -18,8 +20,9 @@ solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
                                           const solvers::ForcedResponseOptions& how,
                                           const Eigen::VectorXd& guess = {});
 
-/// The fields of a response's stability, and a warning where it is unstable.
-void append_stability(Record& record, const ResponseStability& stability);
+/// The fields of the stability of a `motion`, and a warning where it is unstable.
+void append_stability(Record& record, const ResponseStability& stability,
+                      std::string_view motion = "response");
 
 /// The turning points of a sweep, its stability and its special points. Where stability is known the turning
 /// points are folds of the motion; those of the samples alone are named apart, with a warning.

@@ -96,14 +96,6 @@ std::pair<Eigen::MatrixXd, double> reduced(const Eigen::MatrixXd& map, const Mod
   return {inner.bottomRightCorner(rest, rest), closure};
 }
 
-Eigen::VectorXcd by_falling_modulus(const Eigen::MatrixXd& map) {
-  if (map.rows() == 0) return {};
-  Eigen::VectorXcd values = detail::eigenvalues(map);
-  std::sort(values.begin(), values.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
-  return values;
-}
-
 // Those of the other modes, of the first `modes`, without contact.
 Eigen::VectorXcd linear_multipliers(const ModalModel& model, double omega, int own, int modes) {
   Eigen::VectorXcd values(2 * (modes - 1));

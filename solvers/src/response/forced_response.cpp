@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "balance/unknown_in_form.hpp"
 #include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
@@ -81,14 +82,8 @@ struct Task {
   }
 };
 
-// v = u + f / epsilon in the force form.
 Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& regularization) {
-  Eigen::VectorXd unknown = start.displacement;
-  const Eigen::Index points = regularization.size() > 0 ? unknown.size() / regularization.size() : 0;
-  if (start.force.size() > 0)
-    for (Eigen::Index c = 0; c < regularization.size(); ++c)
-      unknown.segment(c * points, points) += regularization[c] * start.force.segment(c * points, points);
-  return unknown;
+  return detail::unknown_in_form(start.displacement, start.force, regularization);
 }
 
 Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, Strategy strategy) {

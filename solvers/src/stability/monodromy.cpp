@@ -262,7 +262,10 @@ bool hold(const States& states, const ContactDynamics& dynamics, const std::vect
   return true;
 }
 
+}  // namespace
+
 Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map) {
+  if (map.size() == 0) return {};
   // States of overdamped modes decay to numbers that keep the QR iteration from converging.
   const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
   map = (map.array().abs() > vanishing).select(map, 0.0);
@@ -271,6 +274,8 @@ Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map) {
             [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
   return multipliers;
 }
+
+namespace {
 
 double largest_exponent(const ContactDynamics& dynamics) {
   double largest = 0.0;

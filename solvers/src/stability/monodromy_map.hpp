@@ -12,6 +12,9 @@ namespace wavebalance::solvers {
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const MonodromyOptions& options);
 
+/// The eigenvalues of such a map, or of a part of it, by falling modulus.
+Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map);
+
 /// Real operations that monodromy() takes, estimated: factorizations and substitutions of the parts, and the
 /// eigenvalues.
 double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,

@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "balance/unknown_in_form.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -28,11 +30,7 @@ Eigen::VectorXcd samples(const Eigen::MatrixXcd& harmonics, double angle, int pe
 }  // namespace
 
 Eigen::VectorXd Perturbation::unknown(const Eigen::VectorXd& regularization) const {
-  Eigen::VectorXd values = displacement;
-  const Eigen::Index points = regularization.size() > 0 ? values.size() / regularization.size() : 0;
-  for (Eigen::Index c = 0; c < regularization.size(); ++c)
-    values.segment(c * points, points) += regularization[c] * force.segment(c * points, points);
-  return values;
+  return detail::unknown_in_form(displacement, force, regularization);
 }
 
 Perturbation perturbation(const FloquetExponent& exponent, int periods, int points, double phase) {

@@ -65,7 +65,7 @@ UnstableMultipliers count_of(const Eigen::VectorXcd& multipliers) {
   UnstableMultipliers result;
   result.count = static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
   result.winding = result.count;
-  if (multipliers.size() > 0) result.leading = multipliers[0];
+  if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
   return result;
 }
 

@@ -163,6 +163,7 @@ TEST(StabilityStatus, OfManyLongContactsIsCountedByTheMonodromyWithinTheOperatio
   const auto quick = unstable_multipliers(dynamics, stiffness, frequency, options);
   EXPECT_EQ(quick.evaluations, 0);
   EXPECT_GT(std::abs(quick.leading), 0.0);
+  EXPECT_GE(quick.leading.imag(), 0.0);
   options.max_states = 0;
   const auto counted = unstable_multipliers(dynamics, stiffness, frequency, options);
   EXPECT_GT(counted.evaluations, 0);

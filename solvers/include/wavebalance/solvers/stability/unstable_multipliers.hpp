@@ -33,7 +33,7 @@ struct UnstableMultipliers {
   int harmonics = 0;     ///< H taken
   int evaluations = 0;   ///< of the determinant
   double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
-  /// The largest multiplier in modulus where the monodromy was taken, NaN elsewhere.
+  /// The largest multiplier in modulus, Im >= 0, where the monodromy was taken, NaN elsewhere.
   std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
                                std::numeric_limits<double>::quiet_NaN()};
 };
