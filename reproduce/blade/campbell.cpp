@@ -104,19 +104,19 @@ void claims(report::Artefact& artefact, const app::Table& table) {
       ++found;
     }
   }
-  artefact.claim({"this project", "Centrifugal forces stiffen the blade.",
+  artefact.check({"this project", "Centrifugal forces stiffen the blade.",
                   "the first linear frequency rises from each speed to the next",
                   fmt::format("{} Hz at rest, {} Hz at {} 1/min", report::number(linear.front(), 5),
                               report::number(linear.back(), 5), report::number(largest_rpm, 5)),
                   with_speed});
-  artefact.claim({"this project", "Contact stiffens it at every speed.",
+  artefact.check({"this project", "Contact stiffens it at every speed.",
                   "at each speed the frequency rises from each energy to the next",
                   fmt::format("{} of {} points found; {} Hz at rest and energy 10.4", found,
                               table.rows() * std::size(energies),
                               report::number(table.numbers(column(10.4)).front(), 5)),
                   with_energy});
   const double still = crossing(table, 1.0, claimed_order), moved = crossing(table, 10.4, claimed_order);
-  artefact.claim(
+  artefact.check(
       {"this project", "A resonance with an engine order moves to another speed when the tip touches.",
        fmt::format(
            "engine order {} meets the mode of energy 10.4 at a speed at least 5 % above that of the linear "

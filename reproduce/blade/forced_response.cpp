@@ -195,13 +195,13 @@ void claims(report::Artefact& artefact, const Study& study) {
     largest = std::max(largest, difference);
     differences += (i == 1 ? "" : ", ") + std::string(pairs[i].label) + " " + report::percent(difference, 2);
   }
-  artefact.claim({"this project", "Contact at the tip stiffens the blade and limits its motion.",
+  artefact.check({"this project", "Contact at the tip stiffens the blade and limits its motion.",
                   "in each pair the peak of the upward steps is at a higher frequency than without contact, "
                   "and lower",
                   fmt::format("{} gaps; without contact {} Hz and {} gaps", peaks,
                               report::number(free.frequency, 4), report::number(free_height, 3)),
                   higher});
-  artefact.claim(
+  artefact.check(
       {"this project", "Wavelet pairs give the response of Fourier.",
        fmt::format(
            "at {} Hz the motions of all 24 contacts differ from those by Fourier by less than 5 % (rms)",

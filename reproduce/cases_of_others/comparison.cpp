@@ -66,7 +66,7 @@ void claim_source(report::Artefact& artefact, const std::vector<Row>& rows, cons
     agreeing += row.agrees() ? 1 : 0;
     largest = std::fmax(largest, std::abs(row.difference()) / row.tolerance);
   }
-  artefact.claim({source, fmt::format("{} values of the table", all),
+  artefact.check({source, fmt::format("{} values of the table", all),
                   "each differs by no more than the tolerance of its row",
                   fmt::format("{} of {} agree; the largest difference is {} of its tolerance", agreeing, all,
                               report::number(largest, 2)),
@@ -102,7 +102,7 @@ std::vector<Row> compare(const Curve& curve, const std::vector<references::Known
 void claim_count(report::Artefact& artefact, const Curve& curve, double from, double to, int count,
                  const std::string& quote, const std::string& source) {
   const std::set<int> counts = counts_between(curve, from, to);
-  artefact.claim({source, quote,
+  artefact.check({source, quote,
                   fmt::format("multipliers outside the unit circle at all points between {} and {} {}: {}",
                               report::number(from, 7), report::number(to, 7), curve.unit_name(), count),
                   fmt::format("{}", fmt::join(counts, ", ")), counts == std::set<int>{count}});

@@ -63,7 +63,7 @@ app::Figure drawn(const app::ModeStudy& study, const app::Backbone& backbone, co
 void claim_linear(report::Artefact& artefact) {
   const app::ModeStudy paper(artefact.scene("rod_consistent_mass.toml"));
   const double frequency = paper.linear_frequency();
-  artefact.claim({"section 5.1",
+  artefact.check({"section 5.1",
                   "The natural frequency of its linear counterpart with clamped-free boundary conditions is "
                   "1297.5 Hz.",
                   "the first frequency of 20 elements with the mass matrix of eq. (28) rounds to 1297.5 Hz",
@@ -75,7 +75,7 @@ void claim_onset(report::Artefact& artefact, const app::Backbone& backbone) {
   for (const auto& point : backbone.points)
     if (point.accepted()) least = std::min(least, point.energy_ratio);
   const double exact = contact::ExactBarMode::onset_energy(1, contact::EnergyMeasure::modal);
-  artefact.claim(
+  artefact.check(
       {"section 5.1", "Contact occurs as soon as the modal energy reaches unity.",
        "no motion with contact has an energy below 1 (less 1 %)",
        fmt::format(
@@ -95,7 +95,7 @@ void claim_hardening(report::Artefact& artefact, const app::ModeStudy& study, co
     before = ratio;
     measured += (measured.empty() ? "" : ", ") + report::number(ratio, 5) + " at " + report::number(energy);
   }
-  artefact.claim(
+  artefact.check(
       {"section 5.1", "Then, the natural frequency increases which denotes a hardening effect.",
        "omega over the linear frequency rises from one to the next of the energies 1.2, 1.8, 3, 5, 10",
        measured, rising});
@@ -105,7 +105,7 @@ void claim_identity(report::Artefact& artefact, const app::ModeStudy& study, con
   const auto point = study.at_energy(backbone, 10.0);
   const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
   const auto exact = exact_mode(study.scene(), 10.0);
-  artefact.claim(
+  artefact.check(
       {"section 3.1",
        "Nonlinear eigenvectors are defined as critical points of this Rayleigh quotient and the associated "
        "eigenvalues are such that ω² = r(û).",
@@ -124,7 +124,7 @@ void claim_work(report::Artefact& artefact, const app::ModeStudy& study, const a
   const auto mean = [&](const Eigen::MatrixXd& values) {
     return motion.force.cwiseProduct(values).mean() / (motion.force.mean() * values.cwiseAbs().maxCoeff());
   };
-  artefact.claim(
+  artefact.check(
       {"section 3.2",
        "since nonlinear forces arise from contact boundary conditions, their work is identically zero; hence "
        "the use of an unmodified Rayleigh quotient to define the respective eigenvalues",
@@ -142,7 +142,7 @@ void claim_published(report::Artefact& artefact, const std::vector<solvers::Lagr
   double defect = 0.0;
   for (const auto& point : published)
     if (point.accepted()) defect = std::max(defect, point.equation_residual);
-  artefact.claim(
+  artefact.check(
       {"section 5.1",
        "the mode normalization of Eq. (24c) through a prescribed kinetic energy controls the amplitude of "
        "the nonlinear mode",

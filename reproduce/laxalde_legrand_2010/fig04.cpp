@@ -96,14 +96,14 @@ Table motions_table(const Motions& motions) {
 
 void claims(report::Artefact& artefact, const Motions& motions) {
   const double below = beyond_ellipse(motions.low), above = beyond_ellipse(motions.high);
-  artefact.claim(
+  artefact.check(
       {"section 5.1",
        "While the former typically features elliptic trajectories in the phase space, the latter is much "
        "more complex",
        "relative rms distance of the middle node's motion from one harmonic: below 1e-9 without contact, "
        "above 5 % with",
        report::number(below, 2) + " and " + report::percent(above), below < 1e-9 && above > 0.05});
-  artefact.claim(
+  artefact.check(
       {"section 5.1", "with velocity singularities and quick changes in displacements",
        "the middle node's velocity changes by more of its range within 1/64 of a period with contact than "
        "without",

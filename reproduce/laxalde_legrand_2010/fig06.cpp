@@ -75,7 +75,7 @@ void fig06(report::Artefact& artefact) {
       mesh.elements.cols(), study.model().unknowns));
   const double error = reduction_error(study);
   const auto coordinates = study.model().size();
-  artefact.claim(
+  artefact.check(
       {"section 5.2",
        "This model is reduced by means of a Craig-Bampton procedure composed of 72 constraints modes "
        "associated with the physical displacements of 24 retained interface nodes belonging to the contact "

@@ -93,7 +93,7 @@ void claims(report::Artefact& artefact, const app::ModeStudy& study, const std::
     twists += comma + report::number(twist, 3) + "°";
     likenesses += comma + report::number(like, 4);
   }
-  artefact.claim(
+  artefact.check(
       {"section 5.2",
        "torsion effects tends to appear as modal energy increases and contact becomes more prominent",
        "from one energy to the next both the share of the kinetic energy in torsion modes and the amplitude "
@@ -101,7 +101,7 @@ void claims(report::Artefact& artefact, const app::ModeStudy& study, const std::
        "the tip's rotation about z grow",
        "at energies 0.8, 4.7, 10.4: " + shares + " of the energy; tip twist " + twists + " for a gap of 1 mm",
        grows});
-  artefact.claim(
+  artefact.check(
       {"section 5.2", "Sensitivity of mode shapes to contacts is noticeable.",
        "the shapes at t = 0 and T/2, equal but for sign in the linear mode, have a likeness |<a,b>| "
        "/ (|a||b|) below 0.99 at some energy",

@@ -129,7 +129,7 @@ report::PaperResults& results() {
 
 TEST(BladeResults, CampbellDiagramStiffensWithSpeedAndWithEnergy) {
   results().need({"campbell"});
-  for (const auto& claim : results().record("campbell").claims) EXPECT_TRUE(claim.holds) << claim.quote;
+  for (const auto& check : results().record("campbell").checks) EXPECT_TRUE(check.passes) << check.sentence;
   const auto table = results().read("campbell.csv");
   EXPECT_NEAR(table.numbers("linear_Hz").front(), 570.0, 0.5);
   // Energy 1 is the linear mode at grazing.
@@ -154,7 +154,7 @@ TEST(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
   forced_response(artefact);
   artefact.write(0.0);
   const auto record = folder.path() / "records" / "forced_response.json";
-  EXPECT_TRUE(report::parse_record(app::read_file(record), record).claims.at(0).holds);
+  EXPECT_TRUE(report::parse_record(app::read_file(record), record).checks.at(0).passes);
   const auto table = app::read_csv(folder.path() / "forced_response.csv");
   EXPECT_EQ(table.columns(),
             (std::vector<std::string>{"frequency_Hz", "fourier_fourier", "daubechies6_daubechies6",

@@ -49,8 +49,8 @@ TEST(CasesOfOthers, EachValueAgreesWithinItsTolerance) {
       EXPECT_LE(std::abs(rows.numbers("difference")[i]), rows.numbers("tolerance")[i])
           << name << ": " << rows.texts("quantity")[i];
     }
-    for (const auto& claim : results().record(name).claims)
-      EXPECT_TRUE(claim.holds) << name << ": " << claim.quote << ", " << claim.measured;
+    for (const auto& check : results().record(name).checks)
+      EXPECT_TRUE(check.passes) << name << ": " << check.sentence << ", " << check.measured;
     EXPECT_TRUE(results().has(name + ".svg") && results().has(name + ".png") && results().has(name + ".md"));
   }
 }

@@ -65,7 +65,7 @@ void fig02(report::Artefact& artefact) {
   artefact.caption(
       "The Fourier basis of L^2 on the circle, in the order in which it is cut after M functions.");
   const double spread = formulation_spread(artefact);
-  artefact.claim(
+  artefact.check(
       {"section 3.1",
        "It is worthy to note that the HBM formulations of Eqs. (14), (15), and (16) are identical.",
        "case 1 with 64 functions: strong, weak and distributional responses differ by less than 1e-9 "

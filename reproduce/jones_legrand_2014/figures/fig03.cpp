@@ -12,12 +12,12 @@ void fig03(report::Artefact& artefact) {
   artefact.caption("Of the 2^J translates the one whose maximum lies at t = 1/2 is drawn.");
 
   const double integral = largest_integral_error(table);
-  artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
+  artefact.check({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
                   "mean of the samples within 1e-12 of 1 at every level",
                   "largest deviation " + report::number(integral), integral < 1e-12});
   const Eigen::VectorXd c = wavelets::orthonormal_cubic_coefficients(100);
   const double left_out = 2.0 * c.tail(50).cwiseAbs().sum() / c.cwiseAbs().maxCoeff();
-  artefact.claim({"section 3.3",
+  artefact.check({"section 3.3",
                   "Numerical simulations showed that truncating the summation in Eq. (28) at −50 ≤ k ≤ 50 is "
                   "sufficient; larger k terms add negligibly to the summation.",
                   "the sum of |c_k| for 50 < |k| <= 100 is below 1e-12 of c_0",

@@ -25,7 +25,7 @@ void claim_levels(report::Artefact& artefact) {
     measured += (level == 0 ? "" : ", ") + report::number(error) + " at J = " + std::to_string(level);
     (level <= 2 ? low : high) = level <= 2 ? std::min(low, error) : std::max(high, error);
   }
-  artefact.claim(
+  artefact.check(
       {"section 3.4",
        "the wrapping procedure results in functions which are no longer scale-invariant at low J values",
        "max |g_{J+1}(t/2) - g_J(t)| is above 1e-3 for J = 0, 1, 2, where the support 5/2^J exceeds the "
@@ -37,7 +37,7 @@ void claim_shape(report::Artefact& artefact) {
   const auto phi = wavelets::ScalingFunction::daubechies(6);
   const auto gain = [&](int level) { return refinement_gain(phi.values(level), phi.values(level + 1)); };
   const double first = gain(2), middle = gain(6), last = gain(10);
-  artefact.claim(
+  artefact.check(
       {"section 3.4",
        "as one increases the resolution of the functions, the shape does not converge but rather continues "
        "to increase in complexity",
@@ -56,7 +56,7 @@ void fig04(report::Artefact& artefact) {
   artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
   artefact.caption("The translate k = 0; its support is 5/2^J of the period and wraps up to J = 2.");
   const double integral = largest_integral_error(table);
-  artefact.claim({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
+  artefact.check({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
                   "mean of the samples within 1e-12 of 1 at every level",
                   "largest deviation " + report::number(integral), integral < 1e-12});
   claim_levels(artefact);

@@ -19,7 +19,7 @@ void claim_hbm(report::Artefact& artefact, const Case& study, const app::Respons
   const int changes = sign_changes(difference);
   const double swing =
       (difference.maxCoeff() - difference.minCoeff()) / (reference.displacement().maxCoeff() - study.gap());
-  artefact.claim({"section 5.1",
+  artefact.check({"section 5.1",
                   "close examination of the contact plateau for the 150 Hz case shows oscillations due to "
                   "Gibbs phenomenon",
                   "on the plateau the difference from time stepping changes sign four times or more",
@@ -28,7 +28,7 @@ void claim_hbm(report::Artefact& artefact, const Case& study, const app::Respons
                   changes >= 4});
   const int steps = reference.contacts.points() / 128;
   const double kink = largest_change(hbm.velocity(), steps) / largest_change(reference.velocity(), steps);
-  artefact.claim(
+  artefact.check(
       {"section 5.1", "and rounding off of the sharp gradient changes",
        "the largest change of velocity within 1/128 of the period is smaller than in time stepping",
        report::percent(kink) + " of that of time stepping", kink < 1.0});
@@ -46,7 +46,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& 
   const auto outside = [&](const Eigen::VectorXd& u) {
     return millimetres * app::rms(on_plateau(study, u - study.reference().displacement(), false));
   };
-  artefact.claim(
+  artefact.check(
       {"section 5.1",
        "the Haar:Fourier combination appears to approximate the tip displacement outside the contact zone "
        "less well due to the blocky nature of the Haar scaling functions",
@@ -55,7 +55,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const Eigen::VectorXd& 
        outside(haar) > outside(hbm)});
   const double share = share_on_plateau(study, haar);
   const double exact = share_on_plateau(study, study.solve_exactly(pair("haar_fourier"), 64).displacement());
-  artefact.claim({"section 5.1",
+  artefact.check({"section 5.1",
                   "However, the contact plateau is well represented by the constant Haar scaling functions.",
                   "Haar:Fourier is within 2 % of the gap of time stepping on at least 90 % of the plateau",
                   fmt::format("on {} of it (with exact inner products in place of the 256-point sums on {})",
@@ -68,7 +68,7 @@ void claim_bspline(report::Artefact& artefact, const Case& study, const Eigen::V
   const Eigen::Index cells = difference.size() / 4;
   const double start = millimetres * difference.head(cells).maxCoeff(),
                end = millimetres * difference.tail(cells).maxCoeff();
-  artefact.claim(
+  artefact.check(
       {"section 5.5",
        "a localized error which was found to develop at the end of the contact plateau (see Fig. 6(d))",
        "B-spline:B-spline: the error is larger in the last quarter of the plateau than in its middle half",
@@ -95,7 +95,7 @@ void fig06(report::Artefact& artefact) {
       "64 functions at 150 Hz; dashed: time stepping; dotted: the gap. The force F cos 2πft puts the contact "
       "about t = 0, which stands in the middle. The panels follow the letters that the text gives.");
   const double error = app::relative_rms_error(u[0], reference);
-  artefact.claim(
+  artefact.check(
       {"section 5.1",
        "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
        "both 150 Hz and 1275 Hz compared to the time-stepping solution.",

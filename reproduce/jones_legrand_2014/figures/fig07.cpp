@@ -19,12 +19,12 @@ double penetration(const Case& study) {
 void claim_haar(report::Artefact& artefact, Case& study) {
   Case other(artefact, 1);
   const double here = haar_error(study), there = haar_error(other);
-  artefact.claim({"section 5.1", "The Haar basis appears to be less suited for the response at 1275 Hz",
+  artefact.check({"section 5.1", "The Haar basis appears to be less suited for the response at 1275 Hz",
                   "the relative rms error of Haar:Fourier is higher than at 150 Hz",
                   report::percent(here) + " against " + report::percent(there), here > there});
   const double share = app::contact_fraction(study.reference().contacts);
   const double other_share = app::contact_fraction(other.reference().contacts);
-  artefact.claim(
+  artefact.check(
       {"section 5.1", "as the contact plateau is smaller and not as flat",
        "the contact takes less of the period than at 150 Hz, and its penetration is a larger part of the gap",
        fmt::format("contact during {} against {} of the period, penetration {} against {} of the gap",
@@ -47,7 +47,7 @@ void fig07(report::Artefact& artefact) {
                                 study.gap(), Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
   artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
   const double error = app::relative_rms_error(u[0], reference);
-  artefact.claim(
+  artefact.check(
       {"section 5.1",
        "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
        "both 150 Hz and 1275 Hz compared to the time-stepping solution.",

@@ -9,7 +9,7 @@ namespace {
 void claim_jump(report::Artefact& artefact, const Eigen::VectorXd& reference) {
   const int steps = static_cast<int>(reference.size()) / 64;
   const double jump = largest_change(reference, steps) / reference.cwiseAbs().maxCoeff();
-  artefact.claim({"section 5.2", "there is a sharp jump in velocity due to the contact condition",
+  artefact.check({"section 5.2", "there is a sharp jump in velocity due to the contact condition",
                   "within 1/64 of the period the velocity of time stepping changes by more than a quarter of "
                   "its maximum",
                   "it changes by " + report::percent(jump) + " of its maximum", jump > 0.25});
@@ -19,13 +19,13 @@ void claim_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference,
   const auto excess = measured({v[0], v[1]}, reference, &excess_variation);
   const std::string found =
       "excess variation " + listed(pairs_named({"fourier_fourier", "bspline_bspline"}), excess);
-  artefact.claim({"section 5.2",
+  artefact.check({"section 5.2",
                   "As expected, this results in ringing due to Gibbs phenomenon when the Fourier trial "
                   "functions are used.",
                   "the velocity of Fourier:Fourier varies more over the period than that of time stepping, "
                   "by more than 10 %",
                   found, excess[0] > 0.1});
-  artefact.claim(
+  artefact.check(
       {"section 5.2", "Interestingly, the ringing is more pronounced in the Galerkin B-spline case.",
        "the excess variation is higher than that of Fourier:Fourier", found, excess[1] > excess[0]});
 }
@@ -35,7 +35,7 @@ void claim_daubechies(report::Artefact& artefact, const Eigen::VectorXd& referen
       "The DB6 trial functions appear to do the best job of approximating the tip response.";
   const auto claim = [&](const std::string& name, const std::vector<double>& errors) {
     const auto& best = lowest(errors);
-    artefact.claim({"section 5.2", quote,
+    artefact.check({"section 5.2", quote,
                     "of the six pairs one with DB6 trial functions has the lowest " + name,
                     "lowest: " + best.label + "; " + listed(pairs(), errors), best.trial == "daubechies6"});
   };
@@ -49,7 +49,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const Values& v) {
   Values exact;
   for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).velocity());
   const auto errors = measured({v[3], v[5]}, reference, &app::relative_rms_error);
-  artefact.claim({"section 5.2",
+  artefact.check({"section 5.2",
                   "For cases involving Haar trial functions the velocity function envelope is reasonably "
                   "approximated by the delta function representation discussed above.",
                   "relative rms error below 20 % for both Haar pairs",

@@ -17,7 +17,7 @@ void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference
     shares.push_back(share_in_contact(force));
     largest = std::max(largest, std::abs(shares.back() - share_in_contact(reference)));
   }
-  artefact.claim(
+  artefact.check(
       {"section 5.3",
        "Notice the time duration of the contact forces coincide with the tip displacement plateaus of Fig. 6",
        "the time in contact differs from that of time stepping by at most 2/64 of the period, one cell at "
@@ -29,7 +29,7 @@ void claim_duration(report::Artefact& artefact, const Eigen::VectorXd& reference
 
 void claim_force_ringing(report::Artefact& artefact, const Eigen::VectorXd& reference, const Values& forces) {
   const auto excess = measured(forces, reference, &excess_variation);
-  artefact.claim(
+  artefact.check(
       {"section 5.3", "The effect of Gibbs phenomenon can be seen in the HBM and Galerkin B-spline cases.",
        "the force of both varies more over the period than that of time stepping, by more than 10 %",
        "excess variation " + listed(pairs(), excess), excess[0] > 0.1 && excess[1] > 0.1});
@@ -43,13 +43,13 @@ void claim_accuracy(report::Artefact& artefact, const std::vector<double>& rms,
       "the other cases.";
   const auto claim = [&](const std::string& name, const std::vector<double>& errors) {
     const auto& best = lowest(errors);
-    artefact.claim({"section 5.3", quote,
+    artefact.check({"section 5.3", quote,
                     "the lowest " + name + " is that of a pair with DB6 trial functions",
                     "lowest: " + best.label + "; " + listed(pairs(), errors), best.trial == "daubechies6"});
   };
   claim("relative rms error", rms);
   claim("mean absolute error", mean);
-  artefact.claim(
+  artefact.check(
       {"abstract", "and seemingly more accurate contact force prediction",
        "the three Petrov-Galerkin pairs have a lower relative rms error of the force than Fourier:Fourier",
        measured, std::max({rms[3], rms[4], rms[5]}) < rms[0]});
@@ -61,7 +61,7 @@ void claim_haar(report::Artefact& artefact, Case& study, const std::vector<doubl
   const Eigen::VectorXd& reference = study.reference().force();
   Values exact;
   for (const auto& pair : haar) exact.push_back(study.solve_exactly(pair, 64).force());
-  artefact.claim(
+  artefact.check(
       {"section 5.3",
        "The cases where Haar trial functions are used approximate the contact force relatively well.",
        "both Haar pairs have a relative rms error at most twice that of Fourier:Fourier",

@@ -14,13 +14,13 @@ void claim_convergence(report::Artefact& artefact, const Convergence& off) {
                        report::percent(off.largest(1, all, functions)),
                        report::percent(off.largest(2, all, functions)));
   };
-  artefact.claim(
+  artefact.check(
       {"section 5.4",
        "all combinations of trial and weighting functions converge to values similar to the time-stepping "
        "solution (i.e. energy norms are approximately unity using 128 basis functions)",
        "with 128 functions every ratio is within 5 % of 1 in both cases", compared(128),
        std::max(off.largest(1, all, 128), off.largest(2, all, 128)) < 0.05});
-  artefact.claim(
+  artefact.check(
       {"section 5.4",
        "At 1275 Hz, the six combinations converge to a common energy norm more slowly than at the lower "
        "forcing frequency.",
@@ -31,7 +31,7 @@ void claim_convergence(report::Artefact& artefact, const Convergence& off) {
 void claim_smooth_pairs(report::Artefact& artefact, const Convergence& off) {
   const auto smooth = pairs_named({"fourier_fourier", "bspline_bspline"});
   const auto claim = [&](int number, const std::string& quote) {
-    artefact.claim(
+    artefact.check(
         {"section 5.4", quote, "with 8 and with 16 functions both ratios are within 5 % of 1",
          fmt::format("deviation with 8: {}; with 16: {}", listed(smooth, off.at(number, smooth, 8)),
                      listed(smooth, off.at(number, smooth, 16))),
@@ -48,7 +48,7 @@ void claim_smooth_pairs(report::Artefact& artefact, const Convergence& off) {
 void claim_haar(report::Artefact& artefact, const Convergence& ratio, const Convergence& off) {
   const auto haar = pairs_named({"haar_fourier", "haar_bspline"});
   const auto at_8 = ratio.at(1, haar, 8), at_16 = ratio.at(1, haar, 16);
-  artefact.claim(
+  artefact.check(
       {"section 5.4",
        "The Petrov-Galerkin combinations utilizing Haar trial functions over-predict the system energy when "
        "few trial functions are used.",
@@ -56,7 +56,7 @@ void claim_haar(report::Artefact& artefact, const Convergence& ratio, const Conv
        "ratio with 8: " + listed(haar, at_8) + "; with 16: " + listed(haar, at_16),
        std::min({at_8[0], at_8[1], at_16[0], at_16[1]}) > 1.0});
   const double low = off.mean(1, haar, sizes()), high = off.mean(2, haar, sizes());
-  artefact.claim(
+  artefact.check(
       {"section 5.4",
        "The cases with Haar trial functions show larger difference with respect to the normalizing solution "
        "than that for the 150 Hz case.",
@@ -76,13 +76,13 @@ void claim_daubechies(report::Artefact& artefact, const Convergence& off) {
     return fmt::format("DB6:Fourier {}; DB6:DB6 {}", off.text(number, "daubechies6_fourier"),
                        off.text(number, "daubechies6_daubechies6"));
   };
-  artefact.claim(
+  artefact.check(
       {"section 5.4",
        "When Fourier functions are used as the weighting functions, the energy norm is better approximated.",
        "at 150 Hz DB6:Fourier deviates less from 1 than DB6:DB6, mean of 8, 16 and 32 functions",
        report::percent(fourier) + " against " + report::percent(galerkin) + "; deviations: " + both(1),
        fourier < galerkin});
-  artefact.claim(
+  artefact.check(
       {"section 5.4",
        "Finally, it is less obvious now that DB6:Fourier combination outperforms the DB6:DB6 method at fewer "
        "basis functions.",

@@ -12,7 +12,7 @@ const double half_a_decade = std::sqrt(10.0);  // "comparable" on the paper's lo
 
 void claim_few_functions(report::Artefact& artefact, const Convergence& errors) {
   const auto at_8 = errors.at(1, pairs(), 8);
-  artefact.claim(
+  artefact.check(
       {"section 5.5",
        "the HBM and Galerkin B-spline approaches have the lowest error when only 8 basis functions are used",
        "at 150 Hz with 8 functions both errors are below those of the other four pairs",
@@ -21,7 +21,7 @@ void claim_few_functions(report::Artefact& artefact, const Convergence& errors) 
 
 void claim_bspline(report::Artefact& artefact, const Convergence& errors) {
   const auto hbm = errors.of(1, "fourier_fourier"), spline = errors.of(1, "bspline_bspline");
-  artefact.claim({"section 5.5",
+  artefact.check({"section 5.5",
                   "As the number of basis functions is increased, the Galerkin B-spline case does not "
                   "perform as well as the HBM method.",
                   "at 150 Hz the error is above that of Fourier:Fourier with 16, 32, 64 and 128 functions",
@@ -29,7 +29,7 @@ void claim_bspline(report::Artefact& artefact, const Convergence& errors) {
                               errors.text(1, "fourier_fourier")),
                   spline[1] > hbm[1] && spline[2] > hbm[2] && spline[3] > hbm[3] && spline[4] > hbm[4]});
   const double order = errors.order(2, "bspline_bspline", 32);
-  artefact.claim(
+  artefact.check(
       {"section 5.5",
        "as the unknowns are increased from 32 to 128, the relative error stays reasonably constant",
        "at 1275 Hz the observed order of B-spline:B-spline over 32, 64 and 128 functions is below 1/2",
@@ -42,10 +42,10 @@ void claim_bspline(report::Artefact& artefact, const Convergence& errors) {
 void claim_daubechies_errors(report::Artefact& artefact, const Convergence& errors) {
   const auto e = errors.of(1, "daubechies6_daubechies6"), hbm = errors.of(1, "fourier_fourier");
   const std::string text = errors.text(1, "daubechies6_daubechies6");
-  artefact.claim({"section 5.5", "The Galerkin DB6 case performs poorly using 16 trial functions",
+  artefact.check({"section 5.5", "The Galerkin DB6 case performs poorly using 16 trial functions",
                   "at 150 Hz its error with 16 functions exceeds 20 % and that with 8", text,
                   e[1] > 0.2 && e[1] > e[0]});
-  artefact.claim({"section 5.5", "but rapidly improves to relative error values comparable to the HBM method",
+  artefact.check({"section 5.5", "but rapidly improves to relative error values comparable to the HBM method",
                   "at 150 Hz within half a decade of Fourier:Fourier with 32, 64 and 128 functions",
                   "DB6:DB6 " + text + "; Fourier:Fourier " + errors.text(1, "fourier_fourier"),
                   std::max({e[2] / hbm[2], e[3] / hbm[3], e[4] / hbm[4]}) < half_a_decade});
@@ -60,7 +60,7 @@ void claim_haar(report::Artefact& artefact, const Convergence& errors) {
       highest += std::min(e[3], e[5]) > std::max({e[0], e[1], e[2], e[4]}) ? 1 : 0;
       ++rows;
     }
-  artefact.claim(
+  artefact.check(
       {"section 5.5",
        "The relative error using Haar trial functions is highest out of the combinations investigated.",
        "both Haar pairs are above the four others for every number of functions in both cases, DB6:DB6 with "
@@ -82,7 +82,7 @@ void claim_errors(report::Artefact& artefact, const Convergence& errors) {
 void claim_midpoints(report::Artefact& artefact, const Convergence& midpoints, const Convergence& errors) {
   const double middle = midpoints.at(1, pair("haar_fourier"), 64),
                all = errors.at(1, pair("haar_fourier"), 64);
-  artefact.claim({"section 5.5",
+  artefact.check({"section 5.5",
                   "however the mid-points of the Haar functions match very well to the trend of the "
                   "time-stepping solution",
                   "Haar:Fourier at 150 Hz with 64 functions: the error at the middle of the cells is below "
@@ -95,7 +95,7 @@ void claim_midpoints(report::Artefact& artefact, const Convergence& midpoints, c
 
 void claim_abstract(report::Artefact& artefact, const Convergence& errors) {
   const auto last = errors.at(1, pairs(), 128);
-  artefact.claim(
+  artefact.check(
       {"abstract",
        "The mixed wavelet Petrov-Galerkin solutions are found to yield consistent or better results than HBM",
        "at 150 Hz with 128 functions the errors of the three Petrov-Galerkin pairs are at most half a decade "
@@ -109,7 +109,7 @@ void claim_abstract(report::Artefact& artefact, const Convergence& errors) {
     if (pair.trial != pair.weight)
       largest = std::max(largest, std::abs(order - errors.order(1, "fourier_fourier")));
   }
-  artefact.claim({"abstract", "with similar convergence rates",
+  artefact.check({"abstract", "with similar convergence rates",
                   "at 150 Hz the observed orders of the three Petrov-Galerkin pairs over 8..128 functions "
                   "are within 1/2 of Fourier:Fourier's",
                   measured, largest < 0.5});

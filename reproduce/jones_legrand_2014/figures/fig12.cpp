@@ -49,7 +49,7 @@ void note_stability(report::Artefact& artefact, const Resonance& first, const Re
 
 void claim_stiffening(report::Artefact& artefact, const Resonance& first) {
   const double with = peak(first.sweeps[0]).frequency, without = peak(first.free).frequency;
-  artefact.claim(
+  artefact.check(
       {"section 5.6",
        "the resonant peaks for the system are expected to increase in frequency relative to the no-contact "
        "response",
@@ -59,7 +59,7 @@ void claim_stiffening(report::Artefact& artefact, const Resonance& first) {
 }
 
 void claim_agreement(report::Artefact& artefact, const Resonance& first, const Resonance& all) {
-  artefact.claim(
+  artefact.check(
       {"section 5.6",
        "the stiffening behaviour of the unilateral contact condition is captured by both trial:weighting "
        "function combinations",
@@ -73,7 +73,7 @@ void claim_agreement(report::Artefact& artefact, const Resonance& first, const R
     measured += (i == 0 ? "" : ", ") + all.pairs[i].label + " " + turning_points_text(all.sweeps[i]);
     all_through = all_through && all.sweeps[i].converged();
   }
-  artefact.claim(
+  artefact.check(
       {"section 5.6", "other combinations showed similar approximations",
        "the curves of all six pairs pass the interval, their turning points within 1 Hz of Fourier:Fourier's",
        measured, all_through && turning_points_spread(all.sweeps) < 1.0});
@@ -93,7 +93,7 @@ void note_all_turning_points(report::Artefact& artefact) {
 void claim_second(report::Artefact& artefact, const Resonance& second, const Resonance& near) {
   const auto free = peak(second.free);
   const std::string frequency = report::number(free.frequency, 5) + " Hz";
-  artefact.claim(
+  artefact.check(
       {"caption of Fig. 12",
        "Frequency response function over the second fundamental frequency of the unilateral contact system",
        "with the constants of case 2 there is contact at the second resonance: without contact the tip would "

@@ -29,7 +29,7 @@ void reference(report::Artefact& artefact, int case_number) {
   artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
   artefact.caption(
       fmt::format("The last of {} periods, computed once and read by Figs. 6-11.", stepping.iterations));
-  artefact.claim(
+  artefact.check(
       {"section 4",
        "the solution is deemed to have converged to its periodic state when the rms of the relative error "
        "between the tip displacements for the i and i − 1 periods is below 10^{-7}",

@@ -14,7 +14,7 @@ double largest_free_displacement(const app::Scene& scene) {
 
 void claim_near(report::Artefact& artefact, const std::string& quote, const std::string& what, double found,
                 double stated, double tolerance, const std::string& unit) {
-  artefact.claim({"section 4", quote,
+  artefact.check({"section 4", quote,
                   what + " within " + report::number(tolerance) + " " + unit + " of the figure stated",
                   report::number(found, 6) + " " + unit, std::abs(found - stated) <= tolerance});
 }

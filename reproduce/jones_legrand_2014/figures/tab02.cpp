@@ -61,7 +61,7 @@ void tab02(report::Artefact& artefact) {
   int admissible = 0;
   for (std::size_t i = 0; i < data.rows(); ++i)
     admissible += std::get<bool>(data.at(i, "admissible")) ? 1 : 0;
-  artefact.claim(
+  artefact.check(
       {"conclusions",
        "This allowed piecewise constant Haar scaling functions to be used as a trial basis in the current "
        "investigation.",

@@ -28,7 +28,7 @@ double at(const Table& table, const std::string& formulation, double energy_rati
 
 TEST(Ll10Blade, ModelIsReducedAsThePaperSaysAndItsNodesAreListed) {
   results().need({"fig06"});
-  EXPECT_TRUE(results().verdict("fig06_blade", "Craig-Bampton procedure"));
+  EXPECT_TRUE(results().passes("fig06_blade", "Craig-Bampton procedure"));
   const Table table = results().read("fig06_blade.csv");
   EXPECT_EQ(table.rows(), 24u);
   for (const double z : table.numbers("z_m")) EXPECT_EQ(z, 0.091);
@@ -48,14 +48,14 @@ TEST(Ll10Blade, BackboneIsTheListedOneAndThePublishedFormulaFallsShortOfIt) {
   EXPECT_LT(at(table, "published", 7.0), 1.13);
   EXPECT_NEAR(at(table, "published", 7.0), at(table, "consistent", 7.0, "rayleigh_frequency_ratio"), 0.03);
   for (const char* words : {"Fig. 7 depicts", "increase of the natural frequency", "leading and trailing"})
-    EXPECT_TRUE(results().verdict("fig07_blade_backbone", words)) << words;
-  EXPECT_FALSE(results().verdict("fig07_blade_backbone", "ω² = r"));
+    EXPECT_TRUE(results().passes("fig07_blade_backbone", words)) << words;
+  EXPECT_FALSE(results().passes("fig07_blade_backbone", "ω² = r"));
 }
 
 TEST(Ll10Blade, ShapesTwistMoreWithEnergyAndTheirMotionsAreWritten) {
   results().need({"fig08"});
-  EXPECT_TRUE(results().verdict("fig08_blade_shapes", "torsion effects"));
-  EXPECT_TRUE(results().verdict("fig08_blade_shapes", "Sensitivity of mode shapes"));
+  EXPECT_TRUE(results().passes("fig08_blade_shapes", "torsion effects"));
+  EXPECT_TRUE(results().passes("fig08_blade_shapes", "Sensitivity of mode shapes"));
   const Table table = results().read("fig08_blade_shapes.csv");
   ASSERT_EQ(table.rows(), 3u * 2u * 24u);
   const auto energy = table.numbers("energy_ratio"), time = table.numbers("time_fraction"),

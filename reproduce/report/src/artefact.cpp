@@ -16,9 +16,21 @@ Artefact::Artefact(Identity identity, std::filesystem::path output, std::filesys
 }
 
 app::Scene Artefact::scene(const std::string& name, const std::vector<std::string>& overrides) {
-  auto& names = record_.scenes;
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  auto& uses = record_.scenes;
+  auto use = std::find_if(uses.begin(), uses.end(), [&](const SceneUse& one) { return one.name == name; });
+  if (use == uses.end()) use = uses.insert(uses.end(), {name, {}});
+  auto& known = use->overrides;
+  if (!overrides.empty() && std::find(known.begin(), known.end(), overrides) == known.end())
+    known.push_back(overrides);
   return app::load_scene(scenes_ / name, overrides);
+}
+
+void Artefact::statement(Statement statement) {
+  if (statement.verdict != Verdict::agrees && statement.because.empty())
+    throw std::logic_error("\"" + statement.quote + "\" does not agree and gives no reason");
+  if (statement.verdict == Verdict::depends && statement.readings.empty())
+    throw std::logic_error("\"" + statement.quote + "\" depends on readings and lists none");
+  record_.statements.push_back(std::move(statement));
 }
 
 app::Table Artefact::result(const std::string& file) const { return app::read_csv(output_ / file); }
@@ -62,9 +74,12 @@ void Artefact::write(double wall_seconds) {
     if (unlisted_.count(name) == 0) record_.files.push_back(name);
   }
   record_.wall_seconds = wall_seconds;
+  app::OutputFiles scenes(output_ / "scenes");
+  for (const SceneUse& use : record_.scenes) scenes.add(use.name, app::read_file(scenes_ / use.name));
   app::OutputFiles records(output_ / "records");
   records.add(stem + ".json", record_text(record_));
   files.commit();
+  scenes.commit();
   records.commit();
 }
 

@@ -27,21 +27,51 @@ q { font-style: italic; }
 nav a { margin-right: .8rem; white-space: nowrap; }
 )";
 
-std::string verdict(const Claim& claim) {
-  const char* word = claim.holds ? "agrees" : "differs";
-  return fmt::format("<td class=\"verdict {0}\">{0}</td>", word);
+/// A sentence, what decides, what was found, and the verdict, one row for each.
+std::string row(const std::string& sentence, const std::string& place, const std::string& criterion,
+                const std::string& measured, const char* kind, std::string_view verdict) {
+  return fmt::format(
+      "<tr><td><q>{}</q> <span class=\"place\">({})</span></td><td>{}</td><td>{}</td><td class=\"verdict "
+      "{}\">{}</td></tr>\n",
+      escaped(sentence), escaped(place), escaped(criterion), escaped(measured), kind, verdict);
 }
 
-std::string claims_table(const std::vector<Claim>& claims, const char* who) {
-  if (claims.empty()) return "";
-  std::string text = std::string("<div class=\"wide\"><table><tr><th>") + who +
-                     "</th><th>Measured, and what decides</th><th>Found in this run</th><th></th></tr>\n";
-  for (const Claim& claim : claims)
-    text +=
-        fmt::format("<tr><td><q>{}</q> <span class=\"place\">({})</span></td><td>{}</td><td>{}</td>{}</tr>\n",
-                    escaped(claim.quote), escaped(claim.place), escaped(claim.criterion),
-                    escaped(claim.measured), verdict(claim));
-  return text + "</table></div>\n";
+const char* kind(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::differs:
+      return "differs";
+    case Verdict::partly:
+      return "partly";
+    case Verdict::misprint:
+      return "misprint";
+    case Verdict::depends:
+      return "depends";
+  }
+  return "";
+}
+
+std::string table_of(const std::string& rows, const char* who) {
+  if (rows.empty()) return "";
+  return std::string("<div class=\"wide\"><table><tr><th>") + who +
+         "</th><th>Measured, and what decides</th><th>Found in this run</th><th></th></tr>\n" + rows +
+         "</table></div>\n";
+}
+
+std::string statements_table(const std::vector<Statement>& statements) {
+  std::string rows;
+  for (const Statement& one : statements)
+    rows += row(one.quote, one.place, one.criterion, one.measured, kind(one.verdict), to_string(one.verdict));
+  return table_of(rows, "The paper says");
+}
+
+std::string checks_table(const std::vector<Check>& checks) {
+  std::string rows;
+  for (const Check& one : checks)
+    rows += row(one.sentence, one.place, one.criterion, one.measured, one.passes ? "agrees" : "differs",
+                one.passes ? "passes" : "fails");
+  return table_of(rows, "Check");
 }
 
 std::string table_row(const std::vector<std::string>& cells, const char* tag) {
@@ -71,59 +101,53 @@ std::string origins(const Record& record, const std::string& folder) {
     text += fmt::format("<a href=\"{0}{1}\">{1}</a> ", folder, escaped(file));
   if (!record.scenes.empty()) {
     text += "· scenes:";
-    for (const auto& scene : record.scenes) text += " " + escaped(scene);
+    for (const auto& scene : record.scenes) text += " " + escaped(scene.name);
   }
   return text + fmt::format(" · {:.2f} s</p>\n", record.wall_seconds);
 }
 
-/// The heading of the statements that are compared with the results.
-const char* speaker(const Paper& paper) { return paper.link.empty() ? "Statement" : "The paper says"; }
-
-std::string artefact_section(const Record& record, const Paper& paper, const std::string& folder) {
+std::string artefact_section(const Record& record, const std::string& folder) {
   std::string text = fmt::format("<section id=\"{}\">\n<h3>{}: {}</h3>\n", record.identity.stem,
                                  escaped(record.identity.number), escaped(record.identity.title));
   text += picture(record, folder) + "<p>" + escaped(record.caption) + "</p>\n" + data_table(record.table);
-  text += claims_table(record.claims, speaker(paper));
+  text += statements_table(record.statements) + checks_table(record.checks);
   for (const auto& note : record.notes) text += "<p class=\"note\">" + escaped(note) + "</p>\n";
   return text + origins(record, folder) + "</section>\n";
 }
 
-std::string differing(const Section& section) {
+std::string not_agreeing(const Section& section) {
   std::string rows;
   for (const Record& record : section.records)
-    for (const Claim& claim : record.claims)
-      if (!claim.holds)
+    for (const Statement& one : record.statements)
+      if (one.verdict != Verdict::agrees)
         rows += fmt::format(
             "<tr><td><a href=\"#{}\">{}</a></td><td><q>{}</q> <span "
-            "class=\"place\">({})</span></td><td>{}</td></tr>\n",
-            record.identity.stem, escaped(record.identity.number), escaped(claim.quote), escaped(claim.place),
-            escaped(claim.measured));
+            "class=\"place\">({})</span></td><td>{}</td><td class=\"verdict {}\">{}</td></tr>\n",
+            record.identity.stem, escaped(record.identity.number), escaped(one.quote), escaped(one.place),
+            escaped(one.because), kind(one.verdict), to_string(one.verdict));
   if (rows.empty()) return "";
-  return "<h3>Statements that do not hold as measured here</h3>\n"
-         "<div class=\"wide\"><table><tr><th></th><th>" +
-         std::string(speaker(section.paper)) + "</th><th>Found in this run</th></tr>\n" + rows +
-         "</table></div>\n";
+  return "<h3>Statements that do not agree</h3>\n"
+         "<div class=\"wide\"><table><tr><th></th><th>The paper says</th><th>Because</th><th></th></tr>\n" +
+         rows + "</table></div>\n";
 }
 
 std::string overview(const Section& section) {
-  int claims = 0, holding = 0;
+  int statements = 0, agreeing = 0;
   double seconds = 0.0;
   std::string links;
   for (const Record& record : section.records) {
     seconds += record.wall_seconds;
     links += fmt::format("<a href=\"#{}\">{}</a>\n", record.identity.stem, escaped(record.identity.number));
-    for (const Claim& claim : record.claims) {
-      ++claims;
-      holding += claim.holds ? 1 : 0;
+    for (const Statement& one : record.statements) {
+      ++statements;
+      agreeing += one.verdict == Verdict::agrees ? 1 : 0;
     }
   }
-  if (claims == 0) return fmt::format("<nav>{}</nav>\n", links);
+  if (statements == 0) return fmt::format("<nav>{}</nav>\n", links);
   return fmt::format(
-      "<p>{} figures, tables and references in {:.1f} s of computing. Of {} statements{} <span "
-      "class=\"verdict agrees\">{} agree</span> and <span class=\"verdict differs\">{} differ</span> by the "
-      "thresholds given with each.</p>\n<nav>{}</nav>\n",
-      section.records.size(), seconds, claims, section.paper.link.empty() ? "" : " of the paper", holding,
-      claims - holding, links);
+      "<p>{} figures, tables and references in {:.1f} s of computing. Of {} statements of the paper <span "
+      "class=\"verdict agrees\">{} agree</span>.</p>\n<nav>{}</nav>\n",
+      section.records.size(), seconds, statements, agreeing, links);
 }
 
 std::string paper_section(const Section& section, const std::string& folder) {
@@ -132,8 +156,8 @@ std::string paper_section(const Section& section, const std::string& folder) {
     text += fmt::format(
         "<p class=\"place\">Text: <a href=\"{}\">{}</a>. Sentences are quoted from it under {}.</p>\n",
         section.paper.link, escaped(section.paper.link), escaped(section.paper.licence));
-  text += overview(section) + differing(section);
-  for (const Record& record : section.records) text += artefact_section(record, section.paper, folder);
+  text += overview(section) + not_agreeing(section);
+  for (const Record& record : section.records) text += artefact_section(record, folder);
   return text;
 }
 

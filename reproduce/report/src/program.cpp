@@ -26,9 +26,10 @@ const Step& find(const std::vector<Step>& steps, const std::string& name) {
   return *found;
 }
 
-void run(const Step& step, const Arguments& arguments) {
+void run(const Step& step, const std::string& program, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   Artefact artefact(step.identity, arguments.output, arguments.scenes);
+  artefact.made_by(program + " " + step.name);
   step.make(artefact);
   artefact.write(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
@@ -56,7 +57,7 @@ int run_program(int argc, const char* const* argv, const std::vector<Step>& step
   if (code) return *code;
   const Step& step = find(steps, arguments.name);
   try {
-    run(step, arguments);
+    run(step, std::filesystem::path(argv[0]).filename().string(), arguments);
     return 0;
   } catch (const NotConverged& error) {
     return fail(step, error, 3);
@@ -68,7 +69,7 @@ int run_program(int argc, const char* const* argv, const std::vector<Step>& step
 void run_step(const std::vector<Step>& steps, const std::string& name, const std::filesystem::path& output) {
   Arguments arguments = defaults(steps);
   arguments.output = output.string();
-  run(find(steps, name), arguments);
+  run(find(steps, name), "run_step", arguments);
 }
 
 }  // namespace wavebalance::report

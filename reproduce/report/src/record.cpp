@@ -7,11 +7,36 @@
 
 namespace wavebalance::report {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Claim, place, quote, criterion, measured, holds)
+NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::differs, "differs"},
+                                       {Verdict::agrees, "agrees"},
+                                       {Verdict::partly, "tie or partly"},
+                                       {Verdict::misprint, "misprint"},
+                                       {Verdict::depends, "depends"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reading, name, verdict, measured)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Statement, place, quote, criterion, measured, verdict, because, readings,
+                                   panel, earlier)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, place, sentence, criterion, measured, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Identity, paper, number, title, stem)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DataFile, name, units, notes)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, data, scenes, notes, claims, table,
-                                   wall_seconds, version)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneUse, name, overrides)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, data, scenes, notes, statements, checks,
+                                   table, program, wall_seconds, version)
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::differs:
+      return "differs";
+    case Verdict::partly:
+      return "tie or partly";
+    case Verdict::misprint:
+      return "misprint";
+    case Verdict::depends:
+      return "depends";
+  }
+  return "";
+}
 
 std::string record_text(const Record& record) { return nlohmann::json(record).dump(2) + "\n"; }
 

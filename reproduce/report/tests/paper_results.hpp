@@ -51,11 +51,20 @@ class PaperResults {
     const auto file = folder() / "records" / (stem + ".json");
     return parse_record(app::read_file(file), file);
   }
-  /// The verdict on the statement that holds `words`.
-  bool verdict(const std::string& stem, const std::string& words) const {
-    for (const auto& claim : record(stem).claims)
-      if (claim.quote.find(words) != std::string::npos) return claim.holds;
+  /// The statement that holds `words`.
+  Statement statement(const std::string& stem, const std::string& words) const {
+    for (const auto& one : record(stem).statements)
+      if (one.quote.find(words) != std::string::npos) return one;
     throw std::runtime_error(stem + ": no statement holds \"" + words + "\"");
+  }
+  Verdict verdict(const std::string& stem, const std::string& words) const {
+    return statement(stem, words).verdict;
+  }
+  /// The result of the check whose sentence holds `words`.
+  bool passes(const std::string& stem, const std::string& words) const {
+    for (const auto& one : record(stem).checks)
+      if (one.sentence.find(words) != std::string::npos) return one.passes;
+    throw std::runtime_error(stem + ": no check holds \"" + words + "\"");
   }
 
  private:

@@ -16,10 +16,19 @@ Record example() {
   record.caption = "caption";
   record.files = {"fig01_example.csv", "fig01_example.svg"};
   record.data = {{"fig01_example.csv", "SI", {"a note of the data"}}};
-  record.scenes = {"one.toml"};
+  record.scenes = {{"one.toml", {{"time.functions=8"}}}};
   record.notes = {"a note"};
-  record.claims = {{"section 1", "holds", "x < 1", "0.5", true},
-                   {"section 2", "fails", "x < 1", "1.5", false}};
+  record.statements = {{"section 1", "holds", "x < 1", "0.5", Verdict::agrees, "", {}, "", ""},
+                       {"section 2",
+                        "fails",
+                        "x < 1",
+                        "1.5",
+                        Verdict::depends,
+                        "x is open",
+                        {{"x = 2", Verdict::differs, "2"}},
+                        "(b)",
+                        "x < 2"}};
+  record.checks = {{"", "checked", "y < 1", "0.5", true}};
   record.table = {{"a", "b"}, {"1 | <2>", "3"}};
   record.wall_seconds = 0.25;
   record.version = "0.1.0";
@@ -35,9 +44,13 @@ TEST(Record, ReadsBackAsWritten) {
   const Record back = parse_record(record_text(record), "there.json");
   EXPECT_EQ(record_text(back), record_text(record));
   EXPECT_EQ(back.identity.title, record.identity.title);
-  ASSERT_EQ(back.claims.size(), 2u);
-  EXPECT_TRUE(back.claims[0].holds);
-  EXPECT_FALSE(back.claims[1].holds);
+  ASSERT_EQ(back.statements.size(), 2u);
+  EXPECT_EQ(back.statements[0].verdict, Verdict::agrees);
+  EXPECT_EQ(back.statements[1].verdict, Verdict::depends);
+  ASSERT_EQ(back.statements[1].readings.size(), 1u);
+  EXPECT_EQ(back.statements[1].readings[0].name, "x = 2");
+  EXPECT_TRUE(back.checks.at(0).passes);
+  EXPECT_EQ(back.scenes.at(0).overrides, record.scenes[0].overrides);
 }
 
 TEST(Record, OtherTextIsAnErrorThatNamesTheFile) {
@@ -57,12 +70,12 @@ TEST(Page, EscapesWhatItShows) {
   EXPECT_EQ(page().find("A < B"), std::string::npos);
 }
 
-TEST(Page, CountsVerdictsAndListsWhatDiffers) {
+TEST(Page, CountsVerdictsAndListsWhatDoesNotAgree) {
   EXPECT_NE(page().find("1 agree<"), std::string::npos);
-  EXPECT_NE(page().find("1 differ<"), std::string::npos);
-  const std::string differing = page().substr(page().find("Statements that do not hold"));
+  const std::string differing = page().substr(page().find("Statements that do not agree"));
   const std::string before_sections = differing.substr(0, differing.find("<section"));
   EXPECT_NE(before_sections.find("<q>fails</q>"), std::string::npos);
+  EXPECT_NE(before_sections.find("x is open"), std::string::npos);
   EXPECT_EQ(before_sections.find("<q>holds</q>"), std::string::npos);
 }
 
@@ -75,8 +88,6 @@ TEST(Page, LinksPicturesAndDataAndHasNoScript) {
 TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOne) {
   const std::string own = page_html({{{"own", "Further", "", ""}, {example()}}});
   EXPECT_EQ(own.find("Sentences are quoted"), std::string::npos);
-  EXPECT_EQ(own.find("The paper says"), std::string::npos);
-  EXPECT_NE(own.find("Statement"), std::string::npos);
   EXPECT_NE(page().find("The paper says"), std::string::npos);
 }
 
@@ -112,6 +123,18 @@ TEST(Artefact, UnitsAndNotesOfItsDataAreInTheRecord) {
   EXPECT_EQ(record.data[1].name, "fig02_more.csv");
   EXPECT_EQ(record.data[1].units, "Hz");
   std::filesystem::remove_all(folder);
+}
+
+TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsItsReadings) {
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, "nowhere", "nowhere");
+  Statement statement{"section 1", "quote", "x < 1", "2", Verdict::differs, "", {}, "", ""};
+  EXPECT_THROW(artefact.statement(statement), std::logic_error);
+  statement.because = "x is large";
+  artefact.statement(statement);
+  statement.verdict = Verdict::depends;
+  EXPECT_THROW(artefact.statement(statement), std::logic_error);
+  statement.readings = {{"x = 2", Verdict::differs, "2"}};
+  artefact.statement(statement);
 }
 
 TEST(Markdown, HoldsOneRowPerLine) {

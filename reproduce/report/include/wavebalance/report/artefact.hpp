@@ -26,7 +26,8 @@ class Artefact {
  public:
   Artefact(Identity identity, std::filesystem::path output, std::filesystem::path scenes);
 
-  /// The scene in scenes/name, with "section.key=value" overrides. The record names it. Throws SceneError.
+  /// The scene in scenes/name, with "section.key=value" overrides. The record names both, and a copy of the
+  /// file is written to scenes/ below the output folder. Throws SceneError.
   app::Scene scene(const std::string& name, const std::vector<std::string>& overrides = {});
   /// The folder of the scene files.
   const std::filesystem::path& scenes() const { return scenes_; }
@@ -40,11 +41,17 @@ class Artefact {
   /// Any other file beside stem.csv; the page links it if `listed`.
   void attach(const std::string& name, std::string contents, bool listed = true);
   void picture(app::Figure figure);
+  /// The command that makes this artefact, for the record: "jl14 fig06".
+  void made_by(std::string program) { record_.program = std::move(program); }
   /// The table that the page shows, and stem.md.
   void printed(const app::Table& table);
   void caption(std::string text) { record_.caption = std::move(text); }
   void note(std::string text) { record_.notes.push_back(std::move(text)); }
-  void claim(Claim claim) { record_.claims.push_back(std::move(claim)); }
+  /// A statement of the paper. Throws std::logic_error for one that does not agree and gives no reason, and
+  /// for one that depends on readings and lists none.
+  void statement(Statement statement);
+  /// A check of the code, or a sentence of this project's own.
+  void check(Check check) { record_.checks.push_back(std::move(check)); }
 
   /// Throws app::IoError and app::PlotError.
   void write(double wall_seconds);

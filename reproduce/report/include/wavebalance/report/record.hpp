@@ -1,17 +1,49 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wavebalance::report {
 
-/// A statement of a paper and its verdict by the values of this run.
-struct Claim {
+/// What a run finds of a statement of a paper.
+enum class Verdict {
+  agrees,
+  differs,
+  partly,    ///< a tie, or a part of the sentence holds
+  misprint,  ///< a slip of the pen that the paper's own text or figures correct
+  depends,   ///< holds under some readings of what the paper leaves open
+};
+/// "agrees", "differs", "tie or partly", "misprint", "depends".
+std::string_view to_string(Verdict verdict);
+
+/// The verdict under one reading of a detail that the paper leaves open.
+struct Reading {
+  std::string name;  ///< "512 samples at the left ends"
+  Verdict verdict = Verdict::differs;
+  std::string measured;  ///< what was found under it
+};
+
+/// A statement of a paper and what this run finds. See rule.hpp for what decides.
+struct Statement {
   std::string place;      ///< "section 5.5"
   std::string quote;      ///< the paper's own words
+  std::string criterion;  ///< what was measured, and what decides
+  std::string measured;   ///< what was found
+  Verdict verdict = Verdict::differs;
+  std::string because;            ///< the reason; needed unless it agrees
+  std::vector<Reading> readings;  ///< empty where the paper leaves nothing open
+  std::string panel;              ///< which part of the picture shows it, "(e)"; empty: the whole
+  std::string earlier;            ///< the criterion or verdict of earlier versions, where it has changed
+};
+
+/// A check of the code, or a sentence of this project's own. Not counted among the statements.
+struct Check {
+  std::string place;      ///< where the sentence stands; "" for this project's own
+  std::string sentence;   ///< what is checked
   std::string criterion;  ///< what was measured, and the threshold that decides
   std::string measured;   ///< what was found
-  bool holds = false;     ///< the criterion is met
+  bool passes = false;
 };
 
 /// Names of an artefact and of its paper.
@@ -32,16 +64,24 @@ struct DataFile {
   std::vector<std::string> notes;
 };
 
+/// A scene file that an artefact reads, and the overrides "section.key=value" of every reading that has some.
+struct SceneUse {
+  std::string name;
+  std::vector<std::vector<std::string>> overrides;
+};
+
 /// The text of an artefact on the report page.
 struct Record {
   Identity identity;
   std::string caption;
-  std::vector<std::string> files;   ///< names, in results/<paper>/
-  std::vector<DataFile> data;       ///< the CSV files among them
-  std::vector<std::string> scenes;  ///< names of the scene files it comes from
-  std::vector<std::string> notes;   ///< choices made, and what is missing
-  std::vector<Claim> claims;
-  TextTable table;  ///< shown on the page; empty for figures
+  std::vector<std::string> files;  ///< names, in results/<paper>/
+  std::vector<DataFile> data;      ///< the CSV files among them
+  std::vector<SceneUse> scenes;    ///< what it comes from
+  std::vector<std::string> notes;  ///< choices made, and what is missing
+  std::vector<Statement> statements;
+  std::vector<Check> checks;
+  TextTable table;      ///< shown on the page; empty for figures
+  std::string program;  ///< what makes it, "jl14 fig06"
   double wall_seconds = 0.0;
   std::string version;  ///< of wavebalance
 };
