@@ -84,9 +84,9 @@ app::Response Case::solve_exactly(const Pair& pair, int functions) {
   return app::weighted_residual_response(scene_for(pair, functions, "exact"));
 }
 
-std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen) {
+std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen, bool whole_structure) {
   std::vector<app::Response> responses;
-  for (const Pair& pair : chosen) responses.push_back(solve(pair, scene_.time.functions));
+  for (const Pair& pair : chosen) responses.push_back(solve(pair, scene_.time.functions, whole_structure));
   return responses;
 }
 

@@ -57,7 +57,7 @@ class Case {
   /// The same with exact inner products in place of sums over 256 points.
   app::Response solve_exactly(const Pair& pair, int functions);
   /// All of `chosen` with the scene's number of functions.
-  std::vector<app::Response> solve_all(const std::vector<Pair>& chosen);
+  std::vector<app::Response> solve_all(const std::vector<Pair>& chosen, bool whole_structure = false);
   /// The scene that solve() solves.
   app::Scene scene_for(const Pair& pair, int functions, const std::string& inner_products = "quadrature");
 

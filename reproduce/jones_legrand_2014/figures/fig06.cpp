@@ -3,6 +3,7 @@
 #include "curve_measures.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
+#include "motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -83,8 +84,10 @@ void claim_bspline(report::Artefact& artefact, const Case& study, const Eigen::V
 
 void fig06(report::Artefact& artefact) {
   Case study(artefact, 1);
-  const auto responses = study.solve_all(pairs());
+  const auto responses = study.solve_all(pairs(), true);
   const auto u = drawn(responses, &app::Response::displacement);
+  artefact.attach("motion_case1.json",
+                  motion_json(study, responses, artefact.result("reference_case1_nodes.csv")), false);
   const Eigen::VectorXd& reference = study.reference().displacement();
   artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                 {"64 functions; reference: time stepping"});

@@ -2,6 +2,7 @@
 
 #include "figures.hpp"
 #include "jl14.hpp"
+#include "motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -37,8 +38,10 @@ void claim_haar(report::Artefact& artefact, Case& study) {
 
 void fig07(report::Artefact& artefact) {
   Case study(artefact, 2);
-  const auto responses = study.solve_all(pairs());
+  const auto responses = study.solve_all(pairs(), true);
   const auto u = drawn(responses, &app::Response::displacement);
+  artefact.attach("motion_case2.json",
+                  motion_json(study, responses, artefact.result("reference_case2_nodes.csv")), false);
   const Eigen::VectorXd& reference = study.reference().displacement();
   artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
                 {"64 functions; reference: time stepping"});

@@ -3,6 +3,7 @@
 
 #include "figures.hpp"
 #include "jl14.hpp"
+#include "motion.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -27,6 +28,8 @@ void reference(report::Artefact& artefact, int case_number) {
   auto table = app::response_table(stepping.contacts);
   table.add_column("system_energy_J", app::system_energy(scene, stepping.structure));
   artefact.data(table, "SI; a column's name ends in its unit; time_fraction in periods");
+  artefact.more_data("nodes", node_columns(stepping.structure),
+                     "displacements of the nodes in m; time_fraction in periods");
   artefact.caption(
       fmt::format("The last of {} periods, computed once and read by Figs. 6-11.", stepping.iterations));
   artefact.check(

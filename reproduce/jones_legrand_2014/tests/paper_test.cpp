@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "figures.hpp"
 #include "jl14.hpp"
@@ -89,6 +90,36 @@ TEST(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
     const double error =
         app::relative_rms_error(column(table, "fourier_fourier"), column(table, "reference"));
     EXPECT_LT(error, 2e-3) << stem;
+  }
+}
+
+TEST(Jl14Paper, MotionsForThePageAreThoseOfTheFigures) {
+  results().need({"reference_case1", "reference_case2", "fig06", "fig07"});
+  const std::vector<std::string> stems{"fig06_tip_displacement_case1", "fig07_tip_displacement_case2"};
+  for (std::size_t study = 0; study < 2; ++study) {
+    const Table table = results().read(stems[study] + ".csv");
+    const auto file = results().folder() / ("motion_case" + std::to_string(study + 1) + ".json");
+    const auto motion = nlohmann::json::parse(app::read_file(file));
+    const std::size_t instants = motion["time"].size();
+    ASSERT_EQ(instants, 128u);
+    EXPECT_EQ(motion["pairs"].size(), 6u);
+    auto moving = motion["pairs"].get<std::vector<nlohmann::json>>();
+    moving.push_back(motion["reference"]);
+    for (const auto& one : moving) {
+      const auto tip = table.numbers(one["name"].get<std::string>());
+      ASSERT_EQ(one["nodes"].size(), instants);
+      for (std::size_t i = 0; i < instants; ++i) {
+        ASSERT_EQ(one["nodes"][i].size(), 26u);
+        EXPECT_EQ(one["nodes"][i][0], 0.0);
+        EXPECT_NEAR(one["nodes"][i][25], tip[i * tip.size() / instants], 5e-6 * 20e-3) << one["name"] << i;
+        EXPECT_EQ(one["nodes"][i][25], one["tip"][i]);
+        // The obstacle pushes where and only where the tip is beyond the gap.
+        const double beyond = one["tip"][i].get<double>() - motion["gap"].get<double>();
+        if (std::abs(beyond) > 2e-7) {
+          EXPECT_EQ(one["force"][i] > 0.0, beyond > 0.0) << one["name"] << i;
+        }
+      }
+    }
   }
 }
 
