@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "files/number_text.hpp"
@@ -13,12 +12,6 @@ namespace wavebalance::app {
 namespace {
 
 constexpr const char* text_colour = "#222222";
-
-Colour automatic_colour(std::size_t index) {
-  constexpr std::array<Colour, 7> order{Colour::blue,   Colour::vermillion, Colour::green, Colour::purple,
-                                        Colour::orange, Colour::sky_blue,   Colour::black};
-  return order[index % order.size()];
-}
 
 std::string dash_text(Dash dash) {
   switch (dash) {

@@ -41,6 +41,12 @@ std::string colour_code(Colour colour) {
   return "#000000";
 }
 
+Colour automatic_colour(std::size_t index) {
+  constexpr std::array<Colour, 7> order{Colour::blue,   Colour::vermillion, Colour::green, Colour::purple,
+                                        Colour::orange, Colour::sky_blue,   Colour::black};
+  return order[index % order.size()];
+}
+
 std::string symbol_text(std::size_t number) {
   // gnuplot's filled shapes, then the open ones
   constexpr std::array<int, 8> order{7, 5, 9, 13, 11, 6, 4, 8};

@@ -13,6 +13,9 @@ std::string quoted(const std::string& text);
 /// "#E69F00"
 std::string colour_code(Colour colour);
 
+/// The colour of the index-th series of a panel that has none of its own, from 0.
+Colour automatic_colour(std::size_t index);
+
 /// " pt 7 ps 0.7": the number-th symbol, from 0.
 std::string symbol_text(std::size_t number);
 

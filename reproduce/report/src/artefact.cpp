@@ -6,6 +6,7 @@
 
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/plot/figure_script.hpp"
 
 namespace wavebalance::report {
 
@@ -67,6 +68,7 @@ void Artefact::write(double wall_seconds) {
   if (figure_) {
     texts_[stem + ".svg"] = app::render(*figure_, app::PictureFormat::svg);
     texts_[stem + ".png"] = app::render(*figure_, app::PictureFormat::png);
+    if (app::has_curves(*figure_)) attach(stem + ".figure.js", app::figure_script(*figure_, stem), false);
   }
   app::OutputFiles files(output_);
   for (const auto& [name, text] : texts_) {

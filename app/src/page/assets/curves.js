@@ -1,0 +1,311 @@
+// Draws the curves of a figure in place of its picture: they zoom, show values under the pointer, and can be hidden.
+// Data come from figure_script() of app/plot; d3 draws scales, axes and zooms.
+"use strict";
+(() => {
+  const margin = { top: 8, right: 12, bottom: 42, left: 58 };
+  const reach = 40;  // pixels within which a curve answers to the pointer
+  const element = wavebalance.element;
+  const symbols = () => [d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle, d3.symbolDiamond, d3.symbolWye,
+                         d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle];
+  const number = (value) => d3.format(".5~g")(value).replace("-", "\u2212");
+
+  // gnuplot's enhanced text as parts {text, level, bold, italic}; level 1 is raised and -1 lowered.
+  function parts(text, style = { level: 0, bold: false, italic: false }) {
+    const found = [];
+    let plain = "";
+    const flush = () => { if (plain) found.push({ ...style, text: plain }); plain = ""; };
+    for (let i = 0; i < text.length; ++i) {
+      const c = text[i];
+      if (c === "\\" && i + 1 < text.length) { plain += text[++i]; continue; }
+      if (c !== "_" && c !== "^" && c !== "{") { plain += c; continue; }
+      flush();
+      const level = c === "_" ? -1 : c === "^" ? 1 : style.level;
+      if (c !== "{") ++i;
+      if (text[i] !== "{") { found.push({ ...style, level, text: text[i] ?? "" }); continue; }
+      let end = i + 1;
+      for (let depth = 1; end < text.length; ++end) {
+        depth += text[end] === "{" ? 1 : text[end] === "}" ? -1 : 0;
+        if (depth === 0) break;
+      }
+      const inside = text.slice(i + 1, end), face = /^\/:?(Bold|Italic|[A-Za-z]+)? ?/.exec(inside);
+      found.push(...parts(face ? inside.slice(face[0].length) : inside,
+                          { level, bold: style.bold || face?.[1] === "Bold",
+                            italic: style.italic || face?.[1] === "Italic" }));
+      i = end;
+    }
+    flush();
+    return found;
+  }
+
+  function html(text) {
+    return parts(text).map((part) => {
+      let node = document.createTextNode(part.text);
+      if (part.italic) node = element("i", {}, node);
+      if (part.bold) node = element("b", {}, node);
+      return part.level ? element(part.level > 0 ? "sup" : "sub", {}, node) : node;
+    });
+  }
+
+  function svgText(selection, text) {
+    let level = 0;
+    for (const part of parts(text)) {
+      selection.append("tspan").text(part.text).attr("dy", `${(level - part.level) * 0.35}em`)
+        .attr("font-size", part.level ? "75%" : null).attr("font-style", part.italic ? "italic" : null)
+        .attr("font-weight", part.bold ? "bold" : null);
+      level = part.level;
+    }
+  }
+
+  const finite = (scale, value) => value !== null && Number.isFinite(scale(value));
+
+  function scaleOf(axis, values, range, round) {
+    const scale = axis.logarithmic ? d3.scaleLog() : d3.scaleLinear();
+    const usable = values.filter((v) => v !== null && (!axis.logarithmic || v > 0));
+    let [lower, upper] = usable.length ? d3.extent(usable) : axis.logarithmic ? [0.1, 1] : [0, 1];
+    if (lower === upper) { const step = Math.abs(lower) * 0.1 || 1; lower -= step; upper += step; }
+    scale.domain([lower, upper]).range(range);
+    if (round) scale.nice();
+    const chosen = scale.domain();
+    return scale.domain([axis.lower ?? chosen[0], axis.upper ?? chosen[1]]);
+  }
+
+  class Panel {
+    constructor(data, box, size, hidden) {
+      this.data = data;
+      this.hidden = hidden;
+      this.width = Math.max(120, size[0] - margin.left - margin.right);
+      this.height = Math.max(120, size[1] - margin.top - margin.bottom);
+      const all = (name) => data.series.flatMap((series) => series[name]);
+      this.x0 = scaleOf(data.x, all("x"), [0, this.width], false);
+      this.y0 = scaleOf(data.y, all("y"), [this.height, 0], true);
+      this.make(box, size);
+      this.listen();
+      this.draw();
+    }
+
+    make(box, size) {
+      const name = `${this.data.y.label} over ${this.data.x.label}`;
+      this.svg = d3.select(box).append("svg").attr("width", size[0]).attr("height", size[1])
+        .attr("tabindex", 0).attr("role", "img").attr("aria-label", parts(name).map((part) => part.text).join(""));
+      const root = this.svg.append("g").attr("transform", `translate(${margin.left},${margin.top})`);
+      const clip = `clip${Panel.count = (Panel.count ?? 0) + 1}`;
+      root.append("clipPath").attr("id", clip).append("rect").attr("width", this.width).attr("height", this.height);
+      this.xAxis = root.append("g").attr("class", "axis").attr("transform", `translate(0,${this.height})`);
+      this.yAxis = root.append("g").attr("class", "axis");
+      this.plot = root.append("g").attr("clip-path", `url(#${clip})`);
+      this.outer = root.append("g");
+      this.dot = root.append("circle").attr("class", "dot").attr("r", 4).attr("visibility", "hidden");
+      svgText(root.append("text").attr("class", "label").attr("x", this.width / 2).attr("y", this.height + 35)
+        .attr("text-anchor", "middle"), this.data.x.label);
+      svgText(root.append("text").attr("class", "label").attr("transform", `translate(-44,${this.height / 2})rotate(-90)`)
+        .attr("text-anchor", "middle"), this.data.y.label);
+      this.values = element("div", { class: "values", hidden: "" });
+      box.append(this.values);
+    }
+
+    listen() {
+      const node = this.svg.node();
+      this.zoom = d3.zoom().scaleExtent([1, 1000]).extent([[0, 0], [this.width, this.height]])
+        .translateExtent([[0, 0], [this.width, this.height]]).on("zoom", () => this.draw());
+      this.svg.call(this.zoom).on("dblclick.zoom", () => this.reset());
+      node.addEventListener("pointermove", (event) => this.point(event));
+      node.addEventListener("pointerleave", () => this.leave());
+      node.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    reset() { this.svg.call(this.zoom.transform, d3.zoomIdentity); }
+
+    key(event) {
+      const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+      const scale = d3.zoomTransform(this.svg.node()).k;
+      if (event.key === "+" || event.key === "-") this.svg.call(this.zoom.scaleBy, event.key === "+" ? 1.5 : 1 / 1.5);
+      else if (event.key === "0") this.reset();
+      else if (moves[event.key] && scale > 1)
+        this.svg.call(this.zoom.translateBy, ...moves[event.key].map((pixels) => pixels / scale));
+      else return;
+      event.preventDefault();
+    }
+
+    draw() {
+      const transform = d3.zoomTransform(this.svg.node());
+      this.x = transform.rescaleX(this.x0);
+      this.y = transform.rescaleY(this.y0);
+      const ticks = (axis, given, count) => given.ticks.length && transform.k === 1
+        ? axis.tickValues(given.ticks) : axis.ticks(count, given.logarithmic ? number : undefined);
+      this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickPadding(7));
+      this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickPadding(7));
+      this.plot.selectAll("*").remove();
+      this.outer.selectAll("*").remove();
+      this.data.rectangles.forEach((one) => this.rectangle(one));
+      this.data.segments.forEach((one) => this.segment(one));
+      this.shown().forEach((series) => this.curve(series));
+      for (const mark of this.data.texts)
+        svgText(this.plot.append("text").attr("x", this.x(mark.x)).attr("y", this.y(mark.y)).attr("dy", "0.32em")
+          .attr("text-anchor", mark.anchor), mark.text);
+      this.leave();
+    }
+
+    shown() { return this.data.series.filter((series) => !this.hidden.has(key(series))); }
+
+    rectangle(one) {
+      const x = d3.extent(one.x.map(this.x)), y = d3.extent(one.y.map(this.y));
+      this.plot.append("rect").attr("x", x[0]).attr("y", y[0]).attr("width", x[1] - x[0]).attr("height", y[1] - y[0])
+        .attr("fill", one.colour).attr("opacity", one.opacity);
+    }
+
+    segment(one) {
+      const at = ([x, y], edgeX, edgeY) => [x === null ? edgeX : this.x(x), y === null ? edgeY : this.y(y)];
+      const [a, b] = [at(one.from, 0, this.height), at(one.to, this.width, 0)];
+      this.plot.append("line").attr("x1", a[0]).attr("y1", a[1]).attr("x2", b[0]).attr("y2", b[1])
+        .attr("stroke", one.colour).attr("stroke-width", one.width).attr("stroke-dasharray", one.dash || null);
+      if (one.label && b[1] >= 0 && b[1] <= this.height)
+        svgText(this.outer.append("text").attr("x", this.width - 4).attr("y", b[1] - 4).attr("text-anchor", "end"), one.label);
+    }
+
+    curve(series) {
+      const { x, y } = this;
+      const at = series.x.map((value, i) => [x(value), finite(x, value) && finite(y, series.y[i]) ? y(series.y[i]) : NaN]);
+      const there = ([, v]) => Number.isFinite(v);
+      if (series.style === "impulses") {
+        for (const [u, v] of at.filter(there))
+          this.plot.append("line").attr("x1", u).attr("x2", u).attr("y1", Math.min(this.height, y(0))).attr("y2", v)
+            .attr("stroke", series.colour).attr("stroke-width", series.width);
+      } else if (series.style !== "points") {
+        const line = d3.line().defined(there);
+        if (series.style === "steps") line.curve(d3.curveStepAfter);
+        this.plot.append("path").attr("class", "curve").attr("d", line(at)).attr("stroke", series.colour)
+          .attr("stroke-width", series.width).attr("stroke-dasharray", series.dash || null);
+      }
+      if (series.style !== "points" && series.style !== "line_points") return;
+      const open = series.marker % 8 > 4;
+      const symbol = d3.symbol().size(36).type(symbols()[series.marker % 8])();
+      at.filter((point, i) => i % series.every === 0 && there(point)).forEach(([u, v]) =>
+        this.plot.append("path").attr("d", symbol).attr("transform", `translate(${u},${v})`)
+          .attr("fill", open ? "white" : series.colour).attr("stroke", series.colour));
+    }
+
+    // The point of a series next to the pixel (u, v), on the lines between its points where it is drawn as a line.
+    nearest(series, u, v) {
+      let best = { distance: reach };
+      let before = null;
+      const joined = series.style === "line" || series.style === "line_points";
+      series.x.forEach((value, i) => {
+        const there = finite(this.x, value) && finite(this.y, series.y[i]);
+        const point = there ? [this.x(value), this.y(series.y[i])] : null;
+        if (point) {
+          const from = joined && before ? before : point;
+          const d = [point[0] - from[0], point[1] - from[1]], square = d[0] ** 2 + d[1] ** 2;
+          const share = square ? Math.min(1, Math.max(0, ((u - from[0]) * d[0] + (v - from[1]) * d[1]) / square)) : 0;
+          const at = [from[0] + share * d[0], from[1] + share * d[1]];
+          const distance = Math.hypot(u - at[0], v - at[1]);
+          if (distance < best.distance) best = { distance, at, series };
+        }
+        before = point;
+      });
+      return best;
+    }
+
+    point(event) {
+      const box = this.svg.node().getBoundingClientRect();
+      const u = event.clientX - box.left - margin.left, v = event.clientY - box.top - margin.top;
+      const inside = u >= 0 && v >= 0 && u <= this.width && v <= this.height;
+      const found = this.shown().map((series) => this.nearest(series, u, v));
+      const best = inside ? found.reduce((a, b) => (b.distance < a.distance ? b : a), { distance: reach }) : {};
+      if (!best.at) return this.leave();
+      const [x, y] = best.at;
+      this.dot.attr("cx", x).attr("cy", y).attr("fill", best.series.colour).attr("visibility", "visible");
+      const line = (label, value) => element("div", {}, ...html(label || "value"), `: ${number(value)}`);
+      this.values.replaceChildren(element("strong", {}, ...html(best.series.label)),
+        line(this.data.x.label, this.x.invert(x)), line(this.data.y.label, this.y.invert(y)));
+      this.values.hidden = false;
+      const right = x > this.width / 2;
+      this.values.style.left = right ? "" : `${x + margin.left + 12}px`;
+      this.values.style.right = right ? `${this.width - x + margin.right + 12}px` : "";
+      this.values.style.top = `${Math.max(0, Math.min(y, this.height - 70))}px`;
+    }
+
+    leave() {
+      this.dot.attr("visibility", "hidden");
+      this.values.hidden = true;
+    }
+  }
+
+  // One entry of the legend stands for the curves of that name and look in all panels.
+  const key = (series) => [series.label, series.colour, series.dash, series.style].join("|");
+
+  function legend(data, hidden, redraw) {
+    const entries = new Map();
+    for (const panel of data.panels)
+      for (const series of panel.series)
+        if (series.label && series.x.length) entries.set(key(series), series);
+    return element("div", { class: "legend" }, ...[...entries].map(([name, series]) => {
+      const swatch = element("span", { class: "swatch" });
+      swatch.style.borderTop = `3px ${series.style === "points" ? "dotted" : series.dash ? "dashed" : "solid"} ${series.colour}`;
+      const button = element("button", { type: "button", "aria-pressed": "true" }, swatch, ...html(series.label));
+      button.addEventListener("click", () => {
+        if (!hidden.delete(name)) hidden.add(name);
+        button.setAttribute("aria-pressed", String(!hidden.has(name)));
+        redraw();
+      });
+      return button;
+    }));
+  }
+
+  // As many columns as the picture has, or a divisor of that number, so that panels below each other stay so.
+  function columnsFor(wanted, width) {
+    let columns = Math.max(1, wanted);
+    while (columns > 1 && (wanted % columns || width / columns < 200)) --columns;
+    return columns;
+  }
+
+  function drawFigure(box, data) {
+    const hidden = new Set();
+    const panels = [];
+    const width = box.clientWidth;
+    const columns = columnsFor(Math.min(data.columns, data.panels.length), width);
+    const grid = element("div", { class: "panels" });
+    grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
+    const each = Math.floor(width / columns) - 1;
+    const redraw = () => panels.forEach((panel) => panel.draw());
+    box.replaceChildren();
+    if (data.title) box.append(element("p", { class: "title" }, ...html(data.title)));
+    box.append(legend(data, hidden, redraw), grid);
+    data.panels.forEach((panel, index) => {
+      const letter = data.letters ? [element("b", {}, `(${String.fromCharCode(97 + index)}) `)] : [];
+      const place = element("div", { class: "panel" }, element("p", {}, ...letter, ...html(panel.title)));
+      const plot = element("div", { class: "plot" });
+      place.append(plot);
+      grid.append(place);
+      const height = Math.max(200, Math.min(420, (each * data.panel[1]) / data.panel[0]));
+      panels.push(new Panel(panel, plot, [each, height], hidden));
+    });
+    return () => panels.forEach((panel) => panel.reset());
+  }
+
+  function prepare(figure) {
+    const source = figure.dataset.curves;
+    const name = source.slice(source.lastIndexOf("/") + 1, -".figure.js".length);
+    const picture = figure.querySelector("a");
+    const box = element("div", { class: "curves", hidden: "" });
+    const hint = element("span", { class: "hint", hidden: "" }, "Point at a curve for its values. Wheel or pinch " +
+      "zooms, dragging moves, a double click resets; a name hides its curve.");
+    const button = element("button", { type: "button", "aria-pressed": "false" }, "Zoom and read values");
+    const again = element("button", { type: "button", hidden: "" }, "Reset");
+    let reset = () => {};
+    again.addEventListener("click", () => reset());
+    button.addEventListener("click", async () => {
+      const show = box.hidden;
+      if (show) await wavebalance.load(source);
+      for (const node of [box, hint, again]) node.hidden = !show;
+      picture.hidden = show;
+      button.setAttribute("aria-pressed", String(show));
+      button.textContent = show ? "Show the picture" : "Zoom and read values";
+      if (show) reset = drawFigure(box, wavebalance.figures[name]);
+    });
+    picture.after(box, element("div", { class: "tools" }, button, again, hint));
+  }
+
+  document.addEventListener("DOMContentLoaded", () => {
+    if (window.d3) document.querySelectorAll("figure[data-curves]").forEach(prepare);
+  });
+})();

@@ -1,0 +1,188 @@
+#include "wavebalance/app/plot/figure_script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "plot/plot_text.hpp"
+#include "plot/thin_curve.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double thinning = 1e-4;  // of the range of an axis
+constexpr std::size_t most_points = 5000;
+
+double rounded(double value) {
+  return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value;
+}
+
+std::vector<double> rounded(const std::vector<double>& values) {
+  std::vector<double> result;
+  for (const double value : values) result.push_back(rounded(value));
+  return result;
+}
+
+/// `values` as shares of the range of `axis`, which is that of the values where it has no limits.
+std::vector<double> on_axis(std::vector<double> values, const Axis& axis) {
+  const auto scale = [&](double value) { return axis.logarithmic ? std::log10(value) : value; };
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  for (double& value : values) {
+    value = scale(value);
+    if (!std::isfinite(value)) continue;
+    lower = std::min(lower, value);
+    upper = std::max(upper, value);
+  }
+  if (axis.lower) lower = scale(*axis.lower);
+  if (axis.upper) upper = scale(*axis.upper);
+  const double range = upper > lower ? upper - lower : 1.0;
+  for (double& value : values) value /= range;
+  return values;
+}
+
+std::vector<std::size_t> shown_points(const Series& series, const Panel& panel) {
+  std::vector<std::size_t> all(series.x.size());
+  std::iota(all.begin(), all.end(), 0u);
+  if (series.style != SeriesStyle::line) return all;
+  const auto x = on_axis(series.x, panel.x), y = on_axis(series.y, panel.y);
+  auto kept = kept_points(x, y, thinning);
+  for (double tolerance = 2.0 * thinning; kept.size() > most_points && tolerance < 0.1; tolerance *= 2.0)
+    kept = kept_points(x, y, tolerance);
+  return kept;
+}
+
+std::string_view style_name(SeriesStyle style) {
+  switch (style) {
+    case SeriesStyle::points:
+      return "points";
+    case SeriesStyle::line_points:
+      return "line_points";
+    case SeriesStyle::steps:
+      return "steps";
+    case SeriesStyle::impulses:
+      return "impulses";
+    case SeriesStyle::line:
+      break;
+  }
+  return "line";
+}
+
+/// Lengths of strokes and gaps in pixels.
+std::string_view dash_lengths(Dash dash) {
+  switch (dash) {
+    case Dash::dashed:
+      return "8 5";
+    case Dash::dotted:
+      return "2 4";
+    case Dash::dash_dotted:
+      return "9 4 2 4";
+    case Dash::solid:
+      break;
+  }
+  return "";
+}
+
+Json optional_number(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(); }
+
+Json axis_data(const Axis& axis) {
+  return {{"label", axis.label},
+          {"lower", optional_number(axis.lower)},
+          {"upper", optional_number(axis.upper)},
+          {"logarithmic", axis.logarithmic},
+          {"ticks", rounded(axis.ticks)}};
+}
+
+Json series_data(const Series& series, std::size_t index, const Panel& panel) {
+  std::vector<double> x, y;
+  for (const std::size_t i : shown_points(series, panel)) {
+    x.push_back(rounded(series.x[i]));
+    y.push_back(rounded(series.y[i]));
+  }
+  const bool automatic = series.colour == Colour::automatic;
+  return {{"label", series.label},
+          {"style", style_name(series.style)},
+          {"colour", colour_code(automatic ? automatic_colour(index) : series.colour)},
+          {"dash", dash_lengths(series.dash)},
+          {"width", series.width},
+          {"marker", series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index},
+          {"every", series.marker_every.value_or(1)},
+          {"x", x},
+          {"y", y}};
+}
+
+Json segment_data(const Segment& s) {
+  return {{"from", {optional_number(s.x1), optional_number(s.y1)}},
+          {"to", {optional_number(s.x2), optional_number(s.y2)}},
+          {"arrow", s.arrow},
+          {"colour", colour_code(s.colour)},
+          {"dash", dash_lengths(s.dash)},
+          {"width", s.width},
+          {"label", s.label}};
+}
+
+Json panel_data(const Panel& panel) {
+  Json data{{"title", panel.title},
+            {"x", axis_data(panel.x)},
+            {"y", axis_data(panel.y)},
+            {"legend", panel.legend != Legend::none}};
+  for (const char* list : {"series", "segments", "rectangles", "texts"}) data[list] = Json::array();
+  for (std::size_t i = 0; i < panel.series.size(); ++i)
+    data["series"].push_back(series_data(panel.series[i], i, panel));
+  for (const Segment& one : panel.segments) data["segments"].push_back(segment_data(one));
+  for (const Rectangle& one : panel.rectangles)
+    data["rectangles"].push_back({{"x", {rounded(one.x1), rounded(one.x2)}},
+                                  {"y", {rounded(one.y1), rounded(one.y2)}},
+                                  {"colour", colour_code(one.fill)},
+                                  {"opacity", one.opacity}});
+  for (const TextMark& one : panel.texts) {
+    const char* anchor = one.align == TextMark::Align::left    ? "start"
+                         : one.align == TextMark::Align::right ? "end"
+                                                               : "middle";
+    data["texts"].push_back(
+        {{"x", rounded(one.x)}, {"y", rounded(one.y)}, {"text", one.text}, {"anchor", anchor}});
+  }
+  return data;
+}
+
+bool has_point(const Series& series) {
+  for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) return true;
+  return false;
+}
+
+}  // namespace
+
+bool has_curves(const Figure& figure) {
+  bool points = false;
+  for (const Panel& panel : figure.panels) {
+    if (panel.surface || panel.z || panel.heat_map || !panel.frame) return false;
+    points = points || std::any_of(panel.series.begin(), panel.series.end(), has_point);
+  }
+  return points;
+}
+
+std::string figure_script(const Figure& figure, const std::string& name) {
+  Json data{{"title", figure.title},
+            {"columns", figure.columns},
+            {"letters", figure.letters && figure.panels.size() > 1},
+            {"panel", {figure.panel_width, figure.panel_height}},
+            {"panels", Json::array()}};
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series)
+      if (series.x.size() != series.y.size())
+        throw std::invalid_argument(
+            fmt::format("figure_script: series \"{}\" has {} abscissae and {} ordinates; their numbers must "
+                        "be equal",
+                        series.label, series.x.size(), series.y.size()));
+    data["panels"].push_back(panel_data(panel));
+  }
+  return fmt::format("((window.wavebalance ??= {{}}).figures ??= {{}})[{}] = {};\n", Json(name).dump(),
+                     data.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace wavebalance::app
