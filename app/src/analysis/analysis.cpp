@@ -69,6 +69,28 @@ void append_attractor(Record& record, int periods, const Response& response) {
                         attractor, attractor));
 }
 
+/// Instants of the period at which the motion of a bar is kept for its report.
+constexpr int bar_instants = 64;
+
+/// The response's motion of the structure at bar_instants or, where that does not divide it, at all instants.
+Eigen::MatrixXd bar_motion_of(const Scene& scene, const StructureModel& model, const Response& response) {
+  const Eigen::MatrixXd& reduced = response.structure.displacement;
+  if (scene.structure.type != StructureType::bar || reduced.cols() == 0) return {};
+  const Eigen::MatrixXd nodes = model.recover(reduced);
+  const Eigen::Index step = nodes.cols() % bar_instants == 0 ? nodes.cols() / bar_instants : 1;
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(nodes.rows() + 1, nodes.cols() / step);
+  for (Eigen::Index k = 0; k < motion.cols(); ++k) motion.col(k).tail(nodes.rows()) = nodes.col(k * step);
+  return motion;
+}
+
+/// The instants at which the motion of the whole structure is computed: those that the scene writes, or those
+/// of a bar's report.
+int structure_points(const Scene& scene) {
+  const int written = std::max(0, scene.analysis.motion_points);
+  if (written > 0 || scene.structure.type != StructureType::bar) return written;
+  return scene.analysis.type == AnalysisType::time_stepping ? scene.analysis.output_points : bar_instants;
+}
+
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
   record.warnings = model.warnings;
@@ -100,7 +122,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);
   add_contacts(record, response.contacts, response.contact);
-  record.files = motion_files(model, response.structure.displacement);
+  record.bar_motion = bar_motion_of(scene, model, response);
+  if (scene.analysis.motion_points > 0) record.files = motion_files(model, response.structure.displacement);
   return record;
 }
 
@@ -215,6 +238,7 @@ Record analyse(const Scene& scene, const Observer& observer) {
   const StructureModel model = make_model(scene);
   ResponseOptions options;
   options.observer = observer;
+  options.structure_points = structure_points(scene);
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
       return sweep_record(scene, model, stable_sweep(scene, model, observer));
@@ -225,7 +249,6 @@ Record analyse(const Scene& scene, const Observer& observer) {
     case AnalysisType::forced_response:
       break;
   }
-  options.structure_points = std::max(0, scene.analysis.motion_points);
   options.stability = scene.analysis.stability;
   return response_record(scene, model, weighted_residual_response(scene, model, options));
 }

@@ -10,13 +10,17 @@
 
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
+#include "command/run_report.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/plot/figure_script.hpp"
 
 namespace wavebalance::app {
 namespace {
+
+constexpr const char* report_name = "report.html";
 
 /// Without gnuplot the numbers are still written. The picture is left out, with a message on standard error.
 std::string picture(const Figure& figure) {
@@ -28,29 +32,27 @@ std::string picture(const Figure& figure) {
   }
 }
 
-/// A file of the results and one sentence about it.
-struct ResultFile {
-  std::string name;
-  std::string contents;
-  std::string about;
-};
-
 void append_table(std::vector<ResultFile>& files, const std::string& name, const Table& table,
                   const std::string& about) {
   if (!table.empty()) files.push_back({name, csv_text(table), about});
 }
 
-void append_picture(std::vector<ResultFile>& files, const Record& record) {
+void append_picture(std::vector<ResultFile>& files, const Record& record, bool report) {
   if (record.figure.panels.empty()) return;
   const std::string stem = !record.sweep.empty()      ? "sweep"
                            : !record.backbone.empty() ? "backbone"
                                                       : "response";
   const std::string drawn = picture(record.figure);
-  if (!drawn.empty()) files.push_back({stem + ".svg", drawn, "the picture"});
+  if (drawn.empty()) return;
+  files.push_back({stem + ".svg", drawn, "the picture"});
+  if (report && has_curves(record.figure))
+    files.push_back({stem + ".figure.js", figure_script(record.figure, stem), "the curves of report.html"});
 }
 
-std::vector<ResultFile> result_files(const Scene& scene, const Record& record) {
+/// All files but the summary; with `report` first the report, still without contents.
+std::vector<ResultFile> result_files(const Scene& scene, const Record& record, bool report) {
   std::vector<ResultFile> files;
+  if (report) files.push_back({report_name, "", "what was asked and what came out, to read in a browser"});
   files.push_back({"scene.toml", write_scene(scene), "the scene as it was solved"});
   append_table(files, "response.csv", record.response,
                "motion of the leading contact degree of freedom over one period");
@@ -60,7 +62,7 @@ std::vector<ResultFile> result_files(const Scene& scene, const Record& record) {
     files.push_back({file.name, file.contents, "motion of the whole structure"});
   append_table(files, "sweep.csv", record.sweep, "periodic responses along the frequency response curve");
   append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
-  append_picture(files, record);
+  append_picture(files, record, report);
   return files;
 }
 
@@ -160,9 +162,11 @@ int run_scene(const RunArguments& arguments) {
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep);
   const Record record = solve(scene, guard, arguments.quiet);
   if (record.interrupted && record.sweep.empty()) guard.end_program();
-  const std::vector<ResultFile> results = result_files(scene, record);
+  std::vector<ResultFile> results = result_files(scene, record, arguments.report);
+  const Summary summary = whole_summary(arguments, record, results);
+  if (arguments.report) results.front().contents = report_text(arguments, scene, record, summary, results);
   guard.defer();
-  write(files, results, json_text(whole_summary(arguments, record, results)));
+  write(files, results, json_text(summary));
   report(arguments, record, results);
   if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

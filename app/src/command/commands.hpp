@@ -17,6 +17,7 @@ struct RunArguments {
   std::vector<std::string> removed;    ///< "section.key"
   double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
   bool quiet = false;
+  bool report = true;  ///< whether report.html is written
 };
 
 /// Solves a scene and writes its results. Returns solved, not_converged, or interrupted + signal after a

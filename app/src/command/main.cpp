@@ -33,10 +33,10 @@ std::string footer() {
          "    --unset contact.constant --unset contact.exponent\n\n"
          "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
          "\"nonlinear_mode\" (reproduce/scenes/laxalde_legrand_2010/rod.toml).\n\n"
-         "`run` writes summary.json, response.csv (or sweep.csv, backbone.csv), a picture (SVG) and the "
-         "scene\n"
-         "as it was solved. All of them appear at once, or none, and replace those of an earlier run in the\n"
-         "same folder; other files stay. Without gnuplot the picture is left out.\n\n"
+         "`run` writes report.html to read in a browser, summary.json, response.csv (or sweep.csv,\n"
+         "backbone.csv), a picture (SVG) and the scene as it was solved. All of them appear at once, or none,\n"
+         "and replace those of an earlier run in the same folder; other files stay. Without gnuplot the\n"
+         "picture is left out.\n\n"
          "Exit codes: 0 solved; 2 bad input or output that cannot be written, nothing written; 3 not\n"
          "converged, the record is written and says so; 130 interrupted (Ctrl-C): a frequency sweep writes\n"
          "its points so far with the status \"interrupted\", a second Ctrl-C and all else write nothing.";
@@ -87,6 +87,7 @@ int dispatch(int argc, char** argv) {
                  "refuse a scene that is expected to take more; without it, more than the machine has")
       ->type_name("GB")
       ->check(CLI::PositiveNumber);
+  run.add_flag("!--no-report", arguments.report, "write no report.html");
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
   add_scene(check, arguments);

@@ -27,15 +27,52 @@ TEST(CommandRun, SolvesAndWritesEverything) {
   const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
-  for (const char* name : {"summary.json", "response.csv", "response.svg", "scene.toml"})
+  for (const char* name :
+       {"report.html", "summary.json", "response.csv", "response.svg", "response.figure.js", "scene.toml"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 4);
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"converged\": true"), std::string::npos);
   EXPECT_EQ(read_csv(folder / "out" / "response.csv").rows(), 1024u);
   EXPECT_EQ(read_file(folder / "out" / "response.csv").find("time_fraction,displacement_m,"), 0u);
   const std::string summary = read_file(folder / "out" / "summary.json");
   EXPECT_NE(summary.find("\"name\": \"response.csv\""), std::string::npos) << summary;
   EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(scene));
+}
+
+TEST(CommandRun, ReportTellsWhatWasAskedAndWhatCameOut) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  const Outcome outcome =
+      run(folder, {"run", scene, "--output", folder / "out", "--set", "contact.gap=1.1e-3", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string report = read_file(folder / "out" / "report.html");
+  for (const char* words :
+       {"<h1>Forced response of a bar</h1>", "was solved", "the gap of 1.1 mm", "--set contact.gap=1.1e-3",
+        "The motion is stable", "href=\"response.csv\"", "src=\"response.svg\"", "alt=\""})
+    EXPECT_NE(report.find(words), std::string::npos) << words;
+  EXPECT_EQ(report.find("<h2>Warnings"), std::string::npos);
+}
+
+TEST(CommandRun, ReportSaysThatNothingWasFound) {
+  const TemporaryFolder folder;
+  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "jones_legrand_2014" / "case2_sweep.toml";
+  const Outcome outcome =
+      run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.max_points=5"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  const std::string report = read_file(folder / "out" / "report.html");
+  EXPECT_NE(report.find("was not solved (point limit)"), std::string::npos);
+  EXPECT_NE(report.find("<h1>Frequency response of a bar</h1>"), std::string::npos);
+}
+
+TEST(CommandRun, NoReportLeavesItOutAndRemovesThatOfAnEarlierRun) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  run(folder, {"run", scene, "-o", folder / "out", "--quiet"});
+  EXPECT_TRUE(fs::exists(folder / "out" / "report.html"));
+  const Outcome outcome = run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--no-report"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_FALSE(fs::exists(folder / "out" / "report.html"));
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 4);
 }
 
 TEST(CommandRun, QuietSaysNothing) {
@@ -109,7 +146,7 @@ TEST(CommandRun, MatricesWriteEveryContactAndTheWholeMotion) {
   for (const char* name :
        {"summary.json", "response.csv", "response.svg", "contacts.csv", "motion.mtx", "scene.toml"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 8);
   EXPECT_EQ(read_csv(folder / "out" / "contacts.csv").rows(), 2u * 1024u);
   EXPECT_NE(read_file(folder / "out" / "motion.mtx").find("\n72 32\n"), std::string::npos);
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"degrees_of_freedom\": 72"), std::string::npos);
@@ -174,7 +211,9 @@ TEST(CommandRun, FullDiskIsTwoAndLeavesNothing) {
   // A limit of 16 blocks lets the summary pass and stops the response half-way.
   const std::string script = "ulimit -f 16; exec \"$0\" \"$@\"";
   const Outcome outcome =
-      Command(folder, {"-c", script, WAVEBALANCE_COMMAND, "run", scene, "--output", folder / "out"}, "sh")
+      Command(folder,
+              {"-c", script, WAVEBALANCE_COMMAND, "run", scene, "--no-report", "--output", folder / "out"},
+              "sh")
           .wait();
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.errors.find("response.csv: cannot be written: File too large"), std::string::npos)
@@ -187,7 +226,9 @@ TEST(CommandRun, WithoutGnuplotTheNumbersRemain) {
   const std::string scene = folder.write("case.toml", bar_scene);
   const std::string script = "PATH=/nowhere; exec \"$0\" \"$@\"";
   const Outcome outcome =
-      Command(folder, {"-c", script, WAVEBALANCE_COMMAND, "run", scene, "--output", folder / "out"}, "sh")
+      Command(folder,
+              {"-c", script, WAVEBALANCE_COMMAND, "run", scene, "--no-report", "--output", folder / "out"},
+              "sh")
           .wait();
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.errors.find("no picture"), std::string::npos);
@@ -248,9 +289,10 @@ TEST(CommandRun, FolderUsedTwiceHoldsTheSecondRecordAndForeignFiles) {
       run(folder, {"run", scene, "--output", folder / "out", "--set", "analysis.type=frequency_sweep",
                    "--set", "analysis.frequency_from=100", "--set", "analysis.frequency_to=105"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const char* name : {"summary.json", "sweep.csv", "sweep.svg", "scene.toml", "backbone.csv"})
+  for (const char* name :
+       {"summary.json", "sweep.csv", "sweep.svg", "scene.toml", "backbone.csv", "report.html"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 5);
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 7);
   EXPECT_EQ(read_file(folder / "out" / "backbone.csv"), "not of this record\n");
 }
 
@@ -309,9 +351,9 @@ TEST(CommandRun, NonlinearModeWritesItsBackbone) {
   const std::string scene = folder.write("rod.toml", rod_scene);
   const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const char* name : {"summary.json", "backbone.csv", "backbone.svg", "scene.toml"})
+  for (const char* name : {"summary.json", "backbone.csv", "backbone.svg", "scene.toml", "report.html"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 4);
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
   const Table table = read_csv(folder / "out" / "backbone.csv");
   EXPECT_TRUE(table.has_column("rayleigh_frequency_ratio"));
   EXPECT_GT(table.rows(), 50u);

@@ -64,6 +64,9 @@ struct Record {
   Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx.
   std::vector<RecordFile> files;
+  /// Displacements of the nodes of a bar from its clamp on (rows) at uniform instants of the period, m; empty
+  /// for other structures and after a curve.
+  Eigen::MatrixXd bar_motion;
   Figure figure;  ///< without panels when there is nothing to draw
 };
 

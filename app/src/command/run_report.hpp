@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "command/commands.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+
+namespace wavebalance::app {
+
+/// A file of the results and one sentence about it.
+struct ResultFile {
+  std::string name;
+  std::string contents;
+  std::string about;
+};
+
+/// report.html: what was asked, what came out in sentences, warnings, stability, the picture with curves that
+/// zoom, the motion of a bar, all values and files. It holds all that it shows; without scripts the pictures
+/// stay.
+std::string report_text(const RunArguments& arguments, const Scene& scene, const Record& record,
+                        const Summary& summary, const std::vector<ResultFile>& files);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/files/summary.hpp"
+
+namespace wavebalance::app {
+
+/// What a run found, in sentences: whether it was solved and how, the motion or the curve, contact. `gap` in
+/// m; NaN where contacts have different gaps or there are none.
+std::vector<std::string> outcome_sentences(const Summary& summary, double gap);
+
+/// What the record says of stability, and where it changes; `curve` is the table of a sweep, or empty.
+std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve = {});
+
+/// "1.02 mm", "79.2 kN": four digits with a prefix from micro to giga; "not known" for NaN.
+std::string quantity(double value, const std::string& unit);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,94 @@
+#include "command/run_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "wavebalance/solvers/stability/contact_stiffness.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const auto& sentence : sentences) text += sentence + " ";
+  return text;
+}
+
+Summary motion(bool converged) {
+  return {{"converged", converged},
+          {"status", std::string(converged ? "converged" : "stalled_at_start")},
+          {"residual", 1e-12},
+          {"wall_seconds", 0.0025},
+          {"max_displacement_m", 1.02e-3},
+          {"min_displacement_m", -1.4e-3},
+          {"max_contact_force_N", 79218.0},
+          {"contact_fraction", 0.25},
+          {"analysis", std::string("forced_response")},
+          {"frequency_Hz", 150.0}};
+}
+
+TEST(RunWords, QuantitiesHaveAPrefixThatMakesThemReadable) {
+  EXPECT_EQ(quantity(1.02e-3, "m"), "1.02 mm");
+  EXPECT_EQ(quantity(-1.4e-3, "m"), "-1.4 mm");
+  EXPECT_EQ(quantity(79218.0, "N"), "79.22 kN");
+  EXPECT_EQ(quantity(0.0, "m"), "0 m");
+  EXPECT_EQ(quantity(1327.9, "Hz"), "1328 Hz");
+  EXPECT_EQ(quantity(unknown, "N"), "not known");
+}
+
+TEST(RunWords, AMotionIsToldWithItsContactAndItsDistanceFromTheGap) {
+  const std::string text = joined(outcome_sentences(motion(true), 1e-3));
+  for (const char* words : {"was solved, in 2.5 ms", "1e-12", "At 150 Hz", "-1.4 mm and 1.02 mm",
+                            "2 % past the gap of 1 mm", "25 % of the period", "79.22 kN"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+TEST(RunWords, WhatHasNotConvergedIsCalledNoSolution) {
+  const std::string text = joined(outcome_sentences(motion(false), unknown));
+  EXPECT_NE(text.find("was not solved (stalled at start)"), std::string::npos) << text;
+  EXPECT_NE(text.find("not a solution"), std::string::npos) << text;
+  EXPECT_EQ(text.find("gap"), std::string::npos) << text;
+}
+
+TEST(RunWords, EveryStatusOfStabilityHasASentenceOfItsOwn) {
+  using solvers::StabilityStatus;
+  std::vector<std::string> statuses{"stable", "unstable", "no_modes", "no_law_of_impact", "interrupted"};
+  for (int i = 0; i <= static_cast<int>(StabilityStatus::effort_limit); ++i)
+    statuses.emplace_back(to_string(static_cast<StabilityStatus>(i)));
+  for (const auto& status : statuses) {
+    const std::string text = joined(stability_sentences({{"stability", status}}));
+    EXPECT_EQ(text.find("known ("), std::string::npos) << text;
+    EXPECT_FALSE(text.empty()) << status;
+  }
+  EXPECT_EQ(stability_sentences({{"stability", std::string("other_reason")}}).at(0),
+            "Stability is not known (other reason).");
+  EXPECT_TRUE(stability_sentences({}).empty());
+}
+
+TEST(RunWords, SpecialPointsAreListedByType) {
+  Table points({"type", "frequency_Hz"});
+  points.append_row({std::string("fold"), 1337.7681796});
+  points.append_row({std::string("grazing"), 1226.7});
+  points.append_row({std::string("fold"), 1315.015});
+  const std::string text =
+      joined(stability_sentences({{"stability", std::string("converged")}, {"special_points", points}}));
+  EXPECT_NE(text.find("Folds, where the curve turns back: 1337.768 Hz, 1315.015 Hz."), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("joins another: 1226.7 Hz."), std::string::npos) << text;
+}
+
+TEST(RunWords, UnstablePartsOfACurveAreNamedInTheirOrder) {
+  Table curve({"frequency_Hz", "unstable"});
+  for (const auto& [frequency, unstable] :
+       {std::pair{10.0, 0.0}, {11.0, 1.0}, {10.5, 1.0}, {10.2, 0.0}, {12.0, unknown}, {13.0, 2.0}})
+    curve.append_row({frequency, unstable});
+  const std::string text = joined(stability_sentences({{"stability", std::string("converged")}}, curve));
+  EXPECT_NE(text.find("unstable at 11 to 10.5 Hz, 13 Hz."), std::string::npos) << text;
+  EXPECT_NE(text.find("not known at 1 of 6 points"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace wavebalance::app
