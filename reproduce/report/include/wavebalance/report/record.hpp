@@ -26,15 +26,15 @@ struct Reading {
 
 /// A statement of a paper and what this run finds. See rule.hpp for what decides.
 struct Statement {
-  std::string place;      ///< "section 5.5"
-  std::string quote;      ///< the paper's own words
-  std::string criterion;  ///< what was measured, and what decides
-  std::string measured;   ///< what was found
+  std::string place;          ///< "section 5.5"
+  std::string quote;          ///< the paper's own words
+  std::string criterion;      ///< what was measured, and what decides
+  std::string measured = {};  ///< what was found
   Verdict verdict = Verdict::differs;
-  std::string because;            ///< the reason; needed unless it agrees
-  std::vector<Reading> readings;  ///< empty where the paper leaves nothing open
-  std::string panel;              ///< which part of the picture shows it, "(e)"; empty: the whole
-  std::string earlier;            ///< the criterion or verdict of earlier versions, where it has changed
+  std::string because = {};            ///< the reason; needed unless it agrees
+  std::vector<Reading> readings = {};  ///< empty where the paper leaves nothing open
+  std::string panel = {};              ///< which part of the picture shows it, "(e)"; empty: the whole
+  std::string earlier = {};            ///< the criterion or verdict of earlier versions, where it has changed
 };
 
 /// A check of the code, or a sentence of this project's own. Not counted among the statements.
