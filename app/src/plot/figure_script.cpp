@@ -181,7 +181,7 @@ std::string figure_script(const Figure& figure, const std::string& name) {
                         series.label, series.x.size(), series.y.size()));
     data["panels"].push_back(panel_data(panel));
   }
-  return fmt::format("((window.wavebalance ??= {{}}).figures ??= {{}})[{}] = {};\n", Json(name).dump(),
+  return fmt::format("((window.wavebalance ?\?= {{}}).figures ?\?= {{}})[{}] = {};\n", Json(name).dump(),
                      data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

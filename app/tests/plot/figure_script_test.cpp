@@ -37,7 +37,7 @@ TEST(FigureScript, HoldsAxesCurvesAndMarksUnderItsName) {
   panel.y.logarithmic = false;
   panel.series[0].dash = Dash::dashed;
   panel.mark_y(0.5, "gap");
-  EXPECT_NE(figure_script(figure, "fig \"1\"").find(".figures ??= {})[\"fig \\\"1\\\"\"] = {"),
+  EXPECT_NE(figure_script(figure, "fig \"1\"").find(".figures ?\?= {})[\"fig \\\"1\\\"\"] = {"),
             std::string::npos);
   const auto shown = data_of(figure)["panels"][0];
   EXPECT_EQ(shown["title"], "sine");

@@ -5,7 +5,6 @@
 
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/report/artefact.hpp"
-#include "wavebalance/report/page.hpp"
 
 namespace wavebalance::report {
 namespace {
@@ -35,10 +34,6 @@ Record example() {
   return record;
 }
 
-std::string page() {
-  return page_html({{{"some_paper", "A paper", "https://example.org", "CC BY"}, {example()}}});
-}
-
 TEST(Record, ReadsBackAsWritten) {
   const Record record = example();
   const Record back = parse_record(record_text(record), "there.json");
@@ -62,33 +57,6 @@ TEST(Record, OtherTextIsAnErrorThatNamesTheFile) {
       EXPECT_EQ(error.path(), "there.json");
     }
   }
-}
-
-TEST(Page, EscapesWhatItShows) {
-  EXPECT_EQ(escaped("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
-  EXPECT_NE(page().find("A &lt; B &amp; &quot;C&quot;"), std::string::npos);
-  EXPECT_EQ(page().find("A < B"), std::string::npos);
-}
-
-TEST(Page, CountsVerdictsAndListsWhatDoesNotAgree) {
-  EXPECT_NE(page().find("1 agree<"), std::string::npos);
-  const std::string differing = page().substr(page().find("Statements that do not agree"));
-  const std::string before_sections = differing.substr(0, differing.find("<section"));
-  EXPECT_NE(before_sections.find("<q>fails</q>"), std::string::npos);
-  EXPECT_NE(before_sections.find("x is open"), std::string::npos);
-  EXPECT_EQ(before_sections.find("<q>holds</q>"), std::string::npos);
-}
-
-TEST(Page, LinksPicturesAndDataAndHasNoScript) {
-  EXPECT_NE(page().find("href=\"some_paper/fig01_example.csv\""), std::string::npos);
-  EXPECT_NE(page().find("src=\"some_paper/fig01_example.png\""), std::string::npos);
-  EXPECT_EQ(page().find("<script"), std::string::npos);
-}
-
-TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOne) {
-  const std::string own = page_html({{{"own", "Further", "", ""}, {example()}}});
-  EXPECT_EQ(own.find("Sentences are quoted"), std::string::npos);
-  EXPECT_NE(page().find("The paper says"), std::string::npos);
 }
 
 TEST(Artefact, AttachedFilesAreWrittenAndOnlyListedOnesAreLinked) {
@@ -125,6 +93,19 @@ TEST(Artefact, UnitsAndNotesOfItsDataAreInTheRecord) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Artefact, TheDataOfItsCurvesAreWrittenBesideThePicture) {
+  std::string folder = (std::filesystem::temp_directory_path() / "wavebalance_report_XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder, folder);
+  app::Figure figure;
+  figure.add_panel().add({"u", std::vector<double>{0, 1}, std::vector<double>{0, 1}});
+  artefact.picture(figure);
+  artefact.write(0.0);
+  const auto script = app::read_file(std::filesystem::path(folder) / "fig02.figure.js");
+  EXPECT_NE(script.find("[\"fig02\"]"), std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsItsReadings) {
   Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, "nowhere", "nowhere");
   Statement statement{"section 1", "quote", "x < 1", "2", Verdict::differs, "", {}, "", ""};
@@ -141,21 +122,6 @@ TEST(Markdown, HoldsOneRowPerLine) {
   app::Table table({"a", "b"});
   table.append_row({std::string("x"), 0.5});
   EXPECT_EQ(markdown_text(text_table(table)), "| a | b |\n| --- | --- |\n| x | 0.5 |\n");
-}
-
-TEST(Page, ShowsEveryCellOfATableAsItIs) {
-  EXPECT_NE(page().find("<tr><th>a</th><th>b</th></tr>"), std::string::npos);
-  EXPECT_NE(page().find("<tr><td>1 | &lt;2&gt;</td><td>3</td></tr>"), std::string::npos);
-}
-
-TEST(Page, LinksToASectionWithItsOwnPageInPlaceOfShowingIt) {
-  const Section section{{"some_paper", "Further", "", "", true}, {example()}};
-  const std::string index = page_html({section}), own = own_page_html(section);
-  EXPECT_NE(index.find("href=\"some_paper/index.html#fig01_example\""), std::string::npos);
-  EXPECT_EQ(index.find("<td>3</td>"), std::string::npos);
-  EXPECT_NE(own.find("<td>3</td>"), std::string::npos);
-  EXPECT_NE(own.find("href=\"../index.html\""), std::string::npos);
-  EXPECT_NE(own.find("href=\"fig01_example.csv\""), std::string::npos);
 }
 
 TEST(Numbers, AreShort) {

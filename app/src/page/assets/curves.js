@@ -106,11 +106,18 @@
     listen() {
       const node = this.svg.node();
       this.zoom = d3.zoom().scaleExtent([1, 1000]).extent([[0, 0], [this.width, this.height]])
-        .translateExtent([[0, 0], [this.width, this.height]]).on("zoom", () => this.draw());
+        .translateExtent([[0, 0], [this.width, this.height]])
+        .filter(() => this.takes(d3.event ?? {})).on("zoom", () => this.draw());
       this.svg.call(this.zoom).on("dblclick.zoom", () => this.reset());
       node.addEventListener("pointermove", (event) => this.point(event));
       node.addEventListener("pointerleave", () => this.leave());
       node.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    // One finger scrolls the page, unless the panel is enlarged.
+    takes(event) {
+      const fingers = event.touches?.length ?? 2;
+      return !event.button && (fingers > 1 || d3.zoomTransform(this.svg.node()).k > 1);
     }
 
     reset() { this.svg.call(this.zoom.transform, d3.zoomIdentity); }
@@ -134,6 +141,7 @@
         ? axis.tickValues(given.ticks) : axis.ticks(count, given.logarithmic ? number : undefined);
       this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickPadding(7));
       this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickPadding(7));
+      this.svg.style("touch-action", transform.k > 1 ? "none" : "pan-y");
       this.plot.selectAll("*").remove();
       this.outer.selectAll("*").remove();
       this.data.rectangles.forEach((one) => this.rectangle(one));

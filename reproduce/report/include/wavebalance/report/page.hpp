@@ -1,4 +1,7 @@
 #pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,10 +12,12 @@ namespace wavebalance::report {
 /// The heading of a section: a paper, or results of this project's own.
 struct Paper {
   std::string folder;     ///< below results/ and reproduce/scenes/
+  std::string name;       ///< short, "Jones & Legrand 2014"
   std::string citation;   ///< authors, title, where and when
-  std::string link;       ///< to its text; empty: results of this project's own
+  std::string link;       ///< to its page; empty: results of this project's own
   std::string licence;    ///< of the sentences quoted
   bool own_page = false;  ///< shown on results/<folder>/index.html, to which results/index.html links
+  std::vector<std::string> order;  ///< how stems begin, in the order of the page; others follow by name
 };
 
 /// The papers that are regenerated, in the order of the page.
@@ -22,16 +27,31 @@ const std::vector<Paper>& papers();
 struct Section {
   Paper paper;
   std::vector<Record> records;
+  std::map<std::string, std::uintmax_t>
+      files;  ///< what its folder holds, "scenes/" too, and the bytes of each
 };
 
-/// results/index.html: the sections, and links to those that have their own page. HTML and CSS without
-/// scripts; pictures and data are linked relative to the folder of the page.
-std::string page_html(const std::vector<Section>& sections);
+/// Where results come from. The page shows these texts at every artefact.
+struct Origin {
+  std::string commit = "unknown";    ///< "1a2b3c4d5e6f", of the sources
+  std::string compiler = "unknown";  ///< "GNU 12.2.0, Release"
+  std::string machine = "unknown";   ///< "the processor's name, 2 cores"; see this_machine()
+};
+
+/// Name of the processor and number of its cores, "unknown" where the system does not say.
+std::string this_machine();
+
+/// results/index.html: what holds in brief, a matrix of verdicts, the rule, and the sections with figures
+/// beside their statements; links to the sections that have their own page. It shows all of that without
+/// scripts too.
+std::string page_html(const std::vector<Section>& sections, const Origin& origin);
 
 /// results/<folder>/index.html of a section that has its own page.
-std::string own_page_html(const Section& section);
+std::string own_page_html(const Section& section, const Origin& origin);
 
-/// `text` with &, <, > and " as entities.
-std::string escaped(const std::string& text);
+/// Writes index.html of all papers that have records below `results`, the pages of those that have their own,
+/// and what the pages load: results/assets/, and scripts with motions beside the results from which they are
+/// made. Throws app::IoError, also if no paper has results.
+void write_pages(const std::filesystem::path& results, const Origin& origin);
 
 }  // namespace wavebalance::report

@@ -1,0 +1,136 @@
+#include "wavebalance/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "page/page_parts.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/page/html.hpp"
+
+namespace wavebalance::report {
+namespace {
+
+/// "✓5 ✗1", each with its colour.
+std::string small_tally(const Record& record) {
+  Tally tally;
+  tally.add(record);
+  std::string text;
+  for (const Verdict verdict : all_verdicts)
+    if (tally.of(verdict) > 0)
+      text += fmt::format(" <span class=\"verdict {}\" title=\"{}\">{}{}</span>", kind(verdict),
+                          to_string(verdict), sign(verdict), tally.of(verdict));
+  return text;
+}
+
+std::string entry(const std::string& target, const std::string& name, const std::string& more = "") {
+  return fmt::format("<li><a href=\"{}\">{}</a>{}</li>\n", target, name, more);
+}
+
+std::string records_contents(const Section& section) {
+  std::string text = "<ol>\n";
+  for (const Record& record : section.records)
+    text += entry("#" + record.identity.stem,
+                  fmt::format("<b>{}</b> {}", app::escaped(short_number(record, section.paper)),
+                              app::escaped(record.identity.title)),
+                  small_tally(record));
+  return text + "</ol>\n";
+}
+
+std::string contents_box(const std::string& entries) {
+  return "<nav class=\"contents\" aria-label=\"Contents\">\n<details open><summary>Contents</summary>\n<ol>\n" +
+         entries + "</ol>\n</details>\n</nav>\n";
+}
+
+std::string contents(const std::vector<Section>& sections, bool judged) {
+  std::string text;
+  if (judged)
+    text += entry("#brief", "What holds, and why") + entry("#matrix", "Every statement at a glance") +
+            entry("#rule", "The rule that decides");
+  for (const Section& section : sections) {
+    const std::string name = app::escaped(section.paper.name);
+    if (section.paper.own_page)
+      text += entry(section.paper.folder + "/index.html", name + " →");
+    else
+      text += fmt::format("<li><a href=\"#{}\">{}</a>\n{}</li>\n", section.paper.folder, name,
+                          records_contents(section));
+  }
+  return contents_box(text);
+}
+
+std::string totals(const Section& section) {
+  double seconds = 0.0;
+  for (const Record& record : section.records) seconds += record.wall_seconds;
+  const auto count = section.records.size();
+  return fmt::format("{} {}, {:.1f} s of computing", count, count == 1 ? "result" : "results", seconds);
+}
+
+std::string section_html(const Place& place) {
+  const Section& section = place.section;
+  const Paper& paper = section.paper;
+  std::string text = fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"quiet\">{}.", paper.folder,
+                                 app::escaped(paper.citation), totals(section));
+  if (!paper.link.empty())
+    text += fmt::format(" The paper: <a href=\"{0}\">{0}</a>. Sentences are quoted from it under {1}.",
+                        app::escaped(paper.link), app::escaped(paper.licence));
+  text += "</p>\n";
+  for (const Record& record : section.records) text += artefact_html(record, place);
+  return text;
+}
+
+/// What stands on a page of its own, and the link to it.
+std::string linked_section(const Section& section) {
+  const Paper& paper = section.paper;
+  return fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p><a href=\"{0}/index.html\">{2}</a>: {3}.</p>\n",
+                     paper.folder, app::escaped(paper.citation), app::escaped(paper.name), totals(section));
+}
+
+std::string layout(const std::string& menu, const std::string& main) {
+  return "<a class=\"skip\" href=\"#main\">Skip the contents</a>\n<div class=\"layout\">\n" + menu +
+         "<main id=\"main\">\n" + main + "</main>\n</div>\n";
+}
+
+app::PageParts parts(const std::string& title, const std::string& assets, const std::string& body) {
+  app::PageParts page;
+  page.title = title;
+  page.body = body;
+  page.assets = assets;
+  page.libraries = {app::Library::katex, app::Library::d3};
+  return page;
+}
+
+Section in_order(Section section) {
+  section.records = ordered(std::move(section.records), section.paper.order);
+  return section;
+}
+
+}  // namespace
+
+std::string page_html(const std::vector<Section>& given, const Origin& origin) {
+  std::vector<Section> sections;
+  for (const Section& section : given) sections.push_back(in_order(section));
+  const std::string brief = brief_html(sections);
+  std::string main = fmt::format(
+      "<h1>Two papers, regenerated and judged</h1>\n<p>Every figure and table below was computed from scene files by "
+      "Wavebalance {}. Each statement of a paper stands beside the figure that shows it, with the value that this run "
+      "found and the verdict that <a href=\"#rule\">one rule</a> computes from it.</p>\n",
+      app::version());
+  main += brief + matrix_html(sections) + rule_html(sections);
+  for (const Section& section : sections)
+    main += section.paper.own_page ? linked_section(section)
+                                   : section_html({section, origin, section.paper.folder + "/"});
+  return app::page_html(
+      parts("Wavebalance: papers regenerated", "assets/", layout(contents(sections, !brief.empty()), main)));
+}
+
+std::string own_page_html(const Section& given, const Origin& origin) {
+  const Section section = in_order(given);
+  const std::string main = fmt::format("<p><a href=\"../index.html\">← All results</a></p>\n<h1>{}</h1>\n",
+                                       app::escaped(section.paper.name)) +
+                           section_html({section, origin, ""});
+  return app::page_html(
+      parts("Wavebalance: " + section.paper.name, "../assets/",
+            layout(contents_box(entry("../index.html", "← All results") + records_contents(section)), main)));
+}
+
+}  // namespace wavebalance::report

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "page/page_parts.hpp"
+#include "wavebalance/app/page/html.hpp"
+#include "wavebalance/report/rule.hpp"
+
+namespace wavebalance::report {
+namespace {
+
+std::string item(const char* name, const std::string& text) {
+  return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, app::with_formulas(text));
+}
+
+std::string word(const Statement& one) {
+  if (one.readings.empty()) return std::string(to_string(one.verdict));
+  return fmt::format("{}: {} of {} readings", to_string(one.verdict), agreeing(one.readings),
+                     one.readings.size());
+}
+
+std::string readings_html(const Statement& one) {
+  if (one.readings.empty()) return "";
+  std::string rows;
+  for (const Reading& reading : one.readings)
+    rows +=
+        fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td class=\"verdict\">{}&nbsp;{}</td></tr>\n",
+                    kind(reading.verdict), app::with_formulas(reading.name),
+                    app::with_formulas(reading.measured), sign(reading.verdict), to_string(reading.verdict));
+  return "<div class=\"wide\" tabindex=\"0\"><table class=\"readings\"><thead><tr><th>Reading</th><th>Found</th>"
+         "<th>Verdict</th></tr></thead>\n<tbody>" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string where(const Statement& one) {
+  std::string text = one.panel.empty() ? "" : "panel " + one.panel;
+  if (!one.place.empty()) text += (text.empty() ? "" : ", ") + one.place;
+  return app::escaped(text);
+}
+
+std::string card(const Record& record, std::size_t index) {
+  const Statement& one = record.statements[index];
+  const std::string id = anchor(record, index);
+  return fmt::format(
+      "<li class=\"card {0}\" id=\"{1}\">\n<p class=\"head\"><a href=\"#{1}\" aria-label=\"Link to statement {2}\">{2}"
+      "</a> <span class=\"badge\">{3} {4}</span> <span class=\"quiet\">{5}</span></p>\n<blockquote>{6}</blockquote>\n"
+      "<dl>\n{7}{8}{9}{10}</dl>\n{11}</li>\n",
+      kind(one.verdict), id, index + 1, sign(one.verdict), word(one), where(one),
+      app::with_formulas(one.quote), item("Decided by", one.criterion), item("Found", one.measured),
+      item("Because", one.because), item("Earlier", one.earlier), readings_html(one));
+}
+
+}  // namespace
+
+std::string statements_html(const Record& record) {
+  if (record.statements.empty()) return "";
+  std::string text = "<h4>What the paper says</h4>\n<ol class=\"cards\">\n";
+  for (std::size_t i = 0; i < record.statements.size(); ++i) text += card(record, i);
+  return text + "</ol>\n";
+}
+
+std::string checks_html(const Record& record) {
+  if (record.checks.empty()) return "";
+  std::string rows;
+  for (const Check& one : record.checks)
+    rows += fmt::format("<tr><td>{}{}</td><td>{}</td><td>{}</td><td class=\"{} verdict\">{}</td></tr>\n",
+                        app::with_formulas(one.sentence),
+                        one.place.empty() ? "" : " (" + app::escaped(one.place) + ")",
+                        app::with_formulas(one.criterion), app::with_formulas(one.measured),
+                        one.passes ? "agrees" : "differs", one.passes ? "passes" : "fails");
+  const auto count = record.checks.size();
+  const auto failed =
+      std::count_if(record.checks.begin(), record.checks.end(), [](const Check& c) { return !c.passes; });
+  return fmt::format(
+      "<details class=\"checks\"{}><summary>{} of the code, not counted: {}</summary>\n<div class=\"wide\" tabindex=\"0\">"
+      "<table>\n<thead><tr><th>Checked</th><th>Decided by</th><th>Found</th><th></th></tr></thead>\n<tbody>{}</tbody>"
+      "</table></div></details>\n",
+      failed ? " open" : "", count == 1 ? "One check" : fmt::format("{} checks", count),
+      failed       ? fmt::format("{} of {} fail", failed, count)
+      : count == 1 ? "it passes"
+                   : "all pass",
+      rows);
+}
+
+}  // namespace wavebalance::report

@@ -1,0 +1,193 @@
+#include "wavebalance/report/page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "page/page_parts.hpp"
+#include "wavebalance/report/rule.hpp"
+
+namespace wavebalance::report {
+namespace {
+
+Record example() {
+  Record record;
+  record.identity = {"some_paper", "SP Fig. 1", "A < B & \"C\"", "fig01_example"};
+  record.caption = "caption with $x < 1$";
+  record.files = {"fig01_example.csv", "fig01_example.svg", "fig01_example.png"};
+  record.data = {{"fig01_example.csv", "in SI units", {"a remark on the data"}}};
+  record.scenes = {{"one.toml", {{"time.functions=8", "time.trial=haar"}, {"time.functions=16"}}}};
+  record.notes = {"a note"};
+  const std::vector<Reading> readings{{"x = 2", Verdict::differs, "2"}, {"x = 1", Verdict::agrees, "1"}};
+  record.statements = {{"section 1", "holds", "x < 1", "0.5", Verdict::agrees, "", {}, "", ""},
+                       {"section 2", "depends", "x < 1", "1.5", Verdict::depends, "x is open. More.",
+                        readings, "(b)", "x < 2"},
+                       {"section 3", "fails", "x < 1", "3", Verdict::differs, "x is large", {}, "", ""}};
+  record.checks = {{"", "checked", "y < 1", "0.5", true}};
+  record.table = {{"a", "b"}, {"1 | <2>", "3"}};
+  record.program = "sp fig01";
+  record.wall_seconds = 0.25;
+  record.version = "0.1.0";
+  return record;
+}
+
+Paper some_paper(bool own_page = false) {
+  return {"some_paper", "Some 2000", "Some 2000, A paper", "https://example.org", "CC BY", own_page, {}};
+}
+
+std::string page(const Record& record = example()) {
+  const std::map<std::string, std::uintmax_t> files{
+      {"fig01_example.svg", 1000}, {"fig01_example.figure.js", 10}, {"scenes/one.toml", 10}};
+  return page_html({{some_paper(), {record}, files}}, {"abc123", "GNU 12", "a processor, 2 cores"});
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The text of the first section with the id.
+std::string section(const std::string& text, const std::string& id) {
+  const std::size_t begin = text.find("<section id=\"" + id + "\"");
+  return begin == text.npos ? "" : text.substr(begin, text.find("</section>", begin) - begin);
+}
+
+/// The values of all attributes of that name.
+std::multiset<std::string> attributes(const std::string& text, const std::string& name) {
+  std::multiset<std::string> values;
+  const std::string begin = " " + name + "=\"";
+  for (std::size_t at = text.find(begin); at != text.npos; at = text.find(begin, at + 1)) {
+    const std::size_t first = at + begin.size();
+    values.insert(text.substr(first, text.find('"', first) - first));
+  }
+  return values;
+}
+
+TEST(Page, EscapesWhatItShows) {
+  EXPECT_TRUE(holds(page(), "A &lt; B &amp; &quot;C&quot;"));
+  EXPECT_FALSE(holds(page(), "A < B"));
+  EXPECT_TRUE(holds(page(), "<span class=\"math\">x &lt; 1</span>"));
+}
+
+TEST(Page, OpensWithCountsAndReasonsInTenLinesAtMost) {
+  EXPECT_TRUE(holds(section(page(), "brief"),
+                    "Of 3 statements 1 agrees, 1 differs, 1 depends on what is left open."));
+  EXPECT_TRUE(holds(section(page(), "brief"), "<q>fails</q> x is large"));
+  EXPECT_TRUE(holds(section(page(), "brief"), "<q>depends</q> x is open."));
+  Record many = example();
+  for (int i = 0; i < 20; ++i) many.statements.push_back(many.statements[1 + i % 2]);
+  const std::string brief = section(page(many), "brief");
+  const std::string list = brief.substr(0, brief.find("</ul>"));
+  std::size_t lines = 0;
+  for (std::size_t at = list.find("<li>"); at != list.npos; at = list.find("<li>", at + 1)) ++lines;
+  EXPECT_LE(lines, 10u);
+}
+
+TEST(Page, MatrixHasOneLinkedCellForEachStatement) {
+  const std::string matrix = section(page(), "matrix");
+  for (const char* number : {"1", "2", "3"})
+    EXPECT_EQ(attributes(matrix, "href").count(std::string("#fig01_example-") + number), 1u);
+  EXPECT_TRUE(holds(matrix, "aria-label=\"SP Fig. 1, statement 2: depends\">1/2</a>"));
+}
+
+TEST(Page, EveryAnchorExistsOnce) {
+  const auto ids = attributes(page(), "id");
+  for (const auto& id : ids) EXPECT_EQ(ids.count(id), 1u) << id;
+  for (const auto& target : attributes(page(), "href")) {
+    if (target.starts_with("#")) {
+      EXPECT_EQ(ids.count(target.substr(1)), 1u) << target;
+    }
+  }
+}
+
+TEST(Page, ACardSaysWhatDecidesWhatIsFoundAndWhy) {
+  for (const char* part :
+       {"panel (b), section 2", "<dt>Decided by</dt><dd>x &lt; 1</dd>", "<dt>Found</dt><dd>1.5</dd>",
+        "<dt>Because</dt><dd>x is open. More.</dd>", "depends: 1 of 2 readings", "<td>x = 2</td>"})
+    EXPECT_TRUE(holds(page(), part)) << part;
+}
+
+TEST(Page, StatesTheRuleAndWhatWasJudgedOtherwiseEarlier) {
+  const std::string rule = section(page(), "rule");
+  EXPECT_TRUE(holds(rule, "Values within 10 % of each other tie."));
+  EXPECT_TRUE(holds(rule, "<q>depends</q></td><td>x &lt; 2</td>"));
+  EXPECT_FALSE(holds(rule, "<q>holds</q>"));
+}
+
+TEST(Page, ChecksAreFoldedAndNotCounted) {
+  EXPECT_TRUE(holds(page(), "One check of the code, not counted: it passes"));
+  Record failing = example();
+  failing.checks.push_back({"", "checked too", "y < 1", "2", false});
+  EXPECT_TRUE(
+      holds(page(failing),
+            "<details class=\"checks\" open><summary>2 checks of the code, not counted: 1 of 2 fail"));
+  EXPECT_TRUE(holds(section(page(failing), "brief"), "Of 3 statements"));
+}
+
+TEST(Page, SaysAtEachFigureHowToComputeItAgainAndWhereItComesFrom) {
+  for (
+      const char* part :
+      {"sp fig01 --output results/some_paper",
+       "wavebalance run reproduce/scenes/some_paper/one.toml --set time.functions=8 --set time.trial=haar --output DIR",
+       "href=\"some_paper/scenes/one.toml\"", "in SI units; a remark on the data", "commit abc123", "GNU 12",
+       "a processor, 2 cores", "0.25 s"})
+    EXPECT_TRUE(holds(page(), part)) << part;
+}
+
+TEST(Page, ManyRunsOfASceneAreGivenByTheirKeysAndValues) {
+  Record record = example();
+  record.scenes[0].overrides.clear();
+  for (int n = 1; n <= 20; ++n) record.scenes[0].overrides.push_back({"time.functions=" + std::to_string(n)});
+  EXPECT_TRUE(holds(page(record), "# 20 runs of this scene, with --set of\n  time.functions = 1, 2, 3"));
+  EXPECT_FALSE(holds(page(record), "--set time.functions=2 "));
+}
+
+TEST(Page, ShowsThePictureAndItsCurvesAndLinksThePaper) {
+  const auto sources = attributes(page(), "src");
+  EXPECT_EQ(sources.count("some_paper/fig01_example.svg"), 1u);
+  EXPECT_EQ(attributes(page(), "data-curves").count("some_paper/fig01_example.figure.js"), 1u);
+  EXPECT_TRUE(holds(page(), "The paper's own Fig. 1: <a href=\"https://example.org\">"));
+}
+
+TEST(Page, ALargeVectorPictureIsShownAsPixels) {
+  const std::string text =
+      page_html({{some_paper(), {example()}, {{"fig01_example.svg", 2'000'000}}}}, Origin{});
+  EXPECT_EQ(attributes(text, "src").count("some_paper/fig01_example.png"), 1u);
+  EXPECT_TRUE(attributes(text, "data-curves").empty());
+}
+
+TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOneAndNotJudged) {
+  Record record = example();
+  record.statements.clear();
+  const std::string own =
+      page_html({{{"own", "Further", "Further", "", "", false, {}}, {record}, {}}}, Origin{});
+  EXPECT_FALSE(holds(own, "Sentences are quoted"));
+  EXPECT_FALSE(holds(own, "id=\"brief\""));
+  EXPECT_FALSE(holds(own, "#matrix"));
+  EXPECT_TRUE(holds(page(), "Sentences are quoted"));
+}
+
+TEST(Page, LinksToASectionWithItsOwnPageInPlaceOfShowingIt) {
+  const Section own_section{some_paper(true), {example()}, {}};
+  const std::string index = page_html({own_section}, Origin{}), own = own_page_html(own_section, Origin{});
+  EXPECT_TRUE(holds(index, "href=\"some_paper/index.html\""));
+  EXPECT_FALSE(holds(index, "<td>3</td>"));
+  EXPECT_TRUE(holds(own, "<td>1 | &lt;2&gt;</td><td>3</td>"));
+  EXPECT_TRUE(holds(own, "href=\"../index.html\""));
+  EXPECT_TRUE(holds(own, "href=\"fig01_example.csv\""));
+  EXPECT_TRUE(holds(own, "href=\"../assets/page.css\""));
+}
+
+TEST(Page, ArtefactsStandInThePapersOrder) {
+  std::vector<Record> records(4);
+  for (std::size_t i = 0; i < 4; ++i)
+    records[i].identity.stem = std::vector<std::string>{"fig01_a", "fig02_b", "rigid", "tab01_c"}[i];
+  std::string stems;
+  for (const Record& record : ordered(records, {"fig01", "tab01"})) stems += record.identity.stem + " ";
+  EXPECT_EQ(stems, "fig01_a tab01_c fig02_b rigid ");
+}
+
+TEST(Page, TextsAreShortenedAtABlank) {
+  EXPECT_EQ(shortened("one two three", 9), "one two …");
+  EXPECT_EQ(shortened("one two", 9), "one two");
+}
+
+}  // namespace
+}  // namespace wavebalance::report
