@@ -58,18 +58,21 @@ Eigen::VectorXd stacked(const Eigen::MatrixXcd& spectra, int functions) {
 
 class Oracle {
  public:
-  Oracle(const Setting& setting, const Case& scene, int elements, int functions, int points)
-      : Oracle(setting, scene.structure(elements), scene.law(), scene.frequency_hz, functions, points) {}
+  Oracle(const Setting& setting, const Case& scene, int elements, int functions, int points,
+         double sample_offset = 0.0)
+      : Oracle(setting, scene.structure(elements), scene.law(), scene.frequency_hz, functions, points,
+               sample_offset) {}
 
   Oracle(const Setting& setting, const solvers::LinearStructure& structure, solvers::ContactLaws laws,
-         double frequency_hz, int functions, int points)
+         double frequency_hz, int functions, int points, double sample_offset = 0.0)
       : functions_(functions),
         laws_(std::move(laws)),
-        how_(options(setting.pair, functions, points, setting.products, setting.formulation)),
+        how_(at(sample_offset,
+                options(setting.pair, functions, points, setting.products, setting.formulation))),
         problem_(time_pair(setting.pair, functions, how_), structure, cosine_load()),
         dense_(structure, laws_,
-               dense::discretise(basis(setting.pair.trial, functions), basis(setting.pair.weight, functions),
-                                 how_, cosine_load())) {
+               dense::discretise(basis(setting.pair.trial, functions),
+                                 weight_basis(setting.pair, functions, how_), how_, cosine_load())) {
     problem_.set_frequency(frequency_hz);
     dense_.set_frequency(frequency_hz);
   }
@@ -148,6 +151,11 @@ class Oracle {
   }
 
  private:
+  static solvers::TimePairOptions at(double sample_offset, solvers::TimePairOptions how) {
+    how.sample_offset = sample_offset;
+    return how;
+  }
+
   bool every_contact_presses(const Eigen::VectorXd& force) const {
     return (force.reshaped(problem_.points(), problem_.contacts()).colwise().maxCoeff().array() > 0.0).all();
   }
@@ -179,6 +187,31 @@ TEST(DenseOracle, EqualsTheSymbolsForEveryPairAndFormulation) {
         ++all;
       }
   // Sums over 64 points for 8 functions leave Daubechies:Daubechies in the weak form short of the obstacle.
+  EXPECT_GE(with_contact, all - 1);
+}
+
+// The alternating B-spline and the alternating Haar function have no product at the middles: that pair is
+// refused with an even number of functions.
+bool is_refused_at_the_middles(const Setting& setting) {
+  return std::string(setting.pair.name) == "haar_bspline" && setting.products == InnerProducts::quadrature;
+}
+
+TEST(DenseOracle, EqualsTheSymbolsAtTheMiddlesForEveryPairAndFormulation) {
+  int all = 0, with_contact = 0;
+  for (const Setting& setting : admissible_settings())
+    for (const Case& scene : cases)
+      for (const Sizes& size : {Sizes{4, 8, 64}, Sizes{5, 16, 256}}) {
+        SCOPED_TRACE(describe(setting) + ", " + scene.name + ", M " + std::to_string(size.functions));
+        const auto oracle = [&] {
+          return Oracle(setting, scene, size.elements, size.functions, size.points, 0.5);
+        };
+        if (is_refused_at_the_middles(setting)) {
+          EXPECT_THROW(oracle(), std::invalid_argument);
+          continue;
+        }
+        with_contact += oracle().expect_equal();
+        ++all;
+      }
   EXPECT_GE(with_contact, all - 1);
 }
 
@@ -234,12 +267,13 @@ TEST(DenseOracle, EqualsTheSymbolsForManyRigidContacts) {
   for (const int count : {2, 3}) {
     Contacts contacts = many_contacts(count);
     contacts.structure = massless_at_contacts(contacts.structure);
-    for (const Pair& pair : {table_2[0], table_2[1], table_2[2]}) {
-      SCOPED_TRACE(std::string(pair.name) + ", contacts " + std::to_string(count));
-      const Setting setting{pair, Formulation::distributional, InnerProducts::exact};
-      Oracle(setting, contacts.structure, {}, cases[0].frequency_hz, 16, 32)
-          .expect_equal_rigid_solution(contacts.gaps);
-    }
+    for (const Pair& pair : {table_2[0], table_2[1], table_2[2]})
+      for (const double offset : {0.0, 0.5}) {
+        SCOPED_TRACE(std::string(pair.name) + ", contacts " + std::to_string(count));
+        const Setting setting{pair, Formulation::distributional, InnerProducts::exact};
+        Oracle(setting, contacts.structure, {}, cases[0].frequency_hz, 16, 32, offset)
+            .expect_equal_rigid_solution(contacts.gaps);
+      }
   }
 }
 

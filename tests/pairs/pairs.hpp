@@ -68,8 +68,16 @@ inline solvers::TimePairOptions paper_options(const Pair& pair, int functions, i
                  connection ? solvers::InnerProducts::exact : solvers::InnerProducts::quadrature);
 }
 
+/// At the middles of the intervals only the sine has a product with alternating Haar functions.
+inline solvers::AnyTimeBasis weight_basis(const Pair& pair, int functions,
+                                          const solvers::TimePairOptions& how) {
+  if (pair.trial == Family::haar && pair.weight == Family::fourier && how.sample_offset != 0.0)
+    return spectral::FourierBasis(functions, spectral::Nyquist::sine);
+  return basis(pair.weight, functions);
+}
+
 inline solvers::TimePair time_pair(const Pair& pair, int functions, const solvers::TimePairOptions& how) {
-  return {basis(pair.trial, functions), basis(pair.weight, functions), how};
+  return {basis(pair.trial, functions), weight_basis(pair, functions, how), how};
 }
 
 /// A column of [JL14, Table 1].

@@ -35,25 +35,28 @@ Eigen::VectorXd exact_load(const solvers::AnyTimeBasis& weight, const Eigen::Vec
   return load;
 }
 
-Eigen::VectorXd sampled_load(const Eigen::MatrixXd& weight, const Eigen::VectorXcd& harmonics) {
+Eigen::VectorXd sampled_load(const Eigen::MatrixXd& weight, const Eigen::VectorXcd& harmonics,
+                             double offset) {
   const auto points = static_cast<int>(weight.rows());
   Eigen::VectorXd load = Eigen::VectorXd::Zero(points);
   for (int l = 0; l < points; ++l)
     for (int n = 0; n < harmonics.size(); ++n)
-      load[l] += (harmonics[n] * cycle(double(n) * l / points)).real();
+      load[l] += (harmonics[n] * cycle(double(n) * (l + offset) / points)).real();
   return weight.transpose() * load / points;
 }
 
 }  // namespace
 
-Eigen::MatrixXd translate_samples(const solvers::AnyTimeBasis& basis, int points, int derivative) {
+Eigen::MatrixXd translate_samples(const solvers::AnyTimeBasis& basis, int points, int derivative,
+                                  double offset) {
   const int functions = basis.functions();
   Eigen::MatrixXd samples(points, functions);
   if (points % functions == 0) {
-    const Eigen::VectorXd generator = basis.samples(points, derivative);
-    const int shift = points / functions;
+    const Eigen::VectorXd halves = basis.samples(2 * points, derivative);
+    const int first = offset == 0.5 ? 1 : 0, shift = 2 * points / functions;
     for (int j = 0; j < functions; ++j)
-      for (int l = 0; l < points; ++l) samples(l, j) = generator[(l - j * shift + points) % points];
+      for (int l = 0; l < points; ++l)
+        samples(l, j) = halves[(2 * l + first - j * shift + 2 * points) % (2 * points)];
     return samples;
   }
   if (!basis.band_limited())
@@ -64,21 +67,21 @@ Eigen::MatrixXd translate_samples(const solvers::AnyTimeBasis& basis, int points
     const Complex amplitude = basis.fourier_coefficient(n) * rate(n, derivative);
     for (int j = 0; j < functions; ++j)
       for (int l = 0; l < points; ++l)
-        samples(l, j) += (amplitude * cycle(n * (double(l) / points - double(j) / functions))).real();
+        samples(l, j) += (amplitude * cycle(n * ((l + offset) / points - double(j) / functions))).real();
   }
   return samples;
 }
 
 InnerProductMatrices sampled_inner_products(const solvers::AnyTimeBasis& trial,
                                             const solvers::AnyTimeBasis& weight,
-                                            solvers::Formulation formulation, int points) {
+                                            solvers::Formulation formulation, int points, double offset) {
   InnerProductMatrices products;
   for (int d = 0; d <= 2; ++d) {
     const int on_trial = derivatives_on_trial(formulation, d);
     const double sign = (d - on_trial) % 2 == 0 ? 1.0 : -1.0;
-    products[static_cast<std::size_t>(d)] = sign / points *
-                                            translate_samples(weight, points, d - on_trial).transpose() *
-                                            translate_samples(trial, points, on_trial);
+    products[static_cast<std::size_t>(d)] =
+        sign / points * translate_samples(weight, points, d - on_trial, offset).transpose() *
+        translate_samples(trial, points, on_trial, offset);
   }
   return products;
 }
@@ -120,14 +123,15 @@ TimeDiscretisation discretise(const solvers::AnyTimeBasis& trial, const solvers:
                               const solvers::TimePairOptions& options, const Eigen::VectorXcd& harmonics) {
   const bool sampled = options.inner_products == solvers::InnerProducts::quadrature;
   const bool series = trial.band_limited() || weight.band_limited();
+  const int points = options.quadrature_points;
+  const double offset = options.sample_offset;
   TimeDiscretisation time;
-  time.products =
-      sampled
-          ? sampled_inner_products(trial, weight, options.formulation, options.quadrature_points)
-          : (series ? series_inner_products(trial, weight) : circulant_inner_products(options.exact_column));
-  time.trial = translate_samples(trial, options.quadrature_points, 0);
-  time.weight = translate_samples(weight, options.quadrature_points, 0);
-  time.load = sampled ? sampled_load(time.weight, harmonics) : exact_load(weight, harmonics);
+  time.products = sampled ? sampled_inner_products(trial, weight, options.formulation, points, offset)
+                          : (series ? series_inner_products(trial, weight)
+                                    : circulant_inner_products(options.exact_column));
+  time.trial = translate_samples(trial, points, 0, offset);
+  time.weight = translate_samples(weight, points, 0, offset);
+  time.load = sampled ? sampled_load(time.weight, harmonics, offset) : exact_load(weight, harmonics);
   return time;
 }
 

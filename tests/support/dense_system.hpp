@@ -13,15 +13,17 @@ namespace wavebalance::dense {
 /// A_d[i, j] = <p_i, d^d q_j / dt^d>, M x M each, d = 0, 1, 2; time scaled to the period.
 using InnerProductMatrices = std::array<Eigen::MatrixXd, 3>;
 
-/// d^derivative g / dt^derivative (l/points - j/M): points x M. A basis that is not band-limited needs points
-/// that are a multiple of M; std::invalid_argument otherwise. O(points M), or O(points M^2) for a
-/// band-limited basis whose translates lie between the points.
-Eigen::MatrixXd translate_samples(const solvers::AnyTimeBasis& basis, int points, int derivative);
+/// d^derivative g / dt^derivative ((l + offset)/points - j/M): points x M, offset 0 or 0.5. A basis that is
+/// not band-limited needs points that are a multiple of M; std::invalid_argument otherwise. O(points M), or
+/// O(points M^2) for a band-limited basis whose translates lie between the points.
+Eigen::MatrixXd translate_samples(const solvers::AnyTimeBasis& basis, int points, int derivative,
+                                  double offset = 0.0);
 
 /// The sums over uniform points that the paper takes [JL14, eqs. (14)-(16), section 4.1]. O(M^2 points).
 InnerProductMatrices sampled_inner_products(const solvers::AnyTimeBasis& trial,
                                             const solvers::AnyTimeBasis& weight,
-                                            solvers::Formulation formulation, int points);
+                                            solvers::Formulation formulation, int points,
+                                            double offset = 0.0);
 /// Exact ones of which one basis is band-limited, entry by entry from the Fourier series. O(M^3).
 InnerProductMatrices series_inner_products(const solvers::AnyTimeBasis& trial,
                                            const solvers::AnyTimeBasis& weight);

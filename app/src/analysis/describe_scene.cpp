@@ -133,9 +133,10 @@ std::string time_lines(const Time& time) {
   const auto products = effective_inner_products(time);
   const auto pair = pair_admissibility(time);
   return fmt::format(
-      "time       {}:{}, {} functions{}, {} quadrature points, {} form, {} inner products{}\npair       {}\n",
+      "time       {}:{}, {} functions{}, {} quadrature points{}, {} form, {} inner products{}\npair       "
+      "{}\n",
       time.trial, time.weight, time.functions, nyquist_text(time), time.quadrature_points,
-      name_of(time.formulation), name_of(products),
+      time.sample_offset == 0.0 ? "" : " at the middles", name_of(time.formulation), name_of(products),
       products == time.inner_products ? "" : " (connection coefficients)",
       pair.admissible ? "admissible" : "NOT admissible: " + pair.reason);
 }

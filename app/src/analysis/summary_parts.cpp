@@ -27,6 +27,7 @@ void append_discretisation(Summary& summary, const Time& time) {
   summary.emplace_back("inner_products", name_of(effective_inner_products(time)));
   summary.emplace_back("functions", std::int64_t{time.functions});
   summary.emplace_back("quadrature_points", std::int64_t{time.quadrature_points});
+  if (time.sample_offset != 0.0) summary.emplace_back("sample_offset", time.sample_offset);
   if (time.functions % 2 == 0) summary.emplace_back("nyquist", name_of(time.nyquist));
 }
 

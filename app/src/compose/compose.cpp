@@ -32,9 +32,11 @@ wavelets::PeriodicBasis wavelet_basis(const std::string& name, int functions) {
 bool is_haar(const std::string& basis) { return basis == "haar" || basis == "daubechies2"; }
 
 /// Opposite a Haar function, whose Fourier coefficient at the Nyquist harmonic is imaginary, only the sine
-/// remains. Without effect where the Nyquist coefficient is dropped.
+/// remains, and so it does at the middles of the intervals, about which the function is even. Without effect
+/// where the Nyquist coefficient is dropped.
 solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string& other, const Time& time) {
-  const bool blind = is_haar(other) && effective_inner_products(time) == InnerProducts::exact;
+  const bool blind =
+      is_haar(other) && (effective_inner_products(time) == InnerProducts::exact || time.sample_offset != 0.0);
   if (name == "fourier" && blind) return spectral::FourierBasis(time.functions, spectral::Nyquist::sine);
   return make_basis(name, time.functions);
 }
@@ -50,6 +52,7 @@ PairParts pair_parts(const Time& time) {
   options.formulation = time.formulation;
   options.inner_products = effective_inner_products(time);
   options.quadrature_points = time.quadrature_points;
+  options.sample_offset = time.sample_offset;
   options.nyquist = time.nyquist;
   if (!is_wavelet(time.trial) || !is_wavelet(time.weight))
     return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),

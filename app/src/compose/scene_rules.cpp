@@ -45,6 +45,9 @@ void check_tolerance(const Document& document, const Scene& scene) {
   if (time.functions != 0 || time.quadrature_points != 0)
     fail_rule(document, {"time.functions", "time.quadrature_points"},
               "not beside time.tolerance, which chooses it; expected one or the other");
+  if (time.sample_offset != 0.0)
+    fail_rule(document, {"time.sample_offset"},
+              "not beside time.tolerance, whose levels share points at the left ends; expected 0");
   if (time.trial.empty() != time.weight.empty())
     fail_rule(document, {"time.trial", "time.weight"},
               "beside time.tolerance expected both time.trial and time.weight, or none of them");
@@ -57,6 +60,18 @@ void check_tolerance(const Document& document, const Scene& scene) {
               "expected a power of two for the wavelet basis \"" + time.trial + "\"");
 }
 
+void check_sample_offset(const Document& document, const Time& time) {
+  if (time.sample_offset == 0.0) return;
+  if (time.sample_offset != 0.5)
+    fail_rule(document, {"time.sample_offset"}, "expected 0 or 0.5, left ends or middles of the intervals");
+  if (time.nyquist == NyquistCoefficient::drop) return;
+  try {
+    make_pair(time);
+  } catch (const std::invalid_argument& error) {
+    fail_rule(document, {"time.sample_offset", "time.nyquist"}, error.what());
+  }
+}
+
 void check_time(const Document& document, const Scene& scene) {
   const Time& time = scene.time;
   if (time.tolerance > 0.0) return check_tolerance(document, scene);
@@ -67,6 +82,7 @@ void check_time(const Document& document, const Scene& scene) {
         "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
   check_wavelet_sizes(document, scene);
   check_pair(document, time);
+  check_sample_offset(document, time);
 }
 
 /// Motions of several periods of the load: the load is one of the harmonics of the functions.

@@ -275,6 +275,10 @@ void add_time(std::vector<SceneKey>& keys) {
        "wavelets",
        within(1, 1 << 24),
        derived("4 x functions", [](const Scene& scene) { return 4 * scene.time.functions; }));
+  time(&Time::sample_offset, "sample_offset", "",
+       "first quadrature point in intervals of the points: 0 for their left ends k/N, 0.5 for their middles "
+       "(k + 0.5)/N; without effect on output_points",
+       optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
   time(&Time::inner_products, "inner_products", "",
        "inner products of trial and weight functions: sums over the quadrature points (Daubechies Galerkin "
        "pairs: connection coefficients) or exact",

@@ -81,6 +81,46 @@ TEST(SceneLoader, ToleranceIsForForcedResponses) {
   expect_error(stepping, 18, "time.tolerance", "1e-4", "only with analysis.type = \"forced_response\"");
 }
 
+TEST(SceneLoader, SampleOffsetIsALeftEndOrAMiddle) {
+  const auto at = [](const std::string& offset) {
+    return parse_scene(with(bar_scene, "[time]", "[time]\nsample_offset = " + offset), "case.toml");
+  };
+  EXPECT_EQ(parse_scene(bar_scene, "case.toml").time.sample_offset, 0.0);
+  EXPECT_EQ(at("0").time.sample_offset, 0.0);
+  EXPECT_EQ(at("0.5").time.sample_offset, 0.5);
+  EXPECT_EQ(parse_scene(write_scene(at("0.5")), "written"), at("0.5"));
+  for (const std::string value : {"0.25", "1", "-0.5"})
+    EXPECT_NE(message_of(bar_scene, {"time.sample_offset=" + value}).find("expected 0 or 0.5"),
+              std::string::npos)
+        << value;
+}
+
+TEST(SceneLoader, SampleOffsetIsRefusedWhereItHasNoMeaning) {
+  EXPECT_NE(message_of(tolerance_scene("1e-4"), {"time.sample_offset=0.5"})
+                .find("time.sample_offset = 0.5: not beside time.tolerance"),
+            std::string::npos);
+  for (const std::string type : {"time_stepping", "nonlinear_mode"})
+    EXPECT_NE(message_of(bar_scene, {"time.sample_offset=0.5", "analysis.type=" + type})
+                  .find("time.sample_offset = 0.5: does not belong to a scene with analysis.type"),
+              std::string::npos)
+        << type;
+}
+
+TEST(SceneLoader, MiddlesAtWhichTheNyquistCoefficientVanishesRefuseToKeepIt) {
+  const std::vector<std::string> as_many{"time.quadrature_points=64", "time.sample_offset=0.5"};
+  EXPECT_EQ(parse_scene(bar_scene, "case.toml", as_many).time.nyquist, NyquistCoefficient::drop);
+  auto kept = as_many;
+  kept.emplace_back("time.nyquist=keep");
+  EXPECT_NE(message_of(bar_scene, kept).find("vanishes at the middles of 64 intervals"), std::string::npos);
+  for (const std::string points : {"256", "1024"})
+    EXPECT_NE(message_of(bar_scene, {"time.trial=haar", "time.weight=bspline", "time.nyquist=keep",
+                                     "time.quadrature_points=" + points, "time.sample_offset=0.5"})
+                  .find("time.sample_offset = 0.5: TimePair"),
+              std::string::npos);
+  kept.emplace_back("time.inner_products=exact");
+  EXPECT_EQ(parse_scene(bar_scene, "case.toml", kept).time.sample_offset, 0.5);
+}
+
 TEST(SceneLoader, WrongTypesAreErrors) {
   expect_error(with(bar_scene, "area = 25e-4", "area = true"), 5, "structure.area", "true",
                "a number in m^2, > 0");

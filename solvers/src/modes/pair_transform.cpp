@@ -112,6 +112,10 @@ PairTransform make_pair_transform(const TimePair& pair, bool cosine_only) {
   if (highest < 1)
     throw std::invalid_argument("ElasticMode: the pair has " + std::to_string(pair.functions()) +
                                 " functions; a mode needs at least 3");
+  if (pair.first_sample() != 0.0)
+    throw std::invalid_argument(
+        "ElasticMode: the pair has a sample_offset of 0.5; it must be 0, with which motions even in time have "
+        "even samples");
   if (cosine_only && !(pair.trial().band_limited() && pair.weight().band_limited()))
     throw std::invalid_argument("ElasticMode: cosine_only is true; only Fourier bases have even motions");
   PairTransform transform;

@@ -182,8 +182,9 @@ Candidate solve(const Task& task, const Start& first, int& attractor_periods) {
   if (motion.cancelled) return best;
   if (attractor_periods == SettledMotion::not_integrated)
     return better(std::move(best), try_residual(task, form, first));
-  const Start settled{resample(motion.displacement, task.problem.points(), motion.start),
-                      resample(motion.force, task.problem.points(), motion.start)};
+  const double start = motion.start - task.problem.pair().first_sample();
+  const Start settled{resample(motion.displacement, task.problem.points(), start),
+                      resample(motion.force, task.problem.points(), start)};
   best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
   if (best.ended()) return best;
   // A structure that does not settle to a motion of the problem's period may have an unstable one.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "linalg/option_checks.hpp"
@@ -79,6 +80,10 @@ class Refinement {
     const auto start = Clock::now();
     RefinementLevel level{size_.functions, size_.points, unknown, unknown, unknown, unknown};
     CondensedProblem problem = make_problem_(size_.functions, size_.points);
+    if (problem.pair().first_sample() != 0.0)
+      throw std::invalid_argument(
+          "response_to_tolerance: the pair has a sample_offset of 0.5; it must be 0, so that levels share the "
+          "points of the coarser one");
     PeriodicResponse response = find(problem, level);
     level.residual = response.residual;
     const SolveStatus ended_by = response.status;

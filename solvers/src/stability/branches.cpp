@@ -124,8 +124,9 @@ class Branches {
     };
   }
 
-  // The direction of the branch in the unknown; empty where the perturbation was not found.
-  Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times) {
+  // The direction of the branch in the unknown of a problem with this pair; empty where the perturbation was
+  // not found.
+  Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times, const TimePair& pair) {
     CondensedProblem before = problems_(parent.periods);
     before.set_frequency(from.frequency);
     before.set_regularization(parent.curve->regularization);
@@ -141,14 +142,14 @@ class Branches {
     if (!nearest || !(std::abs(nearest->multiplier - due) < 0.1)) return {};
     FloquetExponent exact = *nearest;
     exact.multiplier = due;
-    return perturbation(exact, times, times * before.points()).unknown(parent.curve->regularization);
+    return perturbation(exact, times, pair).unknown(parent.curve->regularization);
   }
 
   // The first point of a branch: a small multiple of the direction away from the special point, and on the
   // curve.
   bool begin(const Parent& parent, const SpecialPoint& from, int times, double side,
              CondensedProblem& problem, const Scales& scales, SweepStart& start) {
-    const Eigen::VectorXd way = side * direction(parent, from, times);
+    const Eigen::VectorXd way = side * direction(parent, from, times, problem.pair());
     if (way.size() != problem.samples()) return false;
     ContactSystem system(problem, laws_);
     const FrequencyParameter frequency;

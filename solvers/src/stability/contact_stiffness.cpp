@@ -19,9 +19,11 @@ using Complex = std::complex<double>;
 // The displacement of one contact at any time, in periods.
 class ContactCurve {
  public:
-  // `samples` are those of the sum of trial functions with `coefficients`, a spectrum over translates.
-  ContactCurve(const AnyTimeBasis& trial, const Eigen::VectorXcd& coefficients, Eigen::VectorXd samples)
-      : samples_(std::move(samples)), smooth_(trial.pointwise_derivatives() >= 1) {
+  // `samples` are those of the sum of trial functions with `coefficients`, a spectrum over translates, from
+  // the time `first` on.
+  ContactCurve(const AnyTimeBasis& trial, const Eigen::VectorXcd& coefficients, Eigen::VectorXd samples,
+               double first)
+      : samples_(std::move(samples)), first_(first), smooth_(trial.pointwise_derivatives() >= 1) {
     if (!trial.band_limited()) return;
     harmonics_.resize(coefficients.size());
     for (Eigen::Index n = 0; n < harmonics_.size(); ++n)
@@ -29,6 +31,8 @@ class ContactCurve {
   }
 
   const Eigen::VectorXd& samples() const { return samples_; }
+  /// The time of a sample, or of a place between two, in periods.
+  double time_of(double sample) const { return first_ + sample / double(samples_.size()); }
 
   double operator()(double time) const {
     if (harmonics_.size() == 0) return interpolated(time);
@@ -45,7 +49,8 @@ class ContactCurve {
  private:
   double interpolated(double time) const {
     const Eigen::Index count = samples_.size();
-    const double position = (time - std::floor(time)) * double(count);
+    const double since = time - first_;
+    const double position = (since - std::floor(since)) * double(count);
     const auto left = static_cast<Eigen::Index>(position);
     const double x = position - double(left);
     const auto at = [&](Eigen::Index offset) { return samples_[(left + offset + count) % count]; };
@@ -55,6 +60,7 @@ class ContactCurve {
   }
 
   Eigen::VectorXd samples_;
+  double first_;
   Eigen::VectorXcd harmonics_;  // u = Re sum harmonics exp(2 pi i n t); empty where there are too many
   bool smooth_;
 };
@@ -74,11 +80,10 @@ struct ContactAlong {
   }
 };
 
-// The time in (l, l + 1) / N at which the curve crosses the level.
+// The time between samples l and l + 1 at which the curve crosses the level.
 double crossing(const ContactCurve& curve, double level, Eigen::Index l) {
   const Eigen::VectorXd& samples = curve.samples();
-  const double step = 1.0 / double(samples.size());
-  detail::Bracket bracket{double(l) * step, double(l + 1) * step, samples[l] - level,
+  detail::Bracket bracket{curve.time_of(double(l)), curve.time_of(double(l + 1)), samples[l] - level,
                           samples[(l + 1) % samples.size()] - level};
   double root = bracket.low;
   const auto value = [&](double time) -> std::optional<double> {
@@ -103,7 +108,7 @@ bool passes_between_samples(const ContactCurve& curve, double level, Eigen::Inde
   if (!(bend > 0.0) || at + slope * slope / bend < level) return false;
   constexpr int parts = 32;
   for (int part = -parts; part <= parts; ++part)
-    if (curve((double(l) + double(part) / parts) / double(count)) > level) return true;
+    if (curve(curve.time_of(double(l) + double(part) / parts)) > level) return true;
   return false;
 }
 
@@ -178,7 +183,7 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
                                 std::to_string(problem.samples()));
   const ContactUnknowns unknowns{response.unknown_coefficients,
                                  response.unknown.reshaped(problem.points(), problem.contacts()),
-                                 response.regularization};
+                                 response.regularization, problem.pair().first_sample()};
   return contact_stiffness(problem.pair().trial(), laws, unknowns);
 }
 
@@ -191,8 +196,9 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   const auto contacts = std::make_shared<std::vector<ContactAlong>>();
   for (int c = 0; c < count; ++c) {
     const double flexibility = unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0;
-    contacts->push_back({laws[c], laws[c].unilateral(), flexibility,
-                         ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c))});
+    contacts->push_back(
+        {laws[c], laws[c].unilateral(), flexibility,
+         ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample)});
     const ContactAlong& along = contacts->back();
     const auto intervals = find_intervals(along, c);
     if (!intervals) {

@@ -37,8 +37,9 @@ class Search {
     cancelled = motion.cancelled;
     const bool shorter = attractor > 0 && attractor < wanted_ && wanted_ % attractor == 0;
     if (attractor == SettledMotion::not_integrated || cancelled || shorter) return std::nullopt;
-    return near(resample(motion.displacement, problem_.points(), motion.start),
-                resample(motion.force, problem_.points(), motion.start), Strategy::settling);
+    const double start = motion.start - problem_.pair().first_sample();
+    return near(resample(motion.displacement, problem_.points(), start),
+                resample(motion.force, problem_.points(), start), Strategy::settling);
   }
 
   /// From perturbations of `response`: one of more periods, if any is found.
@@ -68,8 +69,8 @@ class Search {
     const double angle = std::abs(std::arg(exponent.multiplier));
     if (angle > small_angle || std::abs(exponent.multiplier) < least) return {};
     exponent.multiplier = std::abs(exponent.multiplier);
-    std::vector<Perturbation> result{perturbation(exponent, 1, problem_.points())};
-    if (angle > 1e-6) result.push_back(perturbation(exponent, 1, problem_.points(), 0.5 * std::numbers::pi));
+    std::vector<Perturbation> result{perturbation(exponent, 1, problem_.pair())};
+    if (angle > 1e-6) result.push_back(perturbation(exponent, 1, problem_.pair(), 0.5 * std::numbers::pi));
     std::erase_if(result, [](const Perturbation& way) { return way.displacement.size() == 0; });
     return result;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -62,11 +63,12 @@ TimePair::TimePair(AnyTimeBasis trial, AnyTimeBasis weight, TimePairOptions opti
   require_sizes();
   const Admissibility verdict = admissibility(trial_, weight_, options_.formulation, options_.inner_products);
   if (!verdict.admissible) throw InadmissiblePair("TimePair: " + verdict.reason);
-  trial_spectrum_ = sampled_spectrum(trial_, points_, 0);
-  weight_spectrum_ = sampled_spectrum(weight_, points_, 0);
+  trial_spectrum_ = sampled_spectrum(trial_, points_, 0, options_.sample_offset);
+  weight_spectrum_ = sampled_spectrum(weight_, points_, 0, options_.sample_offset);
   for (int d = 0; d <= 2; ++d)
     symbols_[static_cast<std::size_t>(d)] =
         options_.inner_products == InnerProducts::quadrature ? sampled_symbol(d) : exact_symbol(d);
+  require_sampled_nyquist();
 }
 
 void TimePair::require_sizes() const {
@@ -81,6 +83,22 @@ void TimePair::require_sizes() const {
   if (!any && points_ % functions_ != 0)
     fail("quadrature_points is " + std::to_string(points_) + "; it must be a multiple of the " +
          std::to_string(functions_) + " functions unless both bases are Fourier");
+  if (options_.sample_offset != 0.0 && options_.sample_offset != 0.5)
+    fail("sample_offset is " + std::to_string(options_.sample_offset) + "; it must be 0 or 0.5");
+}
+
+// Alternating functions, of which one is even and the other odd about the middles, have no product there: the
+// coefficient would be without mass and stiffness.
+void TimePair::require_sampled_nyquist() const {
+  constexpr double rounding = 1e-12;
+  const bool kept = functions_ % 2 == 0 && !drops_nyquist();
+  if (!kept || options_.sample_offset == 0.0 || options_.inner_products == InnerProducts::exact) return;
+  if (std::abs(symbols_[0][functions_ / 2]) > rounding * std::abs(symbols_[0][0])) return;
+  throw std::invalid_argument(
+      "TimePair: sample_offset is 0.5, and the product of the alternating functions of trial and weight "
+      "vanishes at the middles of " +
+      std::to_string(points_) + " intervals; it must be 0, or the Nyquist coefficient of the " +
+      std::to_string(functions_) + " functions dropped");
 }
 
 int TimePair::shift_period() const {
@@ -94,7 +112,7 @@ Eigen::VectorXcd TimePair::sampled_symbol(int derivative) const {
   const int on_weight = derivative - on_trial;
   Eigen::VectorXcd symbol;
   const auto spectrum = [&](const AnyTimeBasis& basis, const Eigen::VectorXcd& values, int order) {
-    return order == 0 ? values : sampled_spectrum(basis, points_, order);
+    return order == 0 ? values : sampled_spectrum(basis, points_, order, options_.sample_offset);
   };
   AliasMap{functions_, points_}.fold(spectrum(weight_, weight_spectrum_, on_weight),
                                      spectrum(trial_, trial_spectrum_, on_trial), symbol);
@@ -145,7 +163,7 @@ Eigen::VectorXcd TimePair::load(const Eigen::VectorXcd& harmonics) const {
     const int wrapped = ((n % points_) + points_) % points_;
     const Complex value =
         wrapped <= points_ / 2 ? weight_spectrum_[wrapped] : std::conj(weight_spectrum_[points_ - wrapped]);
-    return value / double(points_);
+    return value * std::polar(1.0, -2.0 * std::numbers::pi * n * first_sample()) / double(points_);
   };
   for (int n = 0; n < harmonics.size(); ++n) {
     if (n == 0) {

@@ -62,15 +62,18 @@ std::complex<double> derivative_factor(int harmonic, int derivative) {
   return turns[derivative % 4] * magnitude;
 }
 
-Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative) {
+Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative, double offset) {
   Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(points / 2 + 1);
   if (basis.band_limited() && basis.functions() < points) {
-    for (int n = 0; n <= basis.functions() / 2; ++n)
+    for (int n = 0; n <= basis.functions() / 2; ++n) {
       spectrum[n] = double(points) * basis.fourier_coefficient(n) * derivative_factor(n, derivative);
+      if (offset != 0.0) spectrum[n] *= std::polar(1.0, 2.0 * std::numbers::pi * n * offset / points);
+    }
     return spectrum;
   }
   spectral::RealFft fft(points);
-  const Eigen::VectorXd samples = basis.samples(points, derivative);
+  Eigen::VectorXd samples = basis.samples(offset == 0.0 ? points : 2 * points, derivative);
+  if (offset != 0.0) samples = samples(Eigen::seqN(1, points, 2)).eval();
   fft.forward(span_of(samples), span_of(spectrum));
   return spectrum;
 }

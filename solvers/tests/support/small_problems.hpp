@@ -15,24 +15,26 @@ namespace wavebalance::solvers::testing {
 inline TimePair make_pair(AnyTimeBasis trial, AnyTimeBasis weight, int points,
                           Formulation formulation = Formulation::distributional,
                           InnerProducts products = InnerProducts::quadrature,
-                          NyquistCoefficient nyquist = NyquistCoefficient::keep) {
+                          NyquistCoefficient nyquist = NyquistCoefficient::keep, double sample_offset = 0.0) {
   TimePairOptions options;
   options.formulation = formulation;
   options.inner_products = products;
   options.quadrature_points = points;
   options.nyquist = nyquist;
+  options.sample_offset = sample_offset;
   return TimePair(std::move(trial), std::move(weight), options);
 }
 
-inline TimePair fourier_pair(int functions, int points,
-                             NyquistCoefficient nyquist = NyquistCoefficient::keep) {
+inline TimePair fourier_pair(int functions, int points, NyquistCoefficient nyquist = NyquistCoefficient::keep,
+                             double sample_offset = 0.0) {
   const spectral::FourierBasis basis(functions);
-  return make_pair(basis, basis, points, Formulation::distributional, InnerProducts::quadrature, nyquist);
+  return make_pair(basis, basis, points, Formulation::distributional, InnerProducts::quadrature, nyquist,
+                   sample_offset);
 }
 
 /// One pair of each kind that the solvers treat differently: a filter on the samples (odd M Fourier, points a
 /// multiple of M or not), one Nyquist function, piecewise constant trial functions, two that are not
-/// band-limited, and two without their Nyquist coefficient.
+/// band-limited, two without their Nyquist coefficient, and two at the middles of the intervals.
 inline std::vector<TimePair> pair_kinds(int functions = 8, int points = 32) {
   const spectral::FourierBasis fourier(functions);
   return {fourier_pair(functions - 1, points),
@@ -43,9 +45,13 @@ inline std::vector<TimePair> pair_kinds(int functions = 8, int points = 32) {
           make_pair(CubicBasis{functions}, CubicBasis{functions}, points),
           fourier_pair(functions, points, NyquistCoefficient::drop),
           make_pair(HaarBasis{functions}, CubicBasis{functions}, points, Formulation::distributional,
-                    InnerProducts::quadrature, NyquistCoefficient::drop)};
+                    InnerProducts::quadrature, NyquistCoefficient::drop),
+          make_pair(HaarBasis{functions}, spectral::FourierBasis(functions, spectral::Nyquist::sine), points,
+                    Formulation::distributional, InnerProducts::quadrature, NyquistCoefficient::keep, 0.5),
+          make_pair(CubicBasis{functions}, CubicBasis{functions}, points, Formulation::distributional,
+                    InnerProducts::quadrature, NyquistCoefficient::drop, 0.5)};
 }
-constexpr int pair_kind_count = 8;
+constexpr int pair_kind_count = 10;
 
 /// M u'' + C u' + K u = load cos - e f_c of unit size: random chain, natural frequencies around 0.1 to 0.5
 /// Hz.

@@ -165,7 +165,8 @@ struct Time {
   int quadrature_points = 0;  ///< uniform points of one period, >= functions
   InnerProducts inner_products = InnerProducts::quadrature;
   NyquistCoefficient nyquist = NyquistCoefficient::drop;  ///< of an even number of functions
-  double tolerance = 0.0;  ///< > 0: relative rms error of the tip displacement to be met; 0: none
+  double sample_offset = 0.0;  ///< 0 or 0.5, of the points t_k = (k + sample_offset) / quadrature_points
+  double tolerance = 0.0;      ///< > 0: relative rms error of the tip displacement to be met; 0: none
 
   bool operator==(const Time&) const = default;
 };

@@ -10,7 +10,7 @@
 namespace wavebalance::solvers {
 
 /// The periodic problem of C contacts at one frequency, written for the displacement
-/// samples u (N values per contact at t_l = l/N; contact c has entries [c N, (c + 1) N)):
+/// samples u (N values per contact at t_l = (l + sample_offset)/N; contact c has entries [c N, (c + 1) N)):
 ///
 ///   u = u0 - K f_c(u),
 ///

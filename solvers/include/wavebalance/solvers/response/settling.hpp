@@ -43,7 +43,8 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options = {});
 
 /// A row per contact of values at uniform steps of the period from `start` (periods) on, interpolated
-/// linearly at `points` points from t = 0 on: the samples of a problem, contact-major.
+/// linearly at `points` points from t = 0 on: the samples of a problem whose first one is there,
+/// contact-major.
 Eigen::VectorXd resample(const Eigen::MatrixXd& by_contact, int points, double start = 0.0);
 
 }  // namespace wavebalance::solvers

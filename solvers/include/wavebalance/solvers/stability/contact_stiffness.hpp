@@ -62,6 +62,7 @@ struct ContactUnknowns {
   Eigen::MatrixXcd coefficients;  ///< K + 1 x C, spectra over translates of the trial functions
   Eigen::MatrixXd samples;        ///< N x C, m, of the same
   Eigen::VectorXd flexibility;    ///< C, 1 / epsilon of the force form, m/N; empty for displacements
+  double first_sample = 0.0;      ///< time of the first sample, periods
 };
 
 /// The same of such unknowns. Throws std::invalid_argument for laws that are neither one nor one per contact.

@@ -43,8 +43,11 @@ struct Admissibility {
 struct TimePairOptions {
   Formulation formulation = Formulation::distributional;
   InnerProducts inner_products = InnerProducts::quadrature;
-  /// N, uniform points t_l = l/N for the contact force, and for A_d when inner_products is quadrature.
+  /// N, uniform points t_l = (l + sample_offset)/N for the contact force, and for A_d when inner_products is
+  /// quadrature.
   int quadrature_points = 256;
+  /// 0, the left ends of N equal intervals, or 0.5, their middles. The functions stay where they are.
+  double sample_offset = 0.0;
   /// Exact inner products of two bases of which neither is band-limited (wavelet with wavelet): the first
   /// column a_d[m] = <p_i, d^d q_j / dt^d>, m = i - j mod M, of the circulant A_d for d = 0, 1, 2. With a
   /// band-limited basis on either side the pair sums its Fourier series itself and this is not called.
@@ -70,12 +73,16 @@ Admissibility admissibility(const AnyTimeBasis& trial, const AnyTimeBasis& weigh
 class TimePair {
  public:
   /// Throws InadmissiblePair, or std::invalid_argument when the sizes of the bases differ, when the points
-  /// are fewer than the functions, or when they are not a multiple of M although a basis is not band-limited.
+  /// are fewer than the functions, when they are not a multiple of M although a basis is not band-limited,
+  /// for a sample_offset other than 0 and 0.5, and where a Nyquist coefficient that is kept has no inner
+  /// product of degree 0 at the middles: of M = N Fourier functions, and of Haar functions with the cosine.
   /// O(N log N).
   TimePair(AnyTimeBasis trial, AnyTimeBasis weight, TimePairOptions options);
 
-  int functions() const { return functions_; }              ///< M
-  int points() const { return points_; }                    ///< N
+  int functions() const { return functions_; }  ///< M
+  int points() const { return points_; }        ///< N
+  /// The time of the first sample in periods, sample_offset / N.
+  double first_sample() const { return options_.sample_offset / points_; }
   int spectrum_size() const { return functions_ / 2 + 1; }  ///< stored values of a spectrum over translates
   /// Whether k = M/2 is out of both spaces: an even M whose Nyquist coefficient is dropped.
   bool drops_nyquist() const { return options_.nyquist == NyquistCoefficient::drop && functions_ % 2 == 0; }
@@ -92,7 +99,7 @@ class TimePair {
     return symbols_[static_cast<std::size_t>(derivative)];
   }
 
-  /// DFT of the sampled generators: sum_l g(l/N) exp(-2 pi i n l / N), n = 0..N/2.
+  /// DFT of the sampled generators: sum_l g(t_l) exp(-2 pi i n l / N), n = 0..N/2.
   const Eigen::VectorXcd& trial_spectrum() const { return trial_spectrum_; }
   const Eigen::VectorXcd& weight_spectrum() const { return weight_spectrum_; }
 
@@ -113,6 +120,7 @@ class TimePair {
 
  private:
   void require_sizes() const;
+  void require_sampled_nyquist() const;
   Eigen::VectorXcd sampled_symbol(int derivative) const;
   Eigen::VectorXcd exact_symbol(int derivative) const;
 

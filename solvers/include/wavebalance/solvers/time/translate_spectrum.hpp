@@ -27,10 +27,10 @@ struct AliasMap {
 /// (2 pi i n)^derivative, the factor of harmonic n under differentiation, with time scaled to the period.
 std::complex<double> derivative_factor(int harmonic, int derivative);
 
-/// DFT of a generator's samples, sum_l g^(d)(l/points) exp(-2 pi i n l / points), n = 0..points/2. For
-/// a band-limited basis with fewer functions than points it follows from the Fourier coefficients in
-/// O(points); otherwise O(points log points).
-Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative);
+/// DFT of a generator's samples, sum_l g^(d)((l + offset)/points) exp(-2 pi i n l / points), n =
+/// 0..points/2, with an offset of 0 or 0.5. For a band-limited basis with fewer functions than points it
+/// follows from the Fourier coefficients in O(points); otherwise O(points log points).
+Eigen::VectorXcd sampled_spectrum(const AnyTimeBasis& basis, int points, int derivative, double offset = 0.0);
 
 /// Evaluates sum_j a_j g^(d)(t - j/M) at uniform points, repeatedly. Owns an FFT plan and buffers: one object
 /// per thread.
