@@ -41,6 +41,13 @@ solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string&
   return make_basis(name, time.functions);
 }
 
+/// At the middles the alternating B-spline has no product with the alternating Haar function, nor with any
+/// force that is constant in each cell, as those of Haar motions are: the coefficient is zero.
+bool has_no_nyquist_force(const Time& time) {
+  return is_haar(time.trial) && time.weight == "bspline" && time.sample_offset != 0.0 &&
+         effective_inner_products(time) == InnerProducts::quadrature;
+}
+
 /// What a scene's pair is made of: the verdict on a pair and the pair itself are of the same bases.
 struct PairParts {
   solvers::AnyTimeBasis trial, weight;
@@ -53,7 +60,7 @@ PairParts pair_parts(const Time& time) {
   options.inner_products = effective_inner_products(time);
   options.quadrature_points = time.quadrature_points;
   options.sample_offset = time.sample_offset;
-  options.nyquist = time.nyquist;
+  options.nyquist = has_no_nyquist_force(time) ? NyquistCoefficient::drop : time.nyquist;
   if (!is_wavelet(time.trial) || !is_wavelet(time.weight))
     return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
             std::move(options)};

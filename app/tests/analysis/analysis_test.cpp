@@ -57,6 +57,15 @@ TEST(MakePair, ExactHaarFourierSeesInertiaAtTheNyquistFunction) {
   EXPECT_GT(std::abs(pair.symbol(2)[32]), 1e-3 * std::abs(pair.symbol(2)[31]));
 }
 
+TEST(MakePair, KeptNyquistCoefficientOfHaarAndBsplineIsZeroAtTheMiddles) {
+  Time time = scene_of({"time.trial=haar", "time.weight=bspline", "time.nyquist=keep"}).time;
+  EXPECT_FALSE(make_pair(time).drops_nyquist());
+  time.sample_offset = 0.5;
+  EXPECT_TRUE(make_pair(time).drops_nyquist());
+  time.weight = "fourier";
+  EXPECT_FALSE(make_pair(time).drops_nyquist());
+}
+
 TEST(MakeBasis, RefusesUnknownNamesAndSizes) {
   EXPECT_THROW(make_basis("fourie", 8), std::invalid_argument);
   EXPECT_THROW(make_basis("daubechies5", 8), std::invalid_argument);
