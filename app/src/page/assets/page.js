@@ -23,6 +23,19 @@ wavebalance.element = (tag, attributes = {}, ...children) => {
   return made;
 };
 
+// Calls `start` with each element that `selector` finds when it comes near the window.
+wavebalance.whenNear = (selector, start) => {
+  const observer = new IntersectionObserver((entries) => entries.forEach((entry) => {
+    if (!entry.isIntersecting) return;
+    observer.unobserve(entry.target);
+    start(entry.target);
+  }), { rootMargin: "300px" });
+  document.querySelectorAll(selector).forEach((box) => {
+    box.classList.add("waiting");
+    observer.observe(box);
+  });
+};
+
 document.addEventListener("DOMContentLoaded", () => {
   if (window.katex)
     for (const formula of document.querySelectorAll(".math"))

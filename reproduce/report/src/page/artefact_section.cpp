@@ -53,9 +53,9 @@ std::string artefact_html(const Record& record, const Place& place) {
   const std::string checks = checks_html(record);
   return fmt::format(
       "<section class=\"artefact\" id=\"{}\">\n<h3>{}: {}</h3>\n<div class=\"{}\">\n<div class=\"shown\">\n{}</div>\n"
-      "<div class=\"said\">\n{}{}</div>\n</div>\n</section>\n",
+      "<div class=\"said\">\n{}{}</div>\n</div>\n{}</section>\n",
       record.identity.stem, app::escaped(record.identity.number), app::escaped(record.identity.title),
-      said.empty() ? "alone" : "beside", shown, said, checks);
+      said.empty() ? "alone" : "beside", shown, said, checks, moving_html(record, place));
 }
 
 }  // namespace wavebalance::report

@@ -96,6 +96,8 @@ app::PageParts parts(const std::string& title, const std::string& assets, const 
   page.body = body;
   page.assets = assets;
   page.libraries = {app::Library::katex, app::Library::d3};
+  if (body.find("class=\"motion\"") != body.npos) page.scripts.push_back("motion.js");
+  if (body.find("class=\"body-motion\"") != body.npos) page.scripts.push_back("blade.js");
   return page;
 }
 
@@ -118,7 +120,7 @@ std::string page_html(const std::vector<Section>& given, const Origin& origin) {
   main += brief + matrix_html(sections) + rule_html(sections);
   for (const Section& section : sections)
     main += section.paper.own_page ? linked_section(section)
-                                   : section_html({section, origin, section.paper.folder + "/"});
+                                   : section_html({section, origin, section.paper.folder + "/", "assets/"});
   return app::page_html(
       parts("Wavebalance: papers regenerated", "assets/", layout(contents(sections, !brief.empty()), main)));
 }
@@ -127,7 +129,7 @@ std::string own_page_html(const Section& given, const Origin& origin) {
   const Section section = in_order(given);
   const std::string main = fmt::format("<p><a href=\"../index.html\">← All results</a></p>\n<h1>{}</h1>\n",
                                        app::escaped(section.paper.name)) +
-                           section_html({section, origin, ""});
+                           section_html({section, origin, "", "../assets/"});
   return app::page_html(
       parts("Wavebalance: " + section.paper.name, "../assets/",
             layout(contents_box(entry("../index.html", "← All results") + records_contents(section)), main)));

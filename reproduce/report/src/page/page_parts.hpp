@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,10 +47,17 @@ struct Place {
   const Section& section;
   const Origin& origin;
   std::string folder;  ///< of the section's files as seen from the page: "extremes/", or empty beside them
+  std::string assets;  ///< the folder of styles and scripts as seen from the page
 };
 
 /// The files of a record, the commands that compute it again, and their origin, folded.
 std::string origin_html(const Record& record, const Place& place);
+
+/// The motions that belong to a record, where their scripts have been written.
+std::string moving_html(const Record& record, const Place& place);
+/// Writes the scripts of motions beside the files from which they are made: motion_<case>.json, the motion of
+/// a bar, and the series <stem>.pvd of the records. Throws app::IoError.
+void write_moving(const std::filesystem::path& folder, const std::vector<Record>& records);
 
 /// A figure or table with its statements.
 std::string artefact_html(const Record& record, const Place& place);

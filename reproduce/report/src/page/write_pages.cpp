@@ -14,6 +14,7 @@ void list_files(const std::filesystem::path& folder, const std::string& prefix,
 
 Section read_section(const Paper& paper, const std::filesystem::path& folder) {
   Section section{paper, read_records(folder / "records"), {}};
+  write_moving(folder, section.records);
   list_files(folder, "", section.files);
   list_files(folder / "scenes", "scenes/", section.files);
   return section;
@@ -27,7 +28,7 @@ void write_pages(const std::filesystem::path& results, const Origin& origin) {
     if (std::filesystem::is_directory(results / paper.folder / "records"))
       sections.push_back(read_section(paper, results / paper.folder));
   if (sections.empty()) throw app::IoError(results, "holds no results of a paper");
-  app::write_assets(results / "assets", {app::Library::d3, app::Library::katex});
+  app::write_assets(results / "assets", {app::Library::d3, app::Library::katex, app::Library::three});
   for (const Section& section : sections)
     if (section.paper.own_page)
       app::write_file(results / section.paper.folder / "index.html", own_page_html(section, origin));

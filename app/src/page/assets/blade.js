@@ -1,0 +1,140 @@
+// Moves a body in space over a period with three.js: coloured by the size of its displacement, turned by dragging.
+"use strict";
+(() => {
+  const element = wavebalance.element;
+  const period = 4000;  // milliseconds that a period takes when played
+
+  // White to dark blue, as the pictures have it; `share` in 0..1.
+  function colour(share) {
+    const ends = [[0.97, 0.98, 1.0], [0.42, 0.68, 0.84], [0.03, 0.19, 0.42]];
+    const place = Math.min(0.9999, Math.max(0, share)) * 2, low = Math.floor(place);
+    return ends[low].map((value, i) => value + (place - low) * (ends[low + 1][i] - value));
+  }
+
+  class Body {
+    constructor(width, height) {
+      this.renderer = new THREE.WebGLRenderer({ antialias: true });
+      this.renderer.setPixelRatio(window.devicePixelRatio);
+      this.renderer.setClearColor(0xffffff);
+      this.scene = new THREE.Scene();
+      this.camera = new THREE.PerspectiveCamera(30, width / height, 0.001, 100);
+      this.camera.up.set(0, 0, 1);
+      const light = new THREE.DirectionalLight(0xffffff, 0.45);
+      light.position.set(0.3, 0.6, 1);
+      this.camera.add(light);
+      this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.62));
+      [this.azimuth, this.elevation] = [-0.61, 0.38];
+      this.canvas = this.renderer.domElement;
+      this.canvas.tabIndex = 0;
+      this.canvas.setAttribute("role", "img");
+      this.canvas.setAttribute("aria-label", "The blade in motion; arrow keys turn it");
+      this.canvas.addEventListener("pointerdown", (event) => this.canvas.setPointerCapture(event.pointerId));
+      this.canvas.addEventListener("pointermove", (event) => { if (event.buttons) this.turn(event.movementX, event.movementY); });
+      this.canvas.addEventListener("keydown", (event) => {
+        const by = { ArrowLeft: [-15, 0], ArrowRight: [15, 0], ArrowUp: [0, -15], ArrowDown: [0, 15] }[event.key];
+        if (!by) return;
+        event.preventDefault();
+        this.turn(...by);
+      });
+      this.resize(width, height);
+    }
+
+    resize(width, height) {
+      this.renderer.setSize(width, height);
+      this.camera.aspect = width / height;
+      this.camera.updateProjectionMatrix();
+    }
+
+    // `largest` is the displacement that takes the last colour, one for all motions that are compared.
+    load(data, largest) {
+      if (this.mesh) this.scene.remove(this.mesh, this.outline);
+      this.data = data;
+      this.largest = largest;
+      this.rest = data.points.map((value) => value * data.length);
+      const geometry = new THREE.BufferGeometry();
+      geometry.setIndex(data.triangles);
+      geometry.setAttribute("position", new THREE.Float32BufferAttribute(this.rest.slice(), 3));
+      this.outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 50), new THREE.LineBasicMaterial({ color: 0x777777 }));
+      geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(this.rest.length), 3));
+      this.mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
+      this.scene.add(this.mesh, this.outline);
+      geometry.computeBoundingSphere();
+      this.sphere = geometry.boundingSphere.clone();
+    }
+
+    // `time` in periods; between two frames displacements are interpolated linearly.
+    show(time) {
+      this.time = time;
+      const frames = this.data.frames, place = (time % 1) * frames.length, low = Math.floor(place) % frames.length;
+      const [a, b, share] = [frames[low], frames[(low + 1) % frames.length], place - Math.floor(place)];
+      const { position, color } = this.mesh.geometry.attributes;
+      for (let i = 0; i < a.length; i += 3) {
+        const u = [0, 1, 2].map((k) => (a[i + k] + share * (b[i + k] - a[i + k])) * this.data.unit);
+        for (let k = 0; k < 3; ++k) position.array[i + k] = this.rest[i + k] + u[k];
+        color.array.set(colour(Math.hypot(...u) / this.largest), i);
+      }
+      position.needsUpdate = color.needsUpdate = true;
+      this.mesh.geometry.computeVertexNormals();
+      this.render();
+    }
+
+    turn(right, down) {
+      this.azimuth -= right * 0.01;
+      this.elevation = Math.max(-1.5, Math.min(1.5, this.elevation + down * 0.01));
+      this.render();
+    }
+
+    render() {
+      const { center, radius } = this.sphere, distance = 4.1 * radius;
+      const flat = Math.cos(this.elevation) * distance;
+      this.camera.position.set(center.x + flat * Math.cos(this.azimuth), center.y + flat * Math.sin(this.azimuth),
+        center.z + Math.sin(this.elevation) * distance);
+      this.camera.lookAt(center);
+      this.renderer.render(this.scene, this.camera);
+    }
+  }
+
+  function build(box, names) {
+    const motions = names.map((name) => wavebalance.bodies[name]);
+    const largest = Math.max(...motions.map((one) => one.largest));
+    const size = () => { const width = Math.max(220, box.clientWidth); return [width, Math.min(520, 0.75 * width)]; };
+    const body = new Body(...size());
+    let started = null;
+    const list = element("select", { "aria-label": "Motion" }, ...motions.map((one, i) => element("option", { value: i }, one.label)));
+    const play = element("button", { type: "button", "aria-pressed": "false" }, "Play");
+    const slider = element("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0, "aria-label": "Time" });
+    const show = (time) => { slider.value = time; body.show(time); };
+    const step = (now) => {
+      if (started === null) return;
+      show(((now - started) / period) % 1);
+      requestAnimationFrame(step);
+    };
+    const run = (on) => {
+      started = on ? performance.now() - slider.value * period : null;
+      play.textContent = on ? "Pause" : "Play";
+      play.setAttribute("aria-pressed", String(on));
+      if (on) requestAnimationFrame(step);
+    };
+    play.addEventListener("click", () => run(started === null));
+    slider.addEventListener("input", () => { run(false); show(Number(slider.value)); });
+    list.addEventListener("change", () => { body.load(motions[list.value], largest); show(Number(slider.value)); });
+    box.replaceChildren(element("h4", {}, "The blade over a period"), element("div", { class: "tools" }, list, play, slider), body.canvas,
+      element("p", { class: "quiet" }, `Displacements as they are; white at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
+        "motions. Thin lines: the blade at rest. Drag to turn it."));
+    body.load(motions[0], largest);
+    new ResizeObserver(() => { body.resize(...size()); body.render(); }).observe(box);
+    show(0);
+  }
+
+  async function start(box) {
+    const sources = box.dataset.bodies.split(" ");
+    for (const source of [box.dataset.library, ...sources]) await wavebalance.load(source);
+    try {
+      build(box, sources.map((source) => source.slice(source.lastIndexOf("/") + 1, -".body.js".length)));
+    } catch (error) {
+      box.replaceChildren(element("p", { class: "quiet" }, "This browser draws no bodies in space (WebGL), so that the blade does not move here."));
+    }
+  }
+
+  document.addEventListener("DOMContentLoaded", () => wavebalance.whenNear(".body-motion", start));
+})();

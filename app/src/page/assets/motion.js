@@ -1,0 +1,184 @@
+// Moves a bar over a period: the bar with its obstacle above, the displacement of its tip and the contact force below.
+// A pair of bases is chosen from a list; the time is played, set by a slider, or dragged in a diagram.
+"use strict";
+(() => {
+  const element = wavebalance.element;
+  const space = "http://www.w3.org/2000/svg";
+  const period = 5000;  // milliseconds that a period takes when played
+  const number = (value, digits = 3) => Number(value.toPrecision(digits)).toString().replace("-", "\u2212");
+
+  function svg(tag, attributes, parent) {
+    const made = document.createElementNS(space, tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    parent?.append(made);
+    return made;
+  }
+
+  function text(parent, x, y, content, anchor = "start") {
+    svg("text", { x, y, "text-anchor": anchor }, parent).textContent = content;
+  }
+
+  // The order in which instants are shown: contact, about t = 0, stands in the middle of a diagram.
+  function ordered(times) {
+    const shown = times.map((time, index) => ({ index, time: time >= 0.5 ? time - 1 : time }));
+    return shown.sort((a, b) => a.time - b.time);
+  }
+
+  // A diagram over the period; the line of the time that is shown is moved by show().
+  class Diagram {
+    constructor(data, label, pick, scale, choose) {
+      Object.assign(this, { data, label, pick, scale, choose });
+      this.svg = svg("svg", { class: "diagram", height: 190 });
+      this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.drag(event); });
+      this.svg.addEventListener("pointermove", (event) => { if (event.buttons) this.drag(event); });
+    }
+
+    drag(event) {
+      const box = this.svg.getBoundingClientRect();
+      const share = (event.clientX - box.left - this.left) / (this.width - this.left - 10);
+      this.choose(Math.max(0, Math.min(this.data.order.length - 1, Math.round(share * (this.data.order.length - 1)))));
+    }
+
+    x(position) { return this.left + (position / (this.data.order.length - 1)) * (this.width - this.left - 10); }
+    y(value) { return 156 - ((value - this.low) / (this.high - this.low)) * 136; }
+
+    draw(pair) {
+      this.left = 56;
+      this.width = Math.max(220, this.svg.parentNode.clientWidth);
+      this.svg.setAttribute("width", this.width);
+      this.svg.replaceChildren();
+      const curves = [this.data.reference, pair].map((motion) => this.pick(motion).map((value) => value * this.scale));
+      const every = [this.data.reference, ...this.data.pairs].flatMap((motion) => this.pick(motion)).map((v) => v * this.scale);
+      [this.low, this.high] = [Math.min(...every), Math.max(...every)];
+      for (const value of [this.low, (this.low + this.high) / 2, this.high]) {
+        svg("line", { x1: this.left, x2: this.width - 10, y1: this.y(value), y2: this.y(value), class: "grid" }, this.svg);
+        text(this.svg, this.left - 6, this.y(value) + 4, number(value, 2), "end");
+      }
+      text(this.svg, this.left, 12, this.label);
+      text(this.svg, this.left, 176, "\u22120.5");
+      text(this.svg, (this.left + this.width - 10) / 2, 176, "time (periods)", "middle");
+      text(this.svg, this.width - 10, 176, "0.5", "end");
+      curves.forEach((curve, which) => {
+        const points = this.data.order.map(({ index }, i) => `${this.x(i).toFixed(1)},${this.y(curve[index]).toFixed(1)}`);
+        svg("polyline", { points: points.join(" "), class: which ? "line" : "line reference" }, this.svg);
+      });
+      this.cursor = svg("line", { y1: 18, y2: 158, class: "cursor" }, this.svg);
+      this.mark = svg("circle", { r: 4, class: "mark" }, this.svg);
+      this.curve = curves[1];
+    }
+
+    show(position) {
+      const x = this.x(position);
+      this.cursor.setAttribute("x1", x);
+      this.cursor.setAttribute("x2", x);
+      this.mark.setAttribute("cx", x);
+      this.mark.setAttribute("cy", this.y(this.curve[this.data.order[position].index]));
+    }
+  }
+
+  // The bar: displacements are enlarged so that the gap can be told from the length.
+  class Bar {
+    constructor(data) {
+      this.data = data;
+      this.svg = svg("svg", { class: "bar", height: 120, role: "img", "aria-label": "The bar between its clamp and the obstacle" });
+    }
+
+    place(node, displacement) {
+      const count = this.data.reference.nodes[0].length - 1;
+      return 24 + (node / count) * this.rest + displacement * this.enlarged;
+    }
+
+    draw() {
+      const width = Math.max(260, this.svg.parentNode.clientWidth);
+      const every = [this.data.reference, ...this.data.pairs].flatMap((motion) => motion.tip);
+      const [low, high] = [Math.min(...every), Math.max(...every, this.data.gap)];
+      this.enlarged = (0.34 * (width - 80)) / (high - low);
+      this.rest = width - 60 - high * this.enlarged;
+      this.svg.setAttribute("width", width);
+      this.svg.replaceChildren();
+      svg("rect", { x: 4, y: 14, width: 20, height: 70, class: "wall" }, this.svg);
+      const at = this.place(this.data.reference.nodes[0].length - 1, this.data.gap);
+      svg("rect", { x: at, y: 14, width: 20, height: 70, class: "wall" }, this.svg);
+      svg("line", { x1: at, x2: at, y1: 8, y2: 90, class: "obstacle", "data-gap": this.data.gap }, this.svg);
+      const still = this.place(this.data.reference.nodes[0].length - 1, 0);
+      svg("line", { x1: still, x2: still, y1: 8, y2: 90, class: "still" }, this.svg);
+      text(this.svg, still - 4, 106, "at rest", "end");
+      text(this.svg, at + 4, 106, "gap", "middle");
+      this.body = svg("g", {}, this.svg);
+      this.reference = svg("line", { y1: 16, y2: 82, class: "time-stepping" }, this.svg);
+      this.tip = svg("line", { y1: 26, y2: 72, class: "tip" }, this.svg);
+      this.force = svg("line", { y1: 49, y2: 49, class: "push" }, this.svg);
+    }
+
+    show(index, pair) {
+      const nodes = pair.nodes[index].map((u, node) => this.place(node, u));
+      const tip = nodes[nodes.length - 1];
+      this.body.replaceChildren();
+      svg("rect", { x: 24, y: 28, width: Math.max(0, tip - 24), height: 42, class: "body" }, this.body);
+      for (const x of nodes.slice(1, -1)) svg("line", { x1: x, x2: x, y1: 28, y2: 70, class: "node" }, this.body);
+      for (const name of ["x1", "x2"]) this.tip.setAttribute(name, tip);
+      const reference = this.place(nodes.length - 1, this.data.reference.tip[index]);
+      for (const name of ["x1", "x2"]) this.reference.setAttribute(name, reference);
+      const most = Math.max(...this.data.reference.force, 1e-300);
+      this.force.setAttribute("x1", tip);
+      this.force.setAttribute("x2", tip - Math.max(0, pair.force[index] / most) * 60);
+    }
+  }
+
+  function build(box, data) {
+    data.order = ordered(data.time);
+    let position = 0, pair = data.pairs[0] ?? data.reference, started = null;
+    const list = element("select", { "aria-label": "Pair of bases" },
+      ...data.pairs.map((one, i) => element("option", { value: i }, one.label)), element("option", { value: -1 }, data.reference.label));
+    const play = element("button", { type: "button", "aria-pressed": "false" }, "Play");
+    const slider = element("input", { type: "range", min: 0, max: data.order.length - 1, step: 1, value: 0, "aria-label": "Time" });
+    const values = element("output", { class: "quiet" });
+    const choose = (next) => { position = next; show(); };
+    const bar = new Bar(data);
+    const diagrams = [
+      new Diagram(data, "Displacement of the tip (mm)", (motion) => motion.tip, 1e3, choose),
+      new Diagram(data, "Contact force over the amplitude of the load", (motion) => motion.force, 1, choose)];
+    const show = () => {
+      const { index, time } = data.order[position];
+      slider.value = position;
+      bar.show(index, pair);
+      diagrams.forEach((diagram) => diagram.show(position));
+      values.textContent = `t = ${number(time)} T, u = ${number(1e3 * pair.tip[index], 4)} mm, force ${number(pair.force[index])}`;
+    };
+    const draw = () => {
+      bar.draw();
+      diagrams.forEach((diagram) => diagram.draw(pair));
+      show();
+    };
+    const step = (now) => {
+      if (started === null) return;
+      choose(Math.floor((((now - started) % period) / period) * data.order.length));
+      requestAnimationFrame(step);
+    };
+    const run = (on) => {
+      started = on ? performance.now() - (position / data.order.length) * period : null;
+      play.textContent = on ? "Pause" : "Play";
+      play.setAttribute("aria-pressed", String(on));
+      if (on) requestAnimationFrame(step);
+    };
+    play.addEventListener("click", () => run(started === null));
+    slider.addEventListener("input", () => { run(false); choose(Number(slider.value)); });
+    list.addEventListener("change", () => { pair = data.pairs[list.value] ?? data.reference; draw(); });
+    box.replaceChildren(
+      element("h4", {}, `The bar over a period, ${number(data.frequency, 4)} Hz`),
+      element("div", { class: "tools" }, list, play, slider, values), element("div", {}, bar.svg),
+      element("div", { class: "pair" }, ...diagrams.map((diagram) => element("div", {}, diagram.svg))),
+      element("p", { class: "quiet" }, "Grey dashed: time stepping. Displacements are enlarged; the arrow is the contact force. Drag " +
+        "in a diagram to set the time."));
+    new ResizeObserver(draw).observe(box);
+    draw();
+  }
+
+  async function start(box) {
+    const source = box.dataset.motion;
+    await wavebalance.load(source);
+    build(box, wavebalance.motions[source.slice(source.lastIndexOf("/") + 1, -".motion.js".length)]);
+  }
+
+  document.addEventListener("DOMContentLoaded", () => wavebalance.whenNear(".motion", start));
+})();
