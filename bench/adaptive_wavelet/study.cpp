@@ -5,12 +5,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "rigid_reference.hpp"
 #include "stiffness_section.hpp"
 #include "stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/solvers/reference/rigid_reference.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -171,7 +171,7 @@ Study make_study(const std::string& name, const Sizes& sizes) {
   const auto structure = app::make_structure(scene);
   const double frequency = scene.forcing.frequency, gap = scene.contact.gap;
   if (scene.contact.law == app::ContactLawType::rigid) {
-    const auto exact = reference::rigid_reference(structure, gap, frequency, sizes.points);
+    const auto exact = solvers::rigid_reference(structure, gap, frequency, sizes.points);
     if (!exact.converged) throw std::runtime_error(name + ": the reference did not settle");
     study.reference = exact.displacement;
     study.instants = exact.instants;

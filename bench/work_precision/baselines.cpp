@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <limits>
 
 #include "dense_system.hpp"
 #include "points.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/reference/shooting.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
@@ -14,46 +13,43 @@
 namespace wavebalance::bench {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = Point::unknown;
 
 Point named(const std::string& method, double tolerance) {
   Point point;
   point.method = method;
   point.tolerance = tolerance;
-  point.construction_seconds = point.seconds = point.error = unknown;
   return point;
 }
 
 double error_of(const Study& study, const Eigen::VectorXd& displacement) {
-  return displacement.size() == study.reference.size()
-             ? app::relative_rms_error(displacement, study.reference)
-             : unknown;
+  return app::displacement_error({displacement.transpose(), {}, {}}, study.measured.reference);
 }
 
 Point dense_point(const Study& study, int functions, double max_seconds) {
   Point point = named("dense", unknown);
-  point.trial = point.weight = "fourier";
+  point.pair = {"fourier", "fourier"};
   point.inner_products = "quadrature";
   point.functions = functions;
   point.points = 4 * (functions + 1);
   const spectral::FourierBasis basis(functions);
   const Eigen::Vector2cd cosine(0.0, 1.0);
   const double start = processor_seconds();
-  dense::DenseSystem system(app::make_structure(study.scene), app::make_law(study.scene.contact),
+  dense::DenseSystem system(app::make_structure(study.scene()), app::make_law(study.scene().contact),
                             dense::discretise(basis, basis, {.quadrature_points = point.points}, cosine));
   point.construction_seconds = processor_seconds() - start;
   dense::Solution solution;
   point.seconds = least_seconds(
       [&] {
-        system.set_frequency(study.scene.forcing.frequency);
+        system.set_frequency(study.scene().forcing.frequency);
         solution = system.newton(system.linear_response(), {.tolerance = 1e-11});
       },
       {.max_seconds = max_seconds / 10.0});
   point.converged = solution.converged;
   point.status = solution.converged ? "converged" : "not_converged";
-  const int contact = study.scene.structure.elements - 1;
+  const int contact = study.scene().structure.elements - 1;
   const Eigen::VectorXd coefficients = solution.coefficients.segment(contact * functions, functions);
-  const auto samples = static_cast<int>(study.reference.size());
+  const auto samples = study.measured.reference.points();
   point.error = error_of(study, dense::translate_samples(basis, samples, 0) * coefficients);
   return point;
 }
@@ -87,24 +83,24 @@ std::vector<Point> dense_points(const Study& study, const std::vector<int>& func
 }
 
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances) {
-  const solvers::LinearStructure structure = app::make_structure(study.scene);
-  const solvers::AnyContactLaw law = app::make_law(study.scene.contact);
+  const solvers::LinearStructure structure = app::make_structure(study.scene());
+  const solvers::AnyContactLaw law = app::make_law(study.scene().contact);
   return reference_points("time_stepping", study, tolerances, [&](double tolerance) {
     solvers::TimeSteppingOptions options;
     options.period_tolerance = tolerance;
     options.step_tolerance = 1e-3 * tolerance;
-    return solvers::integrate_to_periodic(structure, law, study.scene.forcing.frequency, options);
+    return solvers::integrate_to_periodic(structure, law, study.scene().forcing.frequency, options);
   });
 }
 
 std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances) {
-  const solvers::LinearStructure structure = app::make_structure(study.scene);
-  const solvers::AnyContactLaw law = app::make_law(study.scene.contact);
+  const solvers::LinearStructure structure = app::make_structure(study.scene());
+  const solvers::AnyContactLaw law = app::make_law(study.scene().contact);
   return reference_points("shooting", study, tolerances, [&](double tolerance) {
     solvers::ShootingOptions options;
     options.tolerance = std::max(1e-11, 1e-2 * tolerance);
     options.step_tolerance = tolerance;
-    return solvers::shoot(structure, law, study.scene.forcing.frequency, options);
+    return solvers::shoot(structure, law, study.scene().forcing.frequency, options);
   });
 }
 

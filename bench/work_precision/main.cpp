@@ -1,10 +1,15 @@
 #include <cstdio>
+#include <functional>
+#include <iterator>
+#include <utility>
 
+#include "cheapest_table.hpp"
 #include "data_file.hpp"
 #include "picture.hpp"
 #include "points.hpp"
 #include "program.hpp"
 #include "stopwatch.hpp"
+#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
 
 // Error over solve time for every pair of bases: work_precision.csv and its pictures.
@@ -19,38 +24,38 @@ app::Table empty_table() {
 
 void append(app::Table& table, const Study& study, const std::vector<Point>& points) {
   for (const Point& p : points)
-    table.append_row({study.name, p.method, p.trial, p.weight, p.inner_products, std::int64_t{p.functions},
-                      std::int64_t{p.points}, p.tolerance, p.construction_seconds, p.seconds, p.error,
-                      p.converged, p.status, p.on_front});
+    table.append_row({study.name, p.method, p.pair.trial, p.pair.weight, p.inner_products,
+                      std::int64_t{p.functions}, std::int64_t{p.points}, p.tolerance, p.construction_seconds,
+                      p.seconds, p.error, p.converged, p.status, p.on_front});
 }
 
 void append(std::vector<Point>& points, std::vector<Point> more) {
   points.insert(points.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-SizeSeries penalty_sizes(bool quick) {
-  if (quick) return {{4, 16}, {2}, 0.2};
-  return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 0.5};
-}
-
-SizeSeries rigid_sizes(bool quick) {
-  if (quick) return {{4, 16}, {4}, 0.2};
-  return {{4, 8, 16, 32, 64, 128, 256, 512, 1024}, {1, 2, 4, 8, 16}, 0.2};
+/// What is expected to take longer than `max_seconds` is not run.
+app::SizeStudyOptions sizes(bool quick, std::vector<int> quick_points, double max_seconds) {
+  app::SizeStudyOptions options;
+  options.functions = quick ? std::vector{4, 16} : std::vector{4, 8, 16, 32, 64, 128, 256, 512, 1024};
+  options.points_per_function = quick ? std::move(quick_points) : std::vector{1, 2, 4, 8, 16};
+  options.max_seconds = quick ? 0.2 : max_seconds;
+  options.without_equals = false;
+  return options;
 }
 
 std::vector<Point> penalty_points(const Study& study, bool quick) {
-  std::vector<Point> points = weighted_residual_points(study, penalty_sizes(quick));
+  std::vector<Point> points = app::size_study(study.measured, pairs(), sizes(quick, {2}, 0.5));
   append(points, dense_points(study, quick ? std::vector{3, 7} : std::vector{3, 7, 15, 31, 63}, 2.0));
   append(points, time_stepping_points(study, quick ? std::vector{1e-2}
                                                    : std::vector{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}));
   append(points, shooting_points(study, quick ? std::vector{1e-3} : std::vector{1e-3, 1e-5, 1e-7, 1e-9}));
-  mark_front(points);
+  app::mark_front(points);
   return points;
 }
 
 std::vector<Point> rigid_points(const Study& study, bool quick) {
-  std::vector<Point> points = weighted_residual_points(study, rigid_sizes(quick));
-  mark_front(points);
+  std::vector<Point> points = app::size_study(study.measured, pairs(), sizes(quick, {4}, 0.2));
+  app::mark_front(points);
   return points;
 }
 
@@ -80,6 +85,7 @@ class Results {
       const std::vector<Point> points = method(study);
       append(table_, study, points);
       picture.add(study, points);
+      cheapest_.add(study, points);
       notes_.push_back("reference of " + study.name + ": " + study.reference_text + ", own error about " +
                        app::cell_text(study.reference_error));
       report(study, points, processor_seconds() - start);
@@ -87,11 +93,23 @@ class Results {
                  {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
                   "reproduce/scenes", notes_});
     }
+    write_cheapest();
     write_pictures(program_.output / picture_name, picture.figure());
   }
 
  private:
+  /// The table of the page, which takes the HTML one in, too.
+  void write_cheapest() const {
+    write_data(program_.output, "cheapest_pairs", cheapest_.table(),
+               {"The cheapest pair of bases for an error, and the time of Fourier:Fourier over its own",
+                "SI; a column's name ends in its unit",
+                "reproduce/scenes",
+                {"of those whose next size, if it was solved, keeps to the error, too"}});
+    app::write_file(program_.output / "cheapest_pairs.html", cheapest_.html());
+  }
+
   Program program_;
+  CheapestTable cheapest_;
   app::Table table_ = empty_table();
   std::vector<std::string> notes_{
       "error: relative rms over 1024 points of the period; seconds: least of repeated solves, plans made",

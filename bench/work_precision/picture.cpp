@@ -1,53 +1,21 @@
 #include "picture.hpp"
 
-#include <algorithm>
 #include <utility>
+
+#include "wavebalance/app/compare/comparison_figure.hpp"
 
 namespace wavebalance::bench {
 namespace {
 
-using app::Series;
-using app::SeriesStyle;
-
-Series series(const std::string& label, const std::vector<Point>& points, SeriesStyle style) {
+app::Series baseline(const std::string& method, const std::string& label, int marker,
+                     const std::vector<Point>& points) {
   std::vector<double> x, y;
-  for (const Point& point : points) {
-    x.push_back(point.seconds);
-    y.push_back(point.error);
-  }
-  return {label, x, y, style};
-}
-
-template <class Predicate>
-std::vector<Point> chosen(const std::vector<Point>& points, const Predicate& predicate) {
-  std::vector<Point> result;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(result), predicate);
-  return result;
-}
-
-Series front(const std::vector<Point>& points) {
-  Series one = series("Pareto front", envelope(points), SeriesStyle::steps);
-  one.colour = app::Colour::grey;
-  one.width = 5.0;
-  return one;
-}
-
-Series best_of(const Pair& pair, const std::vector<Point>& points) {
-  const auto own = chosen(points, [&](const Point& point) {
-    return point.method == "weighted_residual" && point.trial == pair.trial && point.weight == pair.weight;
-  });
-  Series one = series(pair.label, envelope(own), SeriesStyle::line_points);
-  one.colour = pair.colour;
-  one.dash = pair.dash;
-  one.marker = pair.marker;
-  return one;
-}
-
-Series baseline(const std::string& method, const std::string& label, int marker,
-                const std::vector<Point>& points) {
-  const auto own =
-      chosen(points, [&](const Point& point) { return point.method == method && point.converged; });
-  Series one = series(label, own, SeriesStyle::line_points);
+  for (const Point& point : points)
+    if (point.method == method && point.converged) {
+      x.push_back(point.seconds);
+      y.push_back(point.error);
+    }
+  app::Series one(label, x, y, app::SeriesStyle::line_points);
   one.colour = app::Colour::grey;
   one.marker = marker;
   return one;
@@ -68,9 +36,11 @@ void WorkPrecisionPicture::add(const Study& study, const std::vector<Point>& poi
   panel.y.label = "Relative rms error of the tip displacement";
   panel.x.logarithmic = panel.y.logarithmic = true;
   panel.legend = app::Legend::right_of_panel;
-  panel.add(front(points));
-  for (const Pair& pair : pairs()) panel.add(best_of(pair, points));
-  for (Series one :
+  panel.add(app::pareto_front(points));
+  constexpr std::size_t most = 5;
+  for (const app::BasisPair& pair : app::leading_pairs(pairs(), points, most))
+    panel.add(app::best_of(pair, points));
+  for (app::Series one :
        {baseline("dense", "Fourier:Fourier, assembled system", 6, points),
         baseline("time_stepping", "time stepping", 7, points), baseline("shooting", "shooting", 8, points)})
     if (!one.x.empty()) panel.add(std::move(one));

@@ -7,8 +7,9 @@
 
 namespace wavebalance::bench {
 
-/// Error over solve time, a panel a study: what each pair reaches at best, the front over everything, and the
-/// baselines. Points that have not converged are not drawn.
+/// Error over solve time, a panel a study: the front over everything, what Fourier:Fourier and the four pairs
+/// with the most points on the front reach at best, and the baselines. Points that have not converged are not
+/// drawn.
 class WorkPrecisionPicture {
  public:
   explicit WorkPrecisionPicture(const std::string& title);

@@ -1,33 +1,24 @@
 #pragma once
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/plot/plot.hpp"
-#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/size_study.hpp"
 
 namespace wavebalance::bench {
 
-/// A combination of trial and weighting functions and how it is drawn: a colour for the trial functions, a
-/// dash for the weights.
-struct Pair {
-  std::string trial, weight, label;
-  app::Colour colour;
-  app::Dash dash;
-  int marker;
-};
-
 /// The six pairs of [JL14, Table 2] first.
-const std::vector<Pair>& pairs();
+const std::vector<app::BasisPair>& pairs();
 
 /// A scene whose periodic response is known at 1024 uniform points.
 struct Study {
-  std::string name;   ///< of the column "case"
-  std::string title;  ///< of the panel
-  app::Scene scene;
-  Eigen::VectorXd reference;     ///< tip displacement, m
+  std::string name;              ///< of the column "case"
+  std::string title;             ///< of the panel
+  app::MeasuredScene measured;   ///< the reference has the tip's displacement, m, and force, N
   double reference_error = 0.0;  ///< estimated, relative: errors below it say nothing
   std::string reference_text;    ///< where it comes from
+
+  const app::Scene& scene() const { return measured.scene; }
 };
 
 /// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle: law by law against shooting.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "command/commands.hpp"
+#include "command/compare_command.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -29,6 +30,7 @@ std::string footer() {
          "  wavebalance run case.toml --output results/case\n"
          "  wavebalance run case.toml --output results/haar --set time.trial=haar --set time.functions=64\n"
          "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n"
+         "  wavebalance compare case.toml --output results/compare     # which basis, how many functions?\n"
          "  wavebalance run case.toml --output results/rigid --set contact.law=rigid \\\n"
          "    --unset contact.constant --unset contact.exponent\n\n"
          "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
@@ -55,6 +57,21 @@ void add_scene(CLI::App& command, RunArguments& arguments) {
   add_list(command, "--set", arguments.overrides, "KEY=VALUE",
            "section.key=value in place of what the file says");
   add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
+}
+
+void add_compare(CLI::App& command, CompareArguments& arguments) {
+  add_scene(command, arguments.run);
+  command.add_option("--output,-o", arguments.run.output, "folder of the results, made if missing")
+      ->required();
+  command
+      .add_option("--pairs", arguments.pairs,
+                  "pairs of bases, fourier:fourier,haar:fourier; without it every admissible one of "
+                  "fourier, haar, bspline and daubechies6")
+      ->type_name("TRIAL:WEIGHT,...");
+  command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
 
 /// "run, check, keys"
@@ -91,6 +108,9 @@ int dispatch(int argc, char** argv) {
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
   add_scene(check, arguments);
+  CompareArguments comparison;
+  CLI::App& compare = *app.add_subcommand("compare", "which basis and how many functions for this scene");
+  add_compare(compare, comparison);
   CLI::App& keys = *app.add_subcommand("keys", "list every key of a scene: meaning, unit, range, default");
   check_command(app, argc, argv);
   try {
@@ -99,6 +119,7 @@ int dispatch(int argc, char** argv) {
     return app.exit(error) == 0 ? solved : bad_input;
   }
   if (keys.parsed()) return print(describe_scene_keys());
+  if (compare.parsed()) return compare_scene(comparison);
   return check.parsed() ? check_scene(arguments) : run_scene(arguments);
 }
 

@@ -2,16 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "adaptive_rigid.hpp"
 #include "pairs.hpp"
-#include "rigid_reference.hpp"
+#include "wavebalance/solvers/reference/rigid_reference.hpp"
 
 // Force cells against a rigid obstacle, held to the exact flows of the bar without mass at its tip.
 namespace wavebalance::pairs {
 namespace {
 
 constexpr int points = 2048;
+
+// `structure` with the mass of its last degree of freedom moved to its neighbour: what lets a rigid obstacle
+// stop it without an impulse. Its load and contact must be there.
+solvers::LinearStructure without_tip_mass(solvers::LinearStructure structure) {
+  const int tip = structure.size() - 1;
+  structure.mass.coeffRef(tip - 1, tip - 1) +=
+      structure.mass.coeff(tip, tip) + 2.0 * structure.mass.coeff(tip, tip - 1);
+  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
+    structure.mass.coeffRef(row, column) = 0.0;
+  structure.mass.prune(0.0);
+  return structure;
+}
 
 struct RigidCase {
   Case scene;
@@ -20,9 +33,7 @@ struct RigidCase {
 
 class ForceCells : public ::testing::TestWithParam<RigidCase> {
  protected:
-  static solvers::LinearStructure structure(const Case& scene) {
-    return reference::without_tip_mass(scene.structure());
-  }
+  static solvers::LinearStructure structure(const Case& scene) { return without_tip_mass(scene.structure()); }
   static solvers::CondensedProblem problem(const Case& scene) {
     const spectral::FourierBasis basis(1023);
     solvers::CondensedProblem result(solvers::TimePair(basis, basis, {.quadrature_points = points}),
@@ -31,8 +42,8 @@ class ForceCells : public ::testing::TestWithParam<RigidCase> {
     return result;
   }
   const Case scene_ = GetParam().scene;
-  const reference::RigidReference exact_ =
-      reference::rigid_reference(structure(scene_), scene_.gap, scene_.frequency_hz, points);
+  const solvers::RigidReference exact_ =
+      solvers::rigid_reference(structure(scene_), scene_.gap, scene_.frequency_hz, points);
   double error(const solvers::CellResponse& response) const {
     return (response.displacement - exact_.displacement).norm() / exact_.displacement.norm();
   }

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "points.hpp"
-#include "stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 
-namespace wavebalance::bench {
+namespace wavebalance::app {
 namespace {
 
-Point point(double seconds, double error, bool converged = true) {
-  Point one;
+SolvePoint point(double seconds, double error, bool converged = true) {
+  SolvePoint one;
   one.seconds = seconds;
   one.error = error;
   one.converged = converged;
@@ -15,16 +15,16 @@ Point point(double seconds, double error, bool converged = true) {
 }
 
 TEST(ParetoFront, HoldsThePointsThatNoOtherBeatsInBothAndNeverOneThatHasNotConverged) {
-  std::vector<Point> points{point(1.0, 1e-1), point(2.0, 1e-2),        point(3.0, 2e-2),
-                            point(4.0, 1e-3), point(0.5, 1e-9, false), point(4.0, 2e-3)};
+  std::vector<SolvePoint> points{point(1.0, 1e-1), point(2.0, 1e-2),        point(3.0, 2e-2),
+                                 point(4.0, 1e-3), point(0.5, 1e-9, false), point(4.0, 2e-3)};
   mark_front(points);
   std::vector<bool> front;
-  for (const Point& one : points) front.push_back(one.on_front);
+  for (const SolvePoint& one : points) front.push_back(one.on_front);
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, true, false, false}));
 }
 
 TEST(ParetoFront, KeepsEqualPointsBoth) {
-  std::vector<Point> points{point(1.0, 1e-3), point(1.0, 1e-3)};
+  std::vector<SolvePoint> points{point(1.0, 1e-3), point(1.0, 1e-3)};
   mark_front(points);
   EXPECT_TRUE(points[0].on_front && points[1].on_front);
 }
@@ -69,4 +69,4 @@ TEST(LeastSeconds, CallsAsOftenAsAskedUnlessTheFirstCallTakesTooLong) {
 }
 
 }  // namespace
-}  // namespace wavebalance::bench
+}  // namespace wavebalance::app

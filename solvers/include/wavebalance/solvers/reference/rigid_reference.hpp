@@ -4,11 +4,7 @@
 
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
-namespace wavebalance::reference {
-
-/// `structure` with the mass of its last degree of freedom moved to its neighbour: what lets a rigid obstacle
-/// stop it without an impulse. Its load and contact must be there.
-solvers::LinearStructure without_tip_mass(solvers::LinearStructure structure);
+namespace wavebalance::solvers {
 
 /// The periodic response against a rigid obstacle of a structure whose last degree of freedom touches and has
 /// no mass, so that closing transfers no impulse: two linear flows, free and closed, joined at the instants
@@ -26,7 +22,7 @@ struct RigidReference {
 /// 2^-32 of a sample; periods are run until the state repeats to `tolerance`. Contact shorter than a sample
 /// can be missed. Load amplitude times cos(2 pi f t). Throws std::invalid_argument unless the last degree of
 /// freedom touches, has no mass and is damped. O(points n^2) a period.
-RigidReference rigid_reference(const solvers::LinearStructure& structure, double gap, double frequency_hz,
-                               int points, double tolerance = 1e-11, int max_periods = 1000);
+RigidReference rigid_reference(const LinearStructure& structure, double gap, double frequency_hz, int points,
+                               double tolerance = 1e-11, int max_periods = 1000);
 
-}  // namespace wavebalance::reference
+}  // namespace wavebalance::solvers

@@ -1,4 +1,4 @@
-#include "rigid_reference.hpp"
+#include "wavebalance/solvers/reference/rigid_reference.hpp"
 
 #include <Eigen/LU>
 #include <array>
@@ -6,10 +6,11 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <unsupported/Eigen/MatrixFunctions>
 
-namespace wavebalance::reference {
+namespace wavebalance::solvers {
 namespace {
 
 constexpr int halvings = 32;
@@ -18,7 +19,7 @@ constexpr int halvings = 32;
 // load; time as a fraction of the period.
 class Flows {
  public:
-  Flows(const solvers::LinearStructure& structure, double gap, double frequency, int points)
+  Flows(const LinearStructure& structure, double gap, double frequency, int points)
       : masses_(structure.size() - 1), gap_(gap) {
     const Eigen::MatrixXd m = structure.mass, c = structure.damping, k = structure.stiffness;
     const int n = masses_, size = 2 * n + 3;
@@ -94,18 +95,8 @@ void advance_sample(const Flows& flows, Eigen::VectorXd& state, bool& closed, st
 
 }  // namespace
 
-solvers::LinearStructure without_tip_mass(solvers::LinearStructure structure) {
-  const int tip = structure.size() - 1;
-  structure.mass.coeffRef(tip - 1, tip - 1) +=
-      structure.mass.coeff(tip, tip) + 2.0 * structure.mass.coeff(tip, tip - 1);
-  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
-    structure.mass.coeffRef(row, column) = 0.0;
-  structure.mass.prune(0.0);
-  return structure;
-}
-
-RigidReference rigid_reference(const solvers::LinearStructure& structure, double gap, double frequency_hz,
-                               int points, double tolerance, int max_periods) {
+RigidReference rigid_reference(const LinearStructure& structure, double gap, double frequency_hz, int points,
+                               double tolerance, int max_periods) {
   const Flows flows(structure, gap, frequency_hz, points);
   RigidReference result;
   result.displacement.resize(points);
@@ -131,4 +122,4 @@ RigidReference rigid_reference(const solvers::LinearStructure& structure, double
   return result;
 }
 
-}  // namespace wavebalance::reference
+}  // namespace wavebalance::solvers

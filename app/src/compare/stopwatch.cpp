@@ -1,11 +1,11 @@
-#include "stopwatch.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 
 #include <time.h>
 
 #include <algorithm>
 #include <limits>
 
-namespace wavebalance::bench {
+namespace wavebalance::app {
 
 double processor_seconds() {
   timespec now{};
@@ -36,4 +36,4 @@ bool TimeLimit::allows(double growth) const {
   return last_ * std::clamp(ratio, growth, growth * growth * growth) <= limit_;
 }
 
-}  // namespace wavebalance::bench
+}  // namespace wavebalance::app

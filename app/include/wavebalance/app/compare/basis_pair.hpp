@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// Trial and weighting functions, by the names of Time::trial and Time::weight.
+struct BasisPair {
+  std::string trial, weight;
+
+  bool is_fourier() const { return trial == "fourier" && weight == "fourier"; }
+  bool operator==(const BasisPair&) const = default;
+};
+
+/// "haar:fourier", as a command's argument and a table have it.
+std::string name_of(const BasisPair& pair);
+/// "Haar:Fourier", "DB6:DB6": in pictures and sentences.
+std::string label_of(const BasisPair& pair);
+
+/// Reads "fourier:fourier,haar:fourier". Throws std::invalid_argument, which names what is wrong and what is
+/// allowed, for anything else, unknown bases and a pair that is there twice.
+std::vector<BasisPair> parse_pairs(std::string_view text);
+
+/// Every pair of "fourier", "haar", "bspline" and "daubechies6", admissible or not; Fourier:Fourier first.
+std::vector<BasisPair> common_pairs();
+
+/// Whether the pair can be taken with the scene's formulation and inner products, and if not, the reason.
+solvers::Admissibility admissibility_of(const BasisPair& pair, const Time& time);
+
+/// `series` in the colour and symbol of the trial functions and the dash of the weights, which are solid
+/// where both are the same.
+Series styled(Series series, const BasisPair& pair);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,70 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/recommendation.hpp"
+#include "wavebalance/app/compare/reference.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
+
+namespace wavebalance::app {
+
+/// What is compared and for how long.
+struct ComparisonOptions {
+  std::vector<BasisPair> pairs;  ///< empty: every admissible one of common_pairs()
+  double budget = 10.0;          ///< s, wall time of everything, > 0
+  int first_functions = 4;       ///< a power of two
+  int largest_functions = 1 << 15;
+  std::vector<int> points_per_function = {1, 2, 4, 8};
+  std::vector<double> errors = {1e-2, 1e-4, 1e-6};  ///< for which a choice is recommended
+};
+
+/// How a pair did in all its sizes.
+struct PairResult {
+  BasisPair pair;
+  std::string inadmissible;   ///< the reason; empty for an admissible pair
+  int solves = 0;             ///< sizes solved
+  int converged = 0;          ///< of these
+  int largest_functions = 0;  ///< solved
+  double smallest_error = SolvePoint::unknown;
+  /// Observed orders over the functions, of displacements and forces, with the most points per function that
+  /// have three errors above that of the reference: over the last four of them. NaN without three.
+  double order = SolvePoint::unknown, force_order = SolvePoint::unknown;
+  int order_points_per_function = 0;  ///< of these orders
+  std::string failures;  ///< "2 stalled (4 to 8 functions), 1 cancelled (1024 functions)", or empty
+};
+
+/// A forced response in several pairs and sizes.
+struct Comparison {
+  bool interrupted = false;
+  Reference reference;
+  std::vector<SolvePoint> points;  ///< those solved, with on_front
+  std::vector<PairResult> pairs;   ///< the inadmissible ones last
+  std::vector<Recommendation> recommendations;
+  double wall_seconds = 0.0;
+
+  /// A reference was found, with which others could be compared.
+  bool converged() const { return reference.converged && !interrupted; }
+  /// "converged", "interrupted", or the status of a reference that was not found.
+  std::string status() const { return interrupted ? "interrupted" : reference.status; }
+};
+
+/// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,
+/// the budget is not positive, or the scene is none to be compared: forced responses and frequency sweeps
+/// over one period of the load are. O(pairs).
+void check_comparison(const Scene& scene, const ComparisonOptions& options);
+
+/// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and
+/// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. Three tenths
+/// of the budget at most are the reference's. Times are processor seconds of this thread. An observer that
+/// returns false ends it with what was measured so far. Throws as check_comparison().
+Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
+                             const solvers::Observer& observer = {});
+
+/// What each pair did, in the order of `pairs`; `points` as size_study() returns them.
+std::vector<PairResult> pair_results(const std::vector<BasisPair>& pairs,
+                                     const std::vector<SolvePoint>& points, double reference_error);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,58 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/app/compare/solve_point.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// The cheapest converged weighted residual with at most this error, of those whose next size, if it was
+/// solved, has converged with at most this error too: a single size may be close to the reference by chance.
+/// Where there is none of these, the cheapest of all. Of equal times the one with fewer functions.
+std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double error);
+/// Whether the next size of its series, with twice the functions and points, keeps to the error, or is none.
+bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, double error);
+
+/// How the cheapest choice of an error compares with Fourier functions on both sides.
+enum class BasisMatters {
+  no_choice,      ///< no pair reaches the error
+  little,         ///< Fourier:Fourier is the choice or takes at most twice its time
+  much,           ///< Fourier:Fourier takes more than twice its time
+  fourier_fails,  ///< Fourier:Fourier does not reach the error
+  not_compared    ///< Fourier:Fourier is not among the pairs
+};
+
+std::string_view to_string(BasisMatters value);
+
+/// What to take for an error of the displacements.
+struct Recommendation {
+  double error = 0.0;  ///< relative rms of the contact displacements
+  /// The cheapest, or that of Fourier:Fourier where it takes at most a tenth longer; empty where no pair
+  /// reaches the error.
+  std::optional<SolvePoint> choice;
+  std::optional<SolvePoint> fourier;    ///< the cheapest of Fourier:Fourier
+  std::optional<SolvePoint> runner_up;  ///< the cheapest of all other pairs, where the choice is that
+  /// One that takes at most half the time of the choice with at most 1.5 times the error.
+  std::optional<SolvePoint> near_miss;
+  BasisMatters matters = BasisMatters::no_choice;
+  std::string sentences;   ///< two
+  std::string time_table;  ///< "[time]\ntrial = ...": to be pasted into a scene; empty without a choice
+  std::string stability;   ///< of the choice's motion; empty where it was not computed
+
+  /// Time of Fourier:Fourier over that of the choice; NaN without one of them.
+  double fourier_time_ratio() const;
+};
+
+/// The recommendation from points whose errors are relative to a reference that has an error of its own.
+/// Where that is above a quarter of `error`, no pair is known to reach it. `time` holds what was the same for
+/// all points.
+Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,
+                         const Time& time);
+
+/// "54 µs", "1.8 ms", "2.1 s"
+std::string duration_text(double seconds);
+
+}  // namespace wavebalance::app

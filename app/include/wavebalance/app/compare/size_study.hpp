@@ -1,0 +1,57 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "wavebalance/app/compare/solve_point.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::app {
+
+/// What is compared: a scene, its structure composed before, and its response as it should be.
+struct MeasuredScene {
+  Scene scene;
+  StructureModel model;
+  /// Displacements and forces of all contacts at uniform points; no forces where they are not compared.
+  solvers::Motion reference;
+};
+
+/// Which sizes are solved and how each is timed.
+struct SizeStudyOptions {
+  std::vector<int> functions;            ///< rising powers of two
+  std::vector<int> points_per_function;  ///< rising
+  double max_seconds = 1.0;     ///< s: what is expected to take longer is not run, and a homotopy ends there
+  double smallest_error = 0.0;  ///< a series of sizes ends at the first one with no larger error
+  Repetition solve = {};
+  Repetition construction = {.budget = 0.0, .least = 2, .max_seconds = 0.1};
+  /// Whether an even number of Fourier functions, whose Nyquist coefficient the scene drops, is left out
+  /// beside the odd one of the same functions.
+  bool without_equals = true;
+  /// > 0: a solve ends when it takes longer than so many times the fastest that has converged with as many
+  /// functions and points, but not before 5 ms. It has not converged then.
+  double longest_ratio = 0.0;
+  /// > 0: a series of sizes ends, Fourier:Fourier apart, with the second size in a row, of 64 functions or
+  /// more, that fails or takes so many times as long as another solve with no larger error.
+  double dominated_ratio = 0.0;
+  /// Called before each size with its pair as the phase. No size is begun after it has returned false, and
+  /// one that was begun is `not_run`.
+  solvers::Observer observer = {};
+};
+
+/// The scene in every pair over functions and points, a pair of Fourier functions also with one function
+/// less: an odd number has no Nyquist coefficient. Sizes rise for all pairs together, so that an early end
+/// leaves all of them equally far; the rows are those of one series after the other.
+std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vector<BasisPair>& pairs,
+                                   const SizeStudyOptions& options);
+
+/// The scene with a pair and its sizes in place of its own, or of its tolerance.
+Scene discretised(Scene scene, const BasisPair& pair, int functions, int points);
+
+/// Relative rms errors of all contacts together; NaN where the reference is zero or missing.
+double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference);
+double force_error(const solvers::Motion& motion, const solvers::Motion& reference);
+
+}  // namespace wavebalance::app

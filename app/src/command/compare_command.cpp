@@ -1,0 +1,104 @@
+#include "command/compare_command.hpp"
+
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "command/interrupt_guard.hpp"
+#include "command/progress_bar.hpp"
+#include "command/run_report.hpp"
+#include "wavebalance/app/compare/comparison_record.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+ComparisonOptions options_of(const CompareArguments& arguments) {
+  ComparisonOptions options;
+  if (!arguments.pairs.empty()) options.pairs = parse_pairs(arguments.pairs);
+  options.budget = arguments.budget;
+  return options;
+}
+
+std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& record) {
+  std::vector<ResultFile> files;
+  files.push_back({"scene.toml", write_scene(scene), "the scene that was compared"});
+  if (!record.table.empty())
+    files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
+  files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
+  try {
+    for (const RecordPicture& picture : record.pictures)
+      files.push_back({picture.stem + ".svg", render(picture.figure, PictureFormat::svg), picture.about});
+  } catch (const PlotError& error) {
+    std::fprintf(stderr, "wavebalance: no picture: %s\n", error.what());
+  }
+  return files;
+}
+
+std::string summary_of(const CompareArguments& arguments, const ComparisonRecord& record,
+                       const std::vector<ResultFile>& files) {
+  Summary summary = record.summary;
+  summary.emplace_back("budget_seconds", arguments.budget);
+  summary.emplace_back("scene", arguments.run.scene.string());
+  summary.emplace_back("set", arguments.run.overrides);
+  summary.emplace_back("unset", arguments.run.removed);
+  summary.emplace_back("version", std::string(version()));
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
+  return json_text(summary);
+}
+
+void write_all(OutputFiles& output, const std::vector<ResultFile>& files, const std::string& summary) {
+  output.replace(files_of_record(output.directory() / "summary.json"));
+  for (const ResultFile& file : files) output.add(file.name, file.contents);
+  output.add("summary.json", summary);
+  output.commit();
+}
+
+void say(const CompareArguments& arguments, const ComparisonRecord& record,
+         const std::vector<ResultFile>& files) {
+  if (!arguments.run.quiet) {
+    std::fputs(record.text.c_str(), stdout);
+    std::string list = "summary.json";
+    for (const ResultFile& file : files) list += ", " + file.name;
+    std::printf("\nwritten to %s: %s\n", arguments.run.output.c_str(), list.c_str());
+  }
+  for (const std::string& warning : record.warnings)
+    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  if (record.interrupted)
+    std::fputs("wavebalance: interrupted; the record holds what was measured so far\n", stderr);
+  else if (!record.converged)
+    std::fprintf(stderr, "wavebalance: nothing to compare with (%s); the record says so\n",
+                 record.status.c_str());
+}
+
+}  // namespace
+
+int compare_scene(const CompareArguments& arguments) {
+  if (arguments.run.output.empty())
+    throw std::invalid_argument(
+        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  const ComparisonOptions options = options_of(arguments);
+  const Scene scene = load_scene(arguments.run.scene, arguments.run.overrides, arguments.run.removed);
+  check_comparison(scene, options);
+  OutputFiles output(arguments.run.output);
+  InterruptGuard guard(true);
+  ProgressBar bar;
+  const ComparisonRecord record = compare_bases(scene, options, [&](const Progress& progress) {
+    if (!arguments.run.quiet) bar.show(progress);
+    return guard.signal() == 0;
+  });
+  bar.finish();
+  if (record.interrupted && record.table.empty()) guard.end_program();
+  const std::vector<ResultFile> files = files_of(scene, record);
+  guard.defer();
+  write_all(output, files, summary_of(arguments, record, files));
+  say(arguments, record, files);
+  if (record.interrupted) return interrupted + guard.signal();
+  return record.converged ? solved : not_converged;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,117 @@
+#include "wavebalance/app/compare/basis_pair.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "wavebalance/app/compose/compose.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::array common_bases{"fourier", "bspline", "daubechies6", "haar"};
+
+std::string basis_label(const std::string& basis) {
+  if (basis == "fourier") return "Fourier";
+  if (basis == "haar") return "Haar";
+  if (basis == "bspline") return "B-spline";
+  return "DB" + std::to_string(daubechies_coefficients(basis));
+}
+
+struct BasisStyle {
+  const char* basis;
+  Colour colour;
+  int marker;
+};
+
+constexpr std::array<BasisStyle, 7> basis_styles{{{"fourier", Colour::blue, 1},
+                                                  {"bspline", Colour::vermillion, 2},
+                                                  {"daubechies6", Colour::green, 3},
+                                                  {"haar", Colour::purple, 4},
+                                                  {"daubechies8", Colour::sky_blue, 5},
+                                                  {"daubechies10", Colour::orange, 6},
+                                                  {"daubechies20", Colour::black, 7}}};
+
+Dash dash_of(const BasisPair& pair) {
+  if (pair.trial == pair.weight) return Dash::solid;
+  return pair.weight == "fourier"   ? Dash::dashed
+         : pair.weight == "bspline" ? Dash::dotted
+                                    : Dash::dash_dotted;
+}
+
+[[noreturn]] void refuse(std::string_view text, const std::string& why) {
+  throw std::invalid_argument("--pairs " + std::string(text) + ": " + why);
+}
+
+void check_basis(std::string_view text, const std::string& basis) {
+  try {
+    is_wavelet(basis);
+  } catch (const std::invalid_argument&) {
+    refuse(text, "\"" + basis +
+                     "\" is no basis; expected \"fourier\", \"haar\", \"bspline\" or \"daubechies\" with an "
+                     "even number");
+  }
+}
+
+BasisPair parse_pair(std::string_view text, const std::string& one) {
+  const auto colon = one.find(':');
+  if (colon == std::string::npos)
+    refuse(text, "\"" + one + "\" is no pair; expected TRIAL:WEIGHT, several with commas, such as " +
+                     "fourier:fourier,haar:fourier");
+  BasisPair pair{one.substr(0, colon), one.substr(colon + 1)};
+  check_basis(text, pair.trial);
+  check_basis(text, pair.weight);
+  return pair;
+}
+
+}  // namespace
+
+std::string name_of(const BasisPair& pair) { return pair.trial + ":" + pair.weight; }
+
+std::string label_of(const BasisPair& pair) {
+  return basis_label(pair.trial) + ":" + basis_label(pair.weight);
+}
+
+std::vector<BasisPair> parse_pairs(std::string_view text) {
+  std::vector<BasisPair> pairs;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    BasisPair pair = parse_pair(text, std::string(text.substr(begin, end - begin)));
+    if (std::find(pairs.begin(), pairs.end(), pair) != pairs.end())
+      refuse(text, name_of(pair) + " is there twice; expected each pair once");
+    pairs.push_back(std::move(pair));
+    begin = end + 1;
+  }
+  return pairs;
+}
+
+std::vector<BasisPair> common_pairs() {
+  std::vector<BasisPair> pairs;
+  for (const char* weight : common_bases)
+    for (const char* trial : common_bases) pairs.push_back({trial, weight});
+  return pairs;
+}
+
+solvers::Admissibility admissibility_of(const BasisPair& pair, const Time& time) {
+  Time tried = time;
+  tried.trial = pair.trial;
+  tried.weight = pair.weight;
+  tried.functions = 16;  // no matter how many: exponents and derivatives decide
+  tried.quadrature_points = 4 * tried.functions;
+  return pair_admissibility(tried);
+}
+
+Series styled(Series series, const BasisPair& pair) {
+  series.colour = Colour::grey;
+  series.marker = 8;
+  series.dash = dash_of(pair);
+  for (const BasisStyle& style : basis_styles)
+    if (pair.trial == style.basis) {
+      series.colour = style.colour;
+      series.marker = style.marker;
+    }
+  return series;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,164 @@
+#include "wavebalance/app/compare/comparison.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compare/size_study.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+constexpr int error_points = 1024;        // at which motions are compared
+constexpr double reference_share = 0.3;   // of the budget
+constexpr double longest_share = 0.1;     // of the budget: a single solve
+constexpr double smallest_error = 1e-8;   // a pair that reaches it is not solved with more functions
+constexpr double stability_share = 0.05;  // of the budget, kept for the stability of what is recommended
+
+double seconds_of(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+std::vector<int> doubled_sizes(int first, int largest) {
+  std::vector<int> sizes;
+  for (int size = first; size <= largest; size *= 2) sizes.push_back(size);
+  return sizes;
+}
+
+struct SplitPairs {
+  std::vector<BasisPair> admissible;
+  std::vector<PairResult> others;
+};
+
+SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options) {
+  SplitPairs split;
+  if (!options.pairs.empty()) return {options.pairs, {}};
+  for (const BasisPair& pair : common_pairs()) {
+    const auto found = admissibility_of(pair, scene.time);
+    if (found.admissible) {
+      split.admissible.push_back(pair);
+    } else {
+      PairResult other;
+      other.pair = pair;
+      other.inadmissible = found.reason;
+      split.others.push_back(std::move(other));
+    }
+  }
+  return split;
+}
+
+class ResponseComparison {
+ public:
+  ResponseComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
+      : measured_{scene, make_model(scene), {}}, options_(options), observer_(observer) {}
+
+  Comparison compare() {
+    SplitPairs pairs = split_pairs(measured_.scene, options_);
+    found_.reference =
+        find_reference(measured_.scene, measured_.model, error_points, reference_share * options_.budget,
+                       [&](const solvers::Progress&) { return goes_on("reference"); });
+    if (found_.reference.converged) {
+      measured_.reference = found_.reference.motion;
+      found_.points = size_study(measured_, pairs.admissible, size_options());
+      std::erase_if(found_.points, [](const SolvePoint& point) { return point.status == "not_run"; });
+      mark_front(found_.points);
+      add_recommendations();
+    }
+    found_.pairs = pair_results(pairs.admissible, found_.points, found_.reference.error);
+    for (PairResult& other : pairs.others) found_.pairs.push_back(std::move(other));
+    found_.wall_seconds = seconds_of(start_);
+    return std::move(found_);
+  }
+
+ private:
+  /// False after an interrupt.
+  bool goes_on(std::string_view phase) {
+    constexpr double no_value = SolvePoint::unknown;
+    if (!found_.interrupted)
+      found_.interrupted = !solvers::goes_on(
+          observer_, {phase, 0, no_value, {}, std::min(1.0, seconds_of(start_) / options_.budget)});
+    return !found_.interrupted;
+  }
+
+  SizeStudyOptions size_options() {
+    SizeStudyOptions sizes;
+    sizes.functions = doubled_sizes(options_.first_functions, options_.largest_functions);
+    sizes.points_per_function = options_.points_per_function;
+    sizes.max_seconds = longest_share * options_.budget;
+    sizes.smallest_error = std::max(smallest_error, found_.reference.error);
+    sizes.solve = {
+        .budget = std::min(0.02, 2e-4 * options_.budget), .least = 2, .max_seconds = 0.005 * options_.budget};
+    sizes.longest_ratio = 30.0;
+    sizes.dominated_ratio = 5.0;
+    sizes.construction = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
+    sizes.observer = [this](const solvers::Progress& progress) {
+      return goes_on(progress.phase) && seconds_of(start_) < (1.0 - stability_share) * options_.budget;
+    };
+    return sizes;
+  }
+
+  void add_recommendations() {
+    for (const double error : options_.errors) {
+      Recommendation one = recommend(found_.points, error, found_.reference.error, measured_.scene.time);
+      if (one.choice && measured_.scene.analysis.stability) one.stability = stability_of(*one.choice);
+      found_.recommendations.push_back(std::move(one));
+    }
+  }
+
+  /// Of the motion of a choice; of one that was recommended before, too, the same.
+  std::string stability_of(const SolvePoint& choice) {
+    for (const Recommendation& before : found_.recommendations)
+      if (before.choice && before.choice->pair == choice.pair && before.choice->points == choice.points &&
+          before.choice->functions == choice.functions)
+        return before.stability;
+    if (!goes_on("stability")) return "";
+    Scene scene = discretised(measured_.scene, choice.pair, choice.functions, choice.points);
+    scene.analysis.output_points = error_points;
+    ResponseOptions options;
+    options.stability = true;
+    const Response response = weighted_residual_response(scene, measured_.model, options);
+    return response.stability ? response.stability->status : "";
+  }
+
+  MeasuredScene measured_;
+  const ComparisonOptions& options_;
+  const solvers::Observer& observer_;
+  WallClock::time_point start_ = WallClock::now();
+  Comparison found_;
+};
+
+void check_scene_type(const Scene& scene) {
+  const AnalysisType type = scene.analysis.type;
+  if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep)
+    throw std::invalid_argument("analysis.type = \"" + name_of(type) +
+                                "\": pairs of bases are compared in a \"forced_response\" or a "
+                                "\"frequency_sweep\"");
+  if (scene.analysis.subharmonic != 1)
+    throw std::invalid_argument("analysis.subharmonic = " + std::to_string(scene.analysis.subharmonic) +
+                                ": motions of one period of the load are compared; expected 1");
+}
+
+}  // namespace
+
+void check_comparison(const Scene& scene, const ComparisonOptions& options) {
+  check_scene_type(scene);
+  if (!(options.budget > 0.0))
+    throw std::invalid_argument("budget is " + std::to_string(options.budget) + "; expected seconds > 0");
+  for (const BasisPair& pair : options.pairs) {
+    const auto found = admissibility_of(pair, scene.time);
+    if (!found.admissible)
+      throw std::invalid_argument("--pairs " + name_of(pair) + ": not an admissible pair: " + found.reason);
+  }
+}
+
+Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
+                             const solvers::Observer& observer) {
+  check_comparison(scene, options);
+  return ResponseComparison(scene, options, observer).compare();
+}
+
+}  // namespace wavebalance::app

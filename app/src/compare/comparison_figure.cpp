@@ -1,0 +1,130 @@
+#include "wavebalance/app/compare/comparison_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace wavebalance::app {
+namespace {
+
+Series time_series(const std::string& label, const std::vector<SolvePoint>& points, SeriesStyle style) {
+  std::vector<double> x, y;
+  for (const SolvePoint& point : points) {
+    x.push_back(point.seconds);
+    y.push_back(point.error);
+  }
+  return {label, x, y, style};
+}
+
+Series least_errors(const BasisPair& pair, const std::vector<SolvePoint>& points) {
+  std::map<int, double> least;
+  for (const SolvePoint& point : points_of(pair, points))
+    if (point.converged && point.error > 0.0) {
+      const auto found = least.try_emplace(point.functions, point.error).first;
+      found->second = std::min(found->second, point.error);
+    }
+  std::vector<double> x, y;
+  for (const auto& [functions, error] : least) {
+    x.push_back(functions);
+    y.push_back(error);
+  }
+  return styled({label_of(pair), x, y, SeriesStyle::line_points}, pair);
+}
+
+Panel& add_error_panel(Figure& figure, const std::string& abscissa) {
+  figure.panel_width = 900;
+  figure.panel_height = 460;
+  Panel& panel = figure.add_panel();
+  panel.x.label = abscissa;
+  panel.y.label = "Relative rms error of the contact displacement";
+  panel.x.logarithmic = panel.y.logarithmic = true;
+  panel.legend = Legend::right_of_panel;
+  return panel;
+}
+
+/// Only where errors come near it.
+void mark_reference(Panel& panel, const Comparison& comparison) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SolvePoint& point : comparison.points)
+    if (point.converged) least = std::min(least, point.error);
+  if (least < 10.0 * comparison.reference.error) panel.mark_y(comparison.reference.error);
+}
+
+}  // namespace
+
+Series pareto_front(const std::vector<SolvePoint>& points) {
+  Series one = time_series("Pareto front", envelope(points), SeriesStyle::steps);
+  one.colour = Colour::grey;
+  one.width = 5.0;
+  return one;
+}
+
+Series best_of(const BasisPair& pair, const std::vector<SolvePoint>& points) {
+  return styled(time_series(label_of(pair), envelope(points_of(pair, points)), SeriesStyle::line_points),
+                pair);
+}
+
+std::vector<BasisPair> leading_pairs(std::vector<BasisPair> pairs, const std::vector<SolvePoint>& points,
+                                     std::size_t most) {
+  const auto lead = [&](const BasisPair& pair) {
+    const auto own = points_of(pair, points);
+    return std::count_if(own.begin(), own.end(), [](const SolvePoint& point) { return point.on_front; });
+  };
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const BasisPair& a, const BasisPair& b) {
+    if (a.is_fourier() != b.is_fourier()) return a.is_fourier();
+    return lead(a) > lead(b);
+  });
+  pairs.resize(std::min(most, pairs.size()));
+  return pairs;
+}
+
+Figure error_over_time(const Comparison& comparison) {
+  Figure figure;
+  figure.title = "Error over solve time";
+  Panel& panel = add_error_panel(figure, "Solve time (processor seconds)");
+  panel.add(pareto_front(comparison.points));
+  std::vector<BasisPair> pairs;
+  for (const PairResult& pair : comparison.pairs)
+    if (pair.converged > 0) pairs.push_back(pair.pair);
+  constexpr std::size_t most = 6;
+  for (const BasisPair& pair : leading_pairs(pairs, comparison.points, most))
+    panel.add(best_of(pair, comparison.points));
+  mark_reference(panel, comparison);
+  return figure;
+}
+
+Figure error_over_functions(const Comparison& comparison) {
+  Figure figure;
+  figure.title = "Error over functions, with the best number of points";
+  Panel& panel = add_error_panel(figure, "Functions");
+  for (const PairResult& pair : comparison.pairs)
+    if (pair.converged > 0) panel.add(least_errors(pair.pair, comparison.points));
+  mark_reference(panel, comparison);
+  return figure;
+}
+
+Figure curves_figure(const SweepComparison& comparison) {
+  Figure figure;
+  figure.title = "Frequency response, the most functions of each pair";
+  figure.panel_width = 900;
+  figure.panel_height = 460;
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Frequency (Hz)";
+  panel.y.label = "Largest displacement (mm)";
+  panel.legend = Legend::right_of_panel;
+  std::set<std::string> drawn;
+  for (auto curve = comparison.curves.rbegin(); curve != comparison.curves.rend(); ++curve) {
+    if (!curve->converged() || !drawn.insert(name_of(curve->pair)).second) continue;
+    std::vector<double> millimetres = curve->displacement;
+    for (double& value : millimetres) value *= 1e3;
+    panel.add(styled({label_of(curve->pair) + ", " + std::to_string(curve->functions), curve->frequency,
+                      millimetres, SeriesStyle::line},
+                     curve->pair));
+  }
+  return figure;
+}
+
+}  // namespace wavebalance::app

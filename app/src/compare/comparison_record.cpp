@@ -1,0 +1,261 @@
+#include "wavebalance/app/compare/comparison_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "wavebalance/app/compare/comparison_figure.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double none = SolvePoint::unknown;
+
+/// The first entries of every summary.
+Summary heading(const ComparisonRecord& record, const Scene& scene, double wall_seconds) {
+  return {{"converged", record.converged},
+          {"status", record.status},
+          {"analysis", "comparison of a " + name_of(scene.analysis.type)},
+          {"wall_seconds", wall_seconds}};
+}
+
+std::string number_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("");
+}
+
+/// A line of a Markdown table; a vertical bar in a cell would end it.
+std::string markdown_line(std::vector<std::string> cells) {
+  for (std::string& cell : cells) std::replace(cell.begin(), cell.end(), '|', '/');
+  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+std::string markdown_table(const std::vector<std::string>& columns, const Table& table) {
+  std::string text = markdown_line(columns) + markdown_line(std::vector<std::string>(columns.size(), "---"));
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::vector<std::string> cells;
+    for (const std::string& column : columns) {
+      const Cell& cell = table.at(row, column);
+      const double* number = std::get_if<double>(&cell);
+      cells.push_back(number != nullptr ? number_text(*number) : cell_text(cell));
+    }
+    text += markdown_line(std::move(cells));
+  }
+  return text;
+}
+
+std::string reference_sentence(const Reference& reference) {
+  if (!reference.converged) return "No reference was found within its share of the budget.";
+  std::string text =
+      fmt::format("The reference is {}; its own error is about {:.0e}", reference.text, reference.error);
+  const std::string& stability = reference.stability.status;
+  if (stability == "stable" || stability == "unstable") text += ", its motion is " + stability;
+  return text + ".";
+}
+
+std::string counted(const Comparison& comparison) {
+  const auto converged = std::count_if(comparison.points.begin(), comparison.points.end(),
+                                       [](const SolvePoint& point) { return point.converged; });
+  return fmt::format("{} solves, {} of them converged, {:.1f} s in all.", comparison.points.size(), converged,
+                     comparison.wall_seconds);
+}
+
+std::string recommendations_text(const std::vector<Recommendation>& recommendations, bool markdown) {
+  std::string text;
+  std::string before;
+  for (const Recommendation& one : recommendations) {
+    text += "\n" + one.sentences + "\n";
+    if (one.time_table.empty()) continue;
+    const bool same = one.time_table == before;
+    before = one.time_table;
+    if (same)
+      text += "The [time] table is the one above.\n";
+    else
+      text += markdown ? "\n```toml\n" + one.time_table + "```\n" : "\n" + one.time_table;
+  }
+  return text;
+}
+
+std::vector<std::string> warnings_of(const Comparison& comparison) {
+  std::vector<std::string> warnings;
+  if (comparison.reference.stability.status == "unstable")
+    warnings.emplace_back(
+        "the motion of the reference is unstable: the structure settles to another one, and a solver may "
+        "find either");
+  constexpr int many_functions = 64;
+  constexpr double far = 0.1;
+  const auto others =
+      std::count_if(comparison.points.begin(), comparison.points.end(), [&](const SolvePoint& point) {
+        return point.converged && point.functions >= many_functions && point.error > far;
+      });
+  if (others > 0)
+    warnings.push_back(
+        fmt::format("{} converged solves with {} functions or more differ from the reference by "
+                    "more than {}: there may be another motion",
+                    others, many_functions, far));
+  for (const Recommendation& one : comparison.recommendations)
+    if (one.stability == "unstable" && comparison.reference.stability.status != "unstable")
+      warnings.push_back(fmt::format("the motion recommended for an error of {:.0e} is unstable", one.error));
+  return warnings;
+}
+
+Table front_table(const Comparison& comparison) {
+  Table table({"trial", "weight", "functions", "points", "seconds", "displacement_error"});
+  for (const SolvePoint& point : envelope(comparison.points))
+    table.append_row({point.pair.trial, point.pair.weight, std::int64_t{point.functions},
+                      std::int64_t{point.points}, point.seconds, point.error});
+  return table;
+}
+
+void add_reference(Summary& summary, const Reference& reference) {
+  summary.emplace_back("reference", reference.kind);
+  summary.emplace_back("reference_text", reference.text);
+  summary.emplace_back("reference_error", reference.error);
+  summary.emplace_back("reference_seconds", reference.wall_seconds);
+  summary.emplace_back("reference_stability", reference.stability.status);
+  summary.emplace_back("reference_unstable_multipliers", std::int64_t{reference.stability.unstable});
+}
+
+void append_inadmissible(Table& table, const PairResult& pair) {
+  table.append_row({pair.pair.trial, pair.pair.weight, false, std::int64_t{0}, std::int64_t{0},
+                    std::int64_t{0}, none, none, none, std::int64_t{0}, pair.inadmissible});
+}
+
+std::string inadmissible_text(const std::vector<PairResult>& pairs) {
+  std::string text;
+  for (const PairResult& pair : pairs)
+    if (!pair.inadmissible.empty()) text += fmt::format("- {}: {}\n", label_of(pair.pair), pair.inadmissible);
+  return text.empty() ? text : "\nNot admissible:\n\n" + text;
+}
+
+const std::string title = "# Which basis for this scene?\n\n";
+
+}  // namespace
+
+Table points_table(const Comparison& comparison) {
+  Table table({"trial", "weight", "functions", "points", "inner_products", "construction_seconds", "seconds",
+               "displacement_error", "force_error", "below_reference", "converged", "status", "on_front"});
+  for (const SolvePoint& point : comparison.points)
+    table.append_row(
+        {point.pair.trial, point.pair.weight, std::int64_t{point.functions}, std::int64_t{point.points},
+         point.inner_products, point.construction_seconds, point.seconds, point.error, point.force_error,
+         point.error <= comparison.reference.error, point.converged, point.status, point.on_front});
+  return table;
+}
+
+Table pairs_table(const Comparison& comparison) {
+  Table table({"trial", "weight", "admissible", "solves", "converged", "largest_functions", "smallest_error",
+               "order", "force_order", "order_points_per_function", "failures"});
+  for (const PairResult& pair : comparison.pairs) {
+    if (!pair.inadmissible.empty()) {
+      append_inadmissible(table, pair);
+      continue;
+    }
+    table.append_row({pair.pair.trial, pair.pair.weight, true, std::int64_t{pair.solves},
+                      std::int64_t{pair.converged}, std::int64_t{pair.largest_functions}, pair.smallest_error,
+                      pair.order, pair.force_order, std::int64_t{pair.order_points_per_function},
+                      pair.failures});
+  }
+  return table;
+}
+
+Table recommendations_table(const std::vector<Recommendation>& recommendations) {
+  Table table({"error", "trial", "weight", "functions", "quadrature_points", "seconds", "displacement_error",
+               "force_error", "fourier_functions", "fourier_seconds", "fourier_time_ratio", "basis_matters",
+               "stability", "sentences", "time_table"});
+  for (const Recommendation& one : recommendations) {
+    const SolvePoint choice = one.choice.value_or(SolvePoint{});
+    const SolvePoint fourier = one.fourier.value_or(SolvePoint{});
+    table.append_row({one.error, choice.pair.trial, choice.pair.weight, std::int64_t{choice.functions},
+                      std::int64_t{choice.points}, choice.seconds, choice.error, choice.force_error,
+                      std::int64_t{fourier.functions}, fourier.seconds, one.fourier_time_ratio(),
+                      std::string(to_string(one.matters)), one.stability, one.sentences, one.time_table});
+  }
+  return table;
+}
+
+Table curves_table(const SweepComparison& comparison) {
+  Table table({"trial", "weight", "functions", "points", "seconds", "curve_points", "max_displacement_m",
+               "frequency_at_max_displacement_Hz", "turning_points", "distance_from_finest", "status"});
+  for (const ComparedCurve& curve : comparison.curves)
+    table.append_row({curve.pair.trial, curve.pair.weight, std::int64_t{curve.functions},
+                      std::int64_t{curve.points}, curve.seconds,
+                      static_cast<std::int64_t>(curve.frequency.size()), curve.peak, curve.peak_frequency,
+                      std::int64_t{curve.turning_points}, curve.distance, curve.status});
+  return table;
+}
+
+ComparisonRecord comparison_record(const Scene& scene, const Comparison& comparison) {
+  ComparisonRecord record;
+  record.converged = comparison.converged();
+  record.interrupted = comparison.interrupted;
+  record.status = comparison.status();
+  record.warnings = warnings_of(comparison);
+  record.summary = heading(record, scene, comparison.wall_seconds);
+  add_reference(record.summary, comparison.reference);
+  record.summary.emplace_back("solves", static_cast<std::int64_t>(comparison.points.size()));
+  record.summary.emplace_back("recommendations", recommendations_table(comparison.recommendations));
+  record.summary.emplace_back("pairs", pairs_table(comparison));
+  record.summary.emplace_back("front", front_table(comparison));
+  record.summary.emplace_back("warnings", record.warnings);
+  record.table = points_table(comparison);
+  if (!envelope(comparison.points).empty()) {
+    record.pictures.push_back(
+        {"error_over_time", error_over_time(comparison), "errors over solve times with the Pareto front"});
+    record.pictures.push_back({"error_over_functions", error_over_functions(comparison),
+                               "errors over functions, the best number of points of each"});
+  }
+  const std::string opening = reference_sentence(comparison.reference) + "\n" + counted(comparison) + "\n";
+  record.text = opening + recommendations_text(comparison.recommendations, false);
+  record.markdown = title + opening + recommendations_text(comparison.recommendations, true) +
+                    "\n## Pairs\n\n" +
+                    markdown_table({"trial", "weight", "solves", "converged", "largest_functions",
+                                    "smallest_error", "order", "force_order", "failures"},
+                                   pairs_table(comparison).where("admissible", "true")) +
+                    inadmissible_text(comparison.pairs);
+  return record;
+}
+
+ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& comparison) {
+  ComparisonRecord record;
+  record.converged = comparison.converged();
+  record.interrupted = comparison.interrupted;
+  record.status = comparison.status();
+  record.table = curves_table(comparison);
+  record.summary = heading(record, scene, comparison.wall_seconds);
+  record.summary.emplace_back("curves", record.table);
+  record.text =
+      fmt::format("{} curves, {:.1f} s in all.\n", comparison.curves.size(), comparison.wall_seconds);
+  if (comparison.finest) {
+    const ComparedCurve& finest = comparison.curves[*comparison.finest];
+    record.text += fmt::format(
+        "The finest is {} with {} functions: its peak is {:.6g} m at {:.6g} Hz, and it turns {} times.\n",
+        label_of(finest.pair), finest.functions, finest.peak, finest.peak_frequency, finest.turning_points);
+    record.pictures.push_back({"sweeps", curves_figure(comparison), "the finest curve of each pair"});
+  }
+  const std::vector<std::string> shown{"trial",
+                                       "weight",
+                                       "functions",
+                                       "seconds",
+                                       "curve_points",
+                                       "max_displacement_m",
+                                       "frequency_at_max_displacement_Hz",
+                                       "turning_points",
+                                       "distance_from_finest",
+                                       "status"};
+  const std::string table = markdown_table(shown, record.table);
+  record.markdown = title + record.text + "\n" + table + inadmissible_text(comparison.inadmissible);
+  record.text += "\n" + table;
+  return record;
+}
+
+ComparisonRecord compare_bases(const Scene& scene, const ComparisonOptions& options,
+                               const solvers::Observer& observer) {
+  if (scene.analysis.type == AnalysisType::frequency_sweep)
+    return comparison_record(scene, compare_sweeps(scene, options, observer));
+  return comparison_record(scene, compare_responses(scene, options, observer));
+}
+
+}  // namespace wavebalance::app

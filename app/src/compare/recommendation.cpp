@@ -1,0 +1,232 @@
+#include "wavebalance/app/compare/recommendation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "wavebalance/app/compose/compose.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double known_share = 0.25;  // of an error that a reference may have itself
+constexpr double little_ratio = 2.0;
+
+bool reaches(const SolvePoint& point, double error) {
+  return point.method == "weighted_residual" && point.converged && point.error <= error;
+}
+
+bool is_cheaper(const SolvePoint& a, const SolvePoint& b) {
+  return std::tuple(a.seconds, a.functions, a.points) < std::tuple(b.seconds, b.functions, b.points);
+}
+
+/// "DB6:Fourier with 128 functions and 256 points"
+std::string choice_text(const SolvePoint& point) {
+  return fmt::format("{} with {} functions and {} points", label_of(point.pair), point.functions,
+                     point.points);
+}
+
+/// "3.4e-3"; with no digits "1e-3".
+std::string error_text(double error, int digits = 1) {
+  std::string text = fmt::format("{:.{}e}", error, digits);
+  if (const auto zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
+  return text;
+}
+
+std::string errors_of(const SolvePoint& point) {
+  std::string text = "error " + error_text(point.error);
+  if (point.force_error == point.force_error) text += ", of the force " + error_text(point.force_error);
+  return text;
+}
+
+std::string first_sentence(const Recommendation& found, bool steady) {
+  std::string text =
+      fmt::format("For an error of {} the cheapest is {}: {} per solve ({})", error_text(found.error, 0),
+                  choice_text(*found.choice), duration_text(found.choice->seconds), errors_of(*found.choice));
+  if (!steady) text += ", but the next size does not keep to it";
+  if (found.near_miss)
+    text += fmt::format("; {} has {} in {}", choice_text(*found.near_miss),
+                        error_text(found.near_miss->error), duration_text(found.near_miss->seconds));
+  return text + ".";
+}
+
+/// "takes 1.3 times as long"
+std::string ratio_text(double ratio) {
+  constexpr double noise = 0.1;
+  return std::abs(ratio - 1.0) < noise ? std::string("takes as long")
+                                       : fmt::format("takes {:.2g} times as long", ratio);
+}
+
+/// Of a choice that is Fourier:Fourier.
+std::string runner_up_sentence(const Recommendation& found) {
+  if (!found.runner_up) return "No other pair reaches it within the budget.";
+  const double ratio = found.runner_up->seconds / found.choice->seconds;
+  const char* opening = ratio <= little_ratio ? "The basis matters little" : "The basis matters";
+  return fmt::format("{}: the next, {}, {} ({}).", opening, choice_text(*found.runner_up), ratio_text(ratio),
+                     duration_text(found.runner_up->seconds));
+}
+
+std::string second_sentence(const Recommendation& found, const std::vector<SolvePoint>& points) {
+  const double ratio = found.fourier_time_ratio();
+  switch (found.matters) {
+    case BasisMatters::little:
+      if (found.choice->pair.is_fourier()) return runner_up_sentence(found);
+      return fmt::format("The basis matters little: {} {} ({}).", choice_text(*found.fourier),
+                         ratio_text(ratio), duration_text(found.fourier->seconds));
+    case BasisMatters::much:
+      return fmt::format("The basis matters: {} {} ({}).", choice_text(*found.fourier), ratio_text(ratio),
+                         duration_text(found.fourier->seconds));
+    case BasisMatters::fourier_fails: {
+      double least = std::numeric_limits<double>::infinity();
+      for (const SolvePoint& point : points)
+        if (point.pair.is_fourier() && reaches(point, least)) least = point.error;
+      if (least <= found.error) least = std::numeric_limits<double>::infinity();
+      return "The basis matters: Fourier:Fourier does not reach it within the budget" +
+             (std::isfinite(least) ? ", its smallest error is " + error_text(least) + "." : std::string("."));
+    }
+    case BasisMatters::no_choice:
+    case BasisMatters::not_compared:
+      break;
+  }
+  return "Fourier:Fourier was not among the pairs.";
+}
+
+/// Why there is no choice, and what came nearest.
+std::string without_choice(const std::vector<SolvePoint>& points, double error, double reference_error) {
+  const auto nearer = [](const SolvePoint& a, const SolvePoint& b) {
+    const bool first = reaches(a, std::numeric_limits<double>::infinity());
+    const bool second = reaches(b, std::numeric_limits<double>::infinity());
+    return first != second ? first : first && a.error < b.error;
+  };
+  const auto best = std::min_element(points.begin(), points.end(), nearer);
+  const std::string which = error_text(error, 0);
+  if (best == points.end() || !reaches(*best, std::numeric_limits<double>::infinity()))
+    return "No pair reaches an error of " + which +
+           " within the budget. None of the solves has converged with a known error.";
+  const std::string nearest = choice_text(*best) + " comes nearest, with " + error_text(best->error) +
+                              " in " + duration_text(best->seconds) + ".";
+  if (reference_error > known_share * error)
+    return fmt::format(
+        "Whether a pair reaches an error of {} is not known, as that of the reference is about {}. {}", which,
+        error_text(reference_error), nearest);
+  return "No pair reaches an error of " + which + " within the budget. " + nearest;
+}
+
+std::string time_table_of(const SolvePoint& point, Time time) {
+  time.trial = point.pair.trial;
+  time.weight = point.pair.weight;
+  std::string text = fmt::format(
+      "[time]\ntrial = \"{}\"\nweight = \"{}\"\nfunctions = {}\nquadrature_points = {}\nformulation = "
+      "\"{}\"\ninner_products = \"{}\"\n",
+      time.trial, time.weight, point.functions, point.points, name_of(time.formulation),
+      name_of(effective_inner_products(time)));
+  if (point.functions % 2 == 0) text += fmt::format("nyquist = \"{}\"\n", name_of(time.nyquist));
+  return text;
+}
+
+BasisMatters matters_of(const Recommendation& found, const std::vector<SolvePoint>& points) {
+  const bool compared = std::any_of(points.begin(), points.end(),
+                                    [](const SolvePoint& point) { return point.pair.is_fourier(); });
+  if (!found.choice) return BasisMatters::no_choice;
+  if (!compared) return BasisMatters::not_compared;
+  if (!found.fourier) return BasisMatters::fourier_fails;
+  return found.fourier_time_ratio() <= little_ratio ? BasisMatters::little : BasisMatters::much;
+}
+
+/// Times differ by a tenth from run to run.
+void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points) {
+  constexpr double noise = 1.1;
+  if (!found.fourier) return;
+  const bool steady = is_steady(*found.fourier, points, found.error);
+  if (steady && found.fourier->seconds <= noise * found.choice->seconds) found.choice = found.fourier;
+  if (!found.choice->pair.is_fourier()) return;
+  std::vector<SolvePoint> others = points;
+  std::erase_if(others, [](const SolvePoint& point) { return point.pair.is_fourier(); });
+  found.runner_up = cheapest(others, found.error);
+}
+
+void note_near_miss(Recommendation& found, const std::vector<SolvePoint>& points) {
+  constexpr double slightly = 1.5, much_faster = 0.5;
+  if (!found.choice) return;
+  const auto near = cheapest(points, slightly * found.error);
+  if (near && near->error > found.error && near->seconds <= much_faster * found.choice->seconds)
+    found.near_miss = near;
+}
+
+}  // namespace
+
+bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, double error) {
+  const int next = point.functions % 2 == 0 ? 2 * point.functions : 2 * point.functions + 1;
+  const auto is_next = [&](const SolvePoint& other) {
+    return other.method == point.method && other.pair == point.pair && other.functions == next &&
+           other.points == 2 * point.points && other.status != "not_run";
+  };
+  const auto found = std::find_if(points.begin(), points.end(), is_next);
+  return found == points.end() || reaches(*found, error);
+}
+
+std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double error) {
+  std::optional<SolvePoint> best;
+  bool best_is_steady = false;
+  for (const SolvePoint& point : points) {
+    if (!reaches(point, error)) continue;
+    const bool steady = is_steady(point, points, error);
+    if (best && (best_is_steady != steady ? best_is_steady : !is_cheaper(point, *best))) continue;
+    best = point;
+    best_is_steady = steady;
+  }
+  return best;
+}
+
+std::string_view to_string(BasisMatters value) {
+  switch (value) {
+    case BasisMatters::no_choice:
+      return "no_choice";
+    case BasisMatters::little:
+      return "little";
+    case BasisMatters::much:
+      return "much";
+    case BasisMatters::fourier_fails:
+      return "fourier_fails";
+    case BasisMatters::not_compared:
+      return "not_compared";
+  }
+  return "";
+}
+
+double Recommendation::fourier_time_ratio() const {
+  return choice && fourier ? fourier->seconds / choice->seconds : SolvePoint::unknown;
+}
+
+Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,
+                         const Time& time) {
+  Recommendation found;
+  found.error = error;
+  if (reference_error <= known_share * error) {
+    found.choice = cheapest(points, error);
+    found.fourier = cheapest(points_of({"fourier", "fourier"}, points), error);
+    prefer_fourier(found, points);
+  }
+  found.matters = matters_of(found, points);
+  note_near_miss(found, points);
+  if (!found.choice) {
+    found.sentences = without_choice(points, error, reference_error);
+    return found;
+  }
+  found.sentences =
+      first_sentence(found, is_steady(*found.choice, points, error)) + " " + second_sentence(found, points);
+  found.time_table = time_table_of(*found.choice, time);
+  return found;
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
+  if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+}  // namespace wavebalance::app

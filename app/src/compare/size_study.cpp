@@ -1,0 +1,213 @@
+#include "wavebalance/app/compare/size_study.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// The problem before its condensation, which is part of a solve.
+solvers::CondensedProblem uncondensed_problem(const Scene& scene, const StructureModel& model) {
+  return {make_pair(scene.time), model.structure, Eigen::Vector2cd(0.0, 1.0)};
+}
+
+double relative_error(const Eigen::MatrixXd& values, const Eigen::MatrixXd& reference) {
+  if (values.size() != reference.size() || !(reference.squaredNorm() > 0.0)) return SolvePoint::unknown;
+  return relative_rms_error(values.reshaped(), reference.reshaped());
+}
+
+/// Times of all series so far.
+class SolvedSoFar {
+ public:
+  /// `size` is the power of two that the functions are or are one less than.
+  void note(int size, const SolvePoint& point) {
+    if (!point.converged) return;
+    converged_.push_back(point);
+    const auto found = fastest_.try_emplace({size, point.points}, point.seconds).first;
+    found->second = std::min(found->second, point.seconds);
+  }
+
+  /// s, of this size, or four times that of half the size where none of it has converged; infinite where no
+  /// smaller one has either.
+  double fastest(int size, int points) const {
+    constexpr double growth = 4.0;
+    double factor = 1.0;
+    for (; size > 0 && points > 0; size /= 2, points /= 2, factor *= growth)
+      if (const auto found = fastest_.find({size, points}); found != fastest_.end())
+        return factor * found->second;
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether another solve with no larger error was `ratio` times as fast. A failure has an infinite error.
+  bool dominates(const SolvePoint& point, double ratio) const {
+    if (!point.converged) return !converged_.empty();
+    return std::any_of(converged_.begin(), converged_.end(), [&](const SolvePoint& other) {
+      return other.error <= point.error && ratio * other.seconds <= point.seconds;
+    });
+  }
+
+ private:
+  std::vector<SolvePoint> converged_;
+  std::map<std::pair<int, int>, double> fastest_;
+};
+
+/// Sizes of one pair with one number of points per function.
+class SizeSeries {
+ public:
+  SizeSeries(const MeasuredScene& measured, const SizeStudyOptions& options, SolvedSoFar& solved,
+             BasisPair pair, int points_per_function, int change)
+      : measured_(measured),
+        options_(options),
+        solved_(solved),
+        pair_(std::move(pair)),
+        points_per_function_(points_per_function),
+        change_(change),
+        limit_(options.max_seconds) {}
+
+  std::vector<SolvePoint>& points() { return points_; }
+
+  /// Solves the next size.
+  void add(int functions) {
+    if (ended_) return;
+    const int number = functions + change_;
+    const Scene scene = discretised(measured_.scene, pair_, number, functions * points_per_function_);
+    points_.push_back(blank(scene.time));
+    phase_ = name_of(pair_) + ", " + std::to_string(number) + " functions";
+    if (!limit_.allows() || !goes_on()) {
+      points_.back().status = "not_run";
+      return;
+    }
+    SolvePoint& point = points_.back();
+    max_seconds_ = longest_solve(functions, point.points);
+    measure(scene, point);
+    if (point.status != "singular") limit_.took(point.seconds);
+    solved_.note(functions, point);
+    ended_ = (point.converged && point.error <= options_.smallest_error) || is_hopeless(functions, point);
+  }
+
+ private:
+  double longest_solve(int functions, int points) const {
+    constexpr double least = 5e-3;
+    if (!(options_.longest_ratio > 0.0)) return options_.max_seconds;
+    const double longest = std::max(least, options_.longest_ratio * solved_.fastest(functions, points));
+    return std::min(options_.max_seconds, longest);
+  }
+
+  bool is_hopeless(int functions, const SolvePoint& point) {
+    constexpr int fewest_functions = 64, most_in_a_row = 2;
+    const bool applies =
+        options_.dominated_ratio > 0.0 && !pair_.is_fourier() && functions >= fewest_functions;
+    dominated_ = applies && solved_.dominates(point, options_.dominated_ratio) ? dominated_ + 1 : 0;
+    return dominated_ >= most_in_a_row;
+  }
+
+  SolvePoint blank(const Time& time) const {
+    SolvePoint point;
+    point.pair = pair_;
+    point.inner_products = name_of(effective_inner_products(time));
+    point.functions = time.functions;
+    point.points = time.quadrature_points;
+    return point;
+  }
+
+  bool goes_on() const { return solvers::goes_on(options_.observer, {phase_}); }
+
+  solvers::PeriodicResponse solve(solvers::CondensedProblem& problem,
+                                  const solvers::ContactLaws& laws) const {
+    problem.set_frequency(measured_.scene.forcing.frequency);
+    solvers::ForcedResponseOptions options;
+    options.form = measured_.scene.contact.form;
+    // Ends a solve that takes too long; it has not converged then.
+    options.observer = [&, start = processor_seconds()](const solvers::Progress&) {
+      return processor_seconds() - start < max_seconds_ && goes_on();
+    };
+    return solvers::forced_response(problem, laws, options);
+  }
+
+  void measure(const Scene& scene, SolvePoint& point) const {
+    point.construction_seconds =
+        least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
+    solvers::CondensedProblem problem = uncondensed_problem(scene, measured_.model);
+    const solvers::ContactLaws laws = make_laws(scene);
+    solvers::PeriodicResponse response;
+    try {
+      point.seconds = least_seconds([&] { response = solve(problem, laws); }, options_.solve);
+    } catch (const solvers::SingularSystem&) {
+      point.status = "singular";
+      return;
+    }
+    point.status = to_string(response.status);
+    if (response.status == solvers::SolveStatus::cancelled && !goes_on()) {
+      point.status = "not_run";
+      return;
+    }
+    point.converged = response.converged();
+    const auto motion = solvers::contact_motion(problem, response, laws,
+                                                static_cast<int>(measured_.reference.displacement.cols()));
+    point.error = displacement_error(motion, measured_.reference);
+    point.force_error = force_error(motion, measured_.reference);
+  }
+
+  const MeasuredScene& measured_;
+  const SizeStudyOptions& options_;
+  SolvedSoFar& solved_;
+  BasisPair pair_;
+  int points_per_function_;
+  int change_;
+  TimeLimit limit_;
+  std::string phase_;
+  std::vector<SolvePoint> points_;
+  double max_seconds_ = 0.0;  // of the solve that is begun
+  int dominated_ = 0;         // sizes in a row
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Scene discretised(Scene scene, const BasisPair& pair, int functions, int points) {
+  scene.time.trial = pair.trial;
+  scene.time.weight = pair.weight;
+  scene.time.functions = functions;
+  scene.time.quadrature_points = points;
+  scene.time.tolerance = 0.0;
+  return scene;
+}
+
+double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference) {
+  return relative_error(motion.displacement, reference.displacement);
+}
+
+double force_error(const solvers::Motion& motion, const solvers::Motion& reference) {
+  return relative_error(motion.force, reference.force);
+}
+
+std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vector<BasisPair>& pairs,
+                                   const SizeStudyOptions& options) {
+  const bool dropped = measured.scene.time.nyquist == NyquistCoefficient::drop;
+  SolvedSoFar solved;
+  std::vector<SizeSeries> all;
+  for (const BasisPair& pair : pairs)
+    for (const int points : options.points_per_function) {
+      if (!pair.is_fourier() || !dropped || !options.without_equals)
+        all.emplace_back(measured, options, solved, pair, points, 0);
+      if (pair.is_fourier()) all.emplace_back(measured, options, solved, pair, points, -1);
+    }
+  for (const int functions : options.functions)
+    for (SizeSeries& series : all) series.add(functions);
+  std::vector<SolvePoint> points;
+  for (SizeSeries& series : all)
+    points.insert(points.end(), std::make_move_iterator(series.points().begin()),
+                  std::make_move_iterator(series.points().end()));
+  return points;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,34 @@
+#include "wavebalance/app/compare/solve_point.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace wavebalance::app {
+
+void mark_front(std::vector<SolvePoint>& points) {
+  for (SolvePoint& point : points) {
+    const auto beats = [&point](const SolvePoint& other) {
+      return other.converged && other.seconds <= point.seconds && other.error <= point.error &&
+             (other.seconds < point.seconds || other.error < point.error);
+    };
+    point.on_front = point.converged && std::none_of(points.begin(), points.end(), beats);
+  }
+}
+
+std::vector<SolvePoint> envelope(std::vector<SolvePoint> points) {
+  mark_front(points);
+  std::erase_if(points, [](const SolvePoint& point) { return !point.on_front; });
+  std::sort(points.begin(), points.end(),
+            [](const SolvePoint& a, const SolvePoint& b) { return a.seconds < b.seconds; });
+  return points;
+}
+
+std::vector<SolvePoint> points_of(const BasisPair& pair, const std::vector<SolvePoint>& points) {
+  std::vector<SolvePoint> own;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(own), [&](const SolvePoint& point) {
+    return point.method == "weighted_residual" && point.pair == pair;
+  });
+  return own;
+}
+
+}  // namespace wavebalance::app

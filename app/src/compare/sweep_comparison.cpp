@@ -1,0 +1,180 @@
+#include "wavebalance/app/compare/sweep_comparison.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr int first_size = 8, last_size = 1 << 14;
+
+using Point = std::complex<double>;
+
+std::vector<Point> scaled_curve(const ComparedCurve& curve, double interval, double height) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < curve.frequency.size(); ++i)
+    points.emplace_back(curve.frequency[i] / interval, curve.displacement[i] / height);
+  return points;
+}
+
+double distance_from_line(Point point, Point begin, Point end) {
+  const Point line = end - begin, to = point - begin;
+  const double share =
+      std::norm(line) > 0.0 ? std::clamp((to * std::conj(line)).real() / std::norm(line), 0.0, 1.0) : 0.0;
+  return std::abs(to - share * line);
+}
+
+double largest_distance(const std::vector<Point>& from, const std::vector<Point>& curve) {
+  double largest = 0.0;
+  for (const Point point : from) {
+    double least = std::abs(point - curve.front());
+    for (std::size_t i = 1; i < curve.size(); ++i)
+      least = std::min(least, distance_from_line(point, curve[i - 1], curve[i]));
+    largest = std::max(largest, least);
+  }
+  return largest;
+}
+
+/// The scene's own, rounded up to a power of two.
+int points_of_scene(const Scene& scene) {
+  const int least = (scene.time.quadrature_points + scene.time.functions - 1) / scene.time.functions;
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(least)));
+}
+
+ComparedCurve curve_of(const Scene& scene, const BasisPair& pair, const Sweep& sweep, double seconds) {
+  ComparedCurve curve;
+  curve.pair = pair;
+  curve.functions = scene.time.functions;
+  curve.points = scene.time.quadrature_points;
+  curve.status = sweep.status();
+  curve.seconds = seconds;
+  curve.turning_points = static_cast<int>(sweep.curve.turning_points.size());
+  for (const auto& point : sweep.curve.points) {
+    curve.frequency.push_back(point.frequency);
+    curve.displacement.push_back(point.max_displacement);
+    if (point.max_displacement <= curve.peak) continue;  // the first is no less than NaN
+    curve.peak = point.max_displacement;
+    curve.peak_frequency = point.frequency;
+  }
+  return curve;
+}
+
+class CurveComparison {
+ public:
+  CurveComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
+      : scene_(scene), model_(make_model(scene)), options_(options), observer_(observer) {
+    scene_.analysis.stability = scene_.analysis.branches = false;
+  }
+
+  SweepComparison compare() {
+    std::vector<BasisPair> pairs = options_.pairs;
+    if (pairs.empty())
+      for (const BasisPair& pair : common_pairs()) admit(pair, pairs);
+    std::vector<TimeLimit> limits(pairs.size(), TimeLimit(longest_share * options_.budget));
+    for (int size = first_size; size <= last_size && goes_on({}); size *= 2)
+      for (std::size_t i = 0; i < pairs.size() && goes_on({}); ++i)
+        if (limits[i].allows()) {
+          add(pairs[i], size);
+          limits[i].took(found_.curves.back().seconds);
+        }
+    compare_with_finest();
+    found_.wall_seconds = elapsed();
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr double longest_share = 0.4;  // of the budget: a single curve
+
+  double elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  void admit(const BasisPair& pair, std::vector<BasisPair>& pairs) {
+    const auto admissible = admissibility_of(pair, scene_.time);
+    if (admissible.admissible) return pairs.push_back(pair);
+    PairResult other;
+    other.pair = pair;
+    other.inadmissible = admissible.reason;
+    found_.inadmissible.push_back(std::move(other));
+  }
+
+  bool goes_on(std::string_view phase) {
+    if (!found_.interrupted)
+      found_.interrupted = !solvers::goes_on(observer_, {phase,
+                                                         static_cast<int>(found_.curves.size()),
+                                                         SolvePoint::unknown,
+                                                         {},
+                                                         std::min(1.0, elapsed() / options_.budget)});
+    return !found_.interrupted && elapsed() < options_.budget;
+  }
+
+  void add(const BasisPair& pair, int size) {
+    const int functions = pair.is_fourier() ? size - 1 : size;
+    const Scene scene = discretised(scene_, pair, functions, size * points_of_scene(scene_));
+    const std::string phase = name_of(pair) + ", " + std::to_string(functions) + " functions";
+    const double start = processor_seconds();
+    try {
+      const Sweep sweep =
+          frequency_sweep(scene, model_, [&](const solvers::Progress&) { return goes_on(phase); });
+      found_.curves.push_back(curve_of(scene, pair, sweep, processor_seconds() - start));
+    } catch (const solvers::SingularSystem&) {
+      found_.curves.push_back(curve_of(scene, pair, Sweep{}, processor_seconds() - start));
+      found_.curves.back().status = "singular";
+    }
+    ComparedCurve& last = found_.curves.back();
+    if (last.status == "interrupted" && !found_.interrupted) last.status = "out_of_time";
+  }
+
+  void compare_with_finest() {
+    for (std::size_t i = 0; i < found_.curves.size(); ++i) {
+      const ComparedCurve& one = found_.curves[i];
+      if (one.converged() && (!found_.finest || one.functions + one.functions % 2 > size_of_finest()))
+        found_.finest = i;
+    }
+    if (!found_.finest) return;
+    const ComparedCurve& finest = found_.curves[*found_.finest];
+    const double interval = std::abs(scene_.analysis.frequency_to - scene_.analysis.frequency_from);
+    for (ComparedCurve& one : found_.curves)
+      if (one.converged()) one.distance = curve_distance(one, finest, interval);
+  }
+
+  int size_of_finest() const {
+    const int functions = found_.curves[*found_.finest].functions;
+    return functions + functions % 2;
+  }
+
+  Scene scene_;
+  StructureModel model_;
+  const ComparisonOptions& options_;
+  const solvers::Observer& observer_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  SweepComparison found_;
+};
+
+}  // namespace
+
+double curve_distance(const ComparedCurve& a, const ComparedCurve& b, double interval) {
+  if (a.frequency.empty() || b.frequency.empty()) return SolvePoint::unknown;
+  double height = 0.0;
+  for (const double value : b.displacement) height = std::max(height, std::abs(value));
+  if (!(height > 0.0)) return SolvePoint::unknown;
+  const auto first = scaled_curve(a, interval, height), second = scaled_curve(b, interval, height);
+  return std::max(largest_distance(first, second), largest_distance(second, first));
+}
+
+SweepComparison compare_sweeps(const Scene& scene, const ComparisonOptions& options,
+                               const solvers::Observer& observer) {
+  check_comparison(scene, options);
+  return CurveComparison(scene, options, observer).compare();
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "support/command.hpp"
+#include "support/scene_texts.hpp"
+#include "support/temporary_folder.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/table.hpp"
+
+namespace {
+
+using namespace wavebalance::app;
+namespace fs = std::filesystem;
+
+Outcome compare(const TemporaryFolder& folder, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"compare", folder.write("case.toml", bar_scene), "--output",
+                                     folder / "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run(folder, std::move(arguments));
+}
+
+TEST(CommandCompare, WritesItsFilesAndSaysWhatToTake) {
+  const TemporaryFolder folder;
+  const Outcome outcome = compare(folder, {"--pairs", "fourier:fourier,haar:fourier", "--budget", "2"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* name : {"summary.json", "comparison.csv", "comparison.md", "error_over_time.svg",
+                           "error_over_functions.svg", "scene.toml"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
+  EXPECT_NE(outcome.output.find("The reference is shooting"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("For an error of 1e-2 the cheapest is "), std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("[time]\ntrial = \""), std::string::npos) << outcome.output;
+  const Table table = read_csv(folder / "out" / "comparison.csv");
+  EXPECT_GT(table.where("trial", "haar").rows(), 4u);
+  EXPECT_GT(table.where("on_front", "true").rows(), 2u);
+  const std::string summary = read_file(folder / "out" / "summary.json");
+  for (const char* part : {"\"converged\": true", "\"reference\": \"shooting\"", "\"time_table\": \"[time]",
+                           "\"basis_matters\": ", "\"budget_seconds\": 2.0", "\"fourier_time_ratio\": "})
+    EXPECT_NE(summary.find(part), std::string::npos) << part;
+  EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(folder / "case.toml"));
+}
+
+TEST(CommandCompare, OfASweepDrawsTheCurvesOverEachOther) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      compare(folder, {"--pairs", "fourier:fourier,bspline:bspline", "--budget", "2", "--set",
+                       "analysis.type=frequency_sweep", "--set", "analysis.frequency_from=100", "--set",
+                       "analysis.frequency_to=110"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* name : {"summary.json", "comparison.csv", "comparison.md", "sweeps.svg", "scene.toml"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  const Table table = read_csv(folder / "out" / "comparison.csv");
+  EXPECT_GT(table.where("status", "reached_end").rows(), 2u);
+}
+
+TEST(CommandCompare, WrongPairsBudgetsKeysAndAnalysesAreTwoAndNameWhatIsAllowed) {
+  struct Wrong {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const std::vector<Wrong> wrong{
+      {{"--pairs", "haar:haar"}, "wavebalance: --pairs haar:haar: not an admissible pair: "},
+      {{"--pairs", "harr:fourier"}, "\"harr\" is no basis; expected \"fourier\", \"haar\""},
+      {{"--pairs", "haar"}, "\"haar\" is no pair; expected TRIAL:WEIGHT"},
+      {{"--budget", "0"}, "--budget"},
+      {{"--set", "contact.gab=1"}, "unknown key; did you mean contact.gap?"},
+      {{"--set", "analysis.type=time_stepping"},
+       "analysis.type = \"time_stepping\": pairs of bases are compared"},
+  };
+  for (const Wrong& one : wrong) {
+    const TemporaryFolder folder;
+    const Outcome outcome = compare(folder, one.arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << one.message;
+    EXPECT_NE(outcome.errors.find(one.message), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+TEST(CommandCompare, WithoutAReferenceIsThreeWithTheRecord) {
+  const TemporaryFolder folder;
+  const Outcome outcome = compare(folder, {"--budget", "1e-6"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("nothing to compare with (no_reference)"), std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"converged\": false"), std::string::npos);
+}
+
+TEST(CommandCompare, InterruptedWritesWhatWasMeasuredSoFar) {
+  const TemporaryFolder folder;
+  Command command(
+      folder,
+      {"compare", folder.write("case.toml", bar_scene), "--output", folder / "out", "--budget", "600"},
+      WAVEBALANCE_COMMAND);
+  for (int i = 0; i < 1200 && read_file(folder / "stderr").find(" functions") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  command.send(SIGINT);
+  const Outcome outcome = command.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the record holds what was measured so far"), std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"status\": \"interrupted\""),
+            std::string::npos);
+  EXPECT_GT(read_csv(folder / "out" / "comparison.csv").rows(), 1u);
+}
+
+}  // namespace

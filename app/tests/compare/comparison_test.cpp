@@ -1,0 +1,272 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "support/bar_scene.hpp"
+#include "support/chain_files.hpp"
+#include "support/summary_value.hpp"
+#include "support/temporary_folder.hpp"
+#include "wavebalance/app/compare/comparison_record.hpp"
+#include "wavebalance/app/compare/size_study.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+const std::vector<BasisPair> two_pairs{{"fourier", "fourier"}, {"bspline", "bspline"}};
+
+ComparisonOptions brief(double budget = 1.0) {
+  ComparisonOptions options;
+  options.pairs = two_pairs;
+  options.budget = budget;
+  options.largest_functions = 256;
+  return options;
+}
+
+/// Re (K + i w C - w^2 M)^-1 load exp(i w t) at the contact.
+Eigen::RowVectorXd linear_response(const Scene& scene, int points) {
+  const auto structure = make_model(scene).structure;
+  const double omega = 2.0 * std::numbers::pi * scene.forcing.frequency;
+  const std::complex<double> i(0.0, 1.0);
+  const Eigen::MatrixXcd stiffness = Eigen::MatrixXd(structure.stiffness).cast<std::complex<double>>() +
+                                     i * omega * Eigen::MatrixXd(structure.damping) -
+                                     omega * omega * Eigen::MatrixXd(structure.mass);
+  const Eigen::VectorXcd amplitude = stiffness.lu().solve(structure.load.cast<std::complex<double>>());
+  const std::complex<double> tip = amplitude[amplitude.size() - 1];
+  Eigen::RowVectorXd values(points);
+  for (int l = 0; l < points; ++l)
+    values[l] = (tip * std::exp(2.0 * std::numbers::pi * i * double(l) / double(points))).real();
+  return values;
+}
+
+TEST(Comparison, OfALinearSceneIsWithTheClosedFormAndThreeFourierFunctionsAreExact) {
+  const Scene scene = scene_of({"contact.gap=1.0"});
+  const Comparison found = compare_responses(scene, brief());
+  EXPECT_EQ(found.reference.kind, "linear");
+  EXPECT_EQ(found.reference.stability.status, "stable");
+  const Eigen::RowVectorXd exact = linear_response(scene, found.reference.motion.points());
+  EXPECT_LT((found.reference.motion.displacement - exact).norm() / exact.norm(), 1e-12);
+  ASSERT_FALSE(found.points.empty());
+  EXPECT_EQ(found.points.front().functions, 3);
+  EXPECT_LT(found.points.front().error, 1e-12);
+  ASSERT_EQ(found.recommendations.size(), 3u);
+  for (const Recommendation& one : found.recommendations) EXPECT_EQ(one.choice->functions, 3);
+  // Splines approximate a cosine: never exact.
+  EXPECT_GT(found.pairs[1].smallest_error, 1e-10);
+}
+
+TEST(Comparison, WithoutAnObstacleIsWithTheLinearResponse) {
+  const Scene scene =
+      parse_scene(bar_scene, "case.toml", std::vector<std::string>{"contact.law=none"},
+                  std::vector<std::string>{"contact.constant", "contact.exponent", "contact.gap"});
+  EXPECT_EQ(find_reference(scene, make_model(scene), 64, 1.0).kind, "linear");
+}
+
+TEST(Comparison, OfAnElasticContactIsWithShootingAndItsRecommendationsHoldWhenPasted) {
+  const Scene scene = scene_of();
+  const Comparison found = compare_responses(scene, brief(2.0));
+  EXPECT_EQ(found.reference.kind, "shooting");
+  EXPECT_TRUE(found.converged());
+  ASSERT_TRUE(found.recommendations.front().choice);
+  const Recommendation& one = found.recommendations.front();
+  EXPECT_EQ(one.stability, "stable");
+  EXPECT_LE(one.choice->error, 1e-2);
+  const auto begin = bar_scene.find("[time]");
+  std::string pasted = bar_scene;
+  pasted.replace(begin, bar_scene.find("[analysis]") - begin, one.time_table);
+  const Response again = weighted_residual_response(parse_scene(pasted, "pasted.toml"));
+  ASSERT_TRUE(again.converged);
+  EXPECT_NEAR(displacement_error(again.contacts, found.reference.motion), one.choice->error, 1e-9);
+  EXPECT_NEAR(force_error(again.contacts, found.reference.motion), one.choice->force_error, 1e-6);
+  // Order 2 of the points, at least, where the force has kinks.
+  EXPECT_GT(found.pairs[0].order, 1.5);
+}
+
+TEST(Comparison, OfSeveralContactsIsWithTheRefinedBalanceWhichTimeSteppingConfirms) {
+  // Shooting takes one contact, and the chain has two.
+  const TemporaryFolder folder;
+  write_chain(folder);
+  const std::vector<std::string> away_from_resonance{"forcing.frequency=30", "forcing.amplitude=300",
+                                                     "structure.modal_damping=0.1"};
+  const Scene scene = load_scene(folder.write("chain.toml", chain_scene), away_from_resonance);
+  const Reference reference = find_reference(scene, make_model(scene), 1024, 5.0);
+  ASSERT_TRUE(reference.converged) << reference.status;
+  EXPECT_EQ(reference.kind, "finer_balance");
+  EXPECT_LT(reference.error, 1e-4);
+  Scene integrated = scene;
+  integrated.analysis.type = AnalysisType::time_stepping;
+  integrated.analysis.tolerance = 1e-8;
+  const Response stepped = time_stepping_response(integrated);
+  ASSERT_TRUE(stepped.converged) << stepped.status;
+  EXPECT_LT(displacement_error(stepped.contacts, reference.motion), 1e-4);
+}
+
+TEST(Comparison, OfARigidBarIsWithLinearMotionsJoinedWhereContactOpensAndCloses) {
+  const Scene scene = load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case1_rigid.toml");
+  ComparisonOptions options = brief(3.0);
+  options.largest_functions = 64;
+  options.errors = {1e-2};
+  const Comparison found = compare_responses(scene, options);
+  EXPECT_EQ(found.reference.kind, "rigid_flows");
+  EXPECT_LT(found.reference.error, 1e-11);
+  ASSERT_TRUE(found.recommendations.front().choice);
+}
+
+TEST(Comparison, TakesBothNumbersOfFourierFunctionsOnlyWhereTheSceneKeepsTheNyquistCoefficient) {
+  const auto evens = [](const std::string& nyquist) {
+    const Comparison found =
+        compare_responses(scene_of({"contact.gap=1.0", "time.nyquist=" + nyquist}), brief());
+    return std::count_if(found.points.begin(), found.points.end(), [](const SolvePoint& point) {
+      return point.pair.is_fourier() && point.functions % 2 == 0;
+    });
+  };
+  EXPECT_EQ(evens("drop"), 0);
+  EXPECT_GT(evens("keep"), 0);
+}
+
+TEST(Comparison, OfNoNamedPairsTakesEveryAdmissibleOneAndSaysWhyTheOthersAreNot) {
+  ComparisonOptions options = brief();
+  options.pairs.clear();
+  options.largest_functions = 8;
+  options.points_per_function = {2};
+  const Comparison found = compare_responses(scene_of(), options);
+  ASSERT_EQ(found.pairs.size(), 16u);
+  EXPECT_EQ(found.pairs.front().pair, (BasisPair{"fourier", "fourier"}));
+  for (const PairResult& pair : found.pairs) {
+    if (pair.pair == BasisPair{"haar", "haar"}) {
+      EXPECT_FALSE(pair.inadmissible.empty());
+    }
+    EXPECT_EQ(pair.inadmissible.empty(), pair.solves > 0) << name_of(pair.pair);
+  }
+}
+
+TEST(Comparison, RefusesWhatItCannotCompareAndSaysWhatIsAllowed) {
+  const auto message = [](const Scene& scene, const ComparisonOptions& options) -> std::string {
+    try {
+      compare_responses(scene, options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  ComparisonOptions inadmissible = brief();
+  inadmissible.pairs = {{"haar", "haar"}};
+  EXPECT_EQ(message(scene_of(), inadmissible).find("--pairs haar:haar: not an admissible pair: "), 0u);
+  EXPECT_NE(
+      message(scene_of({"analysis.type=time_stepping"}), brief()).find("analysis.type = \"time_stepping\""),
+      std::string::npos);
+  EXPECT_NE(message(scene_of({"analysis.subharmonic=2"}), brief()).find("analysis.subharmonic = 2"),
+            std::string::npos);
+  EXPECT_NE(message(scene_of(), brief(0.0)).find("budget is 0"), std::string::npos);
+}
+
+TEST(Comparison, ThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
+  const Comparison whole = compare_responses(scene_of(), brief());
+  bool seen = false;
+  const Comparison found = compare_responses(scene_of(), brief(), [&](const Progress& progress) {
+    seen = seen || progress.phase == "bspline:bspline, 16 functions";
+    return !seen;
+  });
+  EXPECT_TRUE(seen && found.interrupted);
+  EXPECT_FALSE(found.converged());
+  EXPECT_EQ(found.status(), "interrupted");
+  EXPECT_FALSE(found.points.empty());
+  EXPECT_LT(found.points.size(), whole.points.size());
+  for (const SolvePoint& point : found.points) EXPECT_LE(point.functions, 16);
+  const ComparisonRecord record = comparison_record(scene_of(), found);
+  EXPECT_EQ(value_of<std::string>(record.summary, "status"), "interrupted");
+  EXPECT_EQ(record.table.rows(), found.points.size());
+}
+
+TEST(Comparison, WithoutTimeForAReferenceSaysSo) {
+  const Comparison found = compare_responses(scene_of(), brief(1e-6));
+  EXPECT_FALSE(found.converged());
+  EXPECT_EQ(found.status(), "no_reference");
+  EXPECT_TRUE(found.points.empty() && found.recommendations.empty());
+}
+
+TEST(PairResults, CountFailuresByStatusAndFitTheOrderAboveTheErrorOfTheReference) {
+  std::vector<SolvePoint> points;
+  for (int functions = 8; functions <= 128; functions *= 2) {
+    SolvePoint point;
+    point.pair = {"bspline", "bspline"};
+    point.functions = functions;
+    point.points = 2 * functions;
+    point.converged = functions != 8;
+    point.status = point.converged ? "converged" : "stalled";
+    point.error = std::max(std::pow(functions, -3.0), 1e-6);  // a floor below twice that of the reference
+    point.force_error = std::pow(functions, -1.0);
+    points.push_back(point);
+  }
+  const PairResult found = pair_results({{"bspline", "bspline"}}, points, 1e-6).front();
+  EXPECT_EQ(found.solves, 5);
+  EXPECT_EQ(found.converged, 4);
+  EXPECT_NEAR(found.order, 3.0, 1e-9);
+  EXPECT_NEAR(found.force_order, 1.0, 1e-9);
+  EXPECT_EQ(found.order_points_per_function, 2);
+  EXPECT_EQ(found.failures, "1 stalled (8 functions)");
+}
+
+TEST(BasisPairs, AreReadFromTextAndErrorsNameWhatIsWrong) {
+  EXPECT_EQ(parse_pairs("fourier:fourier,haar:fourier"),
+            (std::vector<BasisPair>{{"fourier", "fourier"}, {"haar", "fourier"}}));
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      parse_pairs(text);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("haar").find("\"haar\" is no pair; expected TRIAL:WEIGHT"), std::string::npos);
+  EXPECT_NE(message("harr:fourier").find("\"harr\" is no basis; expected \"fourier\""), std::string::npos);
+  EXPECT_NE(message("haar:fourier,haar:fourier").find("haar:fourier is there twice"), std::string::npos);
+  EXPECT_NE(message("haar:fourier,").find("\"\" is no pair"), std::string::npos);
+  EXPECT_EQ(label_of({"daubechies6", "bspline"}), "DB6:B-spline");
+}
+
+TEST(SweepComparison, LaysCurvesOfSeveralPairsOverTheFinest) {
+  ComparisonOptions options = brief(20.0);
+  options.largest_functions = 64;
+  std::vector<std::string> sweep{"analysis.type=frequency_sweep", "analysis.frequency_from=100",
+                                 "analysis.frequency_to=160", "time.functions=16",
+                                 "time.quadrature_points=64"};
+  // Time for a few sizes only.
+  int most = 0;
+  const SweepComparison found = compare_sweeps(scene_of(sweep), options, [&](const Progress& progress) {
+    most = progress.step;
+    return progress.step < 6;
+  });
+  EXPECT_EQ(most, 6);
+  EXPECT_TRUE(found.interrupted);
+  ASSERT_GE(found.curves.size(), 6u);
+  ASSERT_TRUE(found.finest);
+  const ComparedCurve& finest = found.curves[*found.finest];
+  EXPECT_EQ(finest.functions, 31);
+  EXPECT_EQ(finest.points, 128);
+  EXPECT_EQ(finest.distance, 0.0);
+  const ComparedCurve& coarse = found.curves.front();
+  EXPECT_TRUE(coarse.converged());
+  EXPECT_GT(coarse.distance, 0.0);
+  EXPECT_LT(coarse.distance, 0.1);
+  EXPECT_NEAR(coarse.peak, finest.peak, 0.1 * finest.peak);
+  EXPECT_GE(finest.peak_frequency, 100.0);
+  EXPECT_LE(finest.peak_frequency, 160.0);
+}
+
+TEST(SweepComparison, MeasuresTheLargestDistanceBothWaysInUnitsOfTheWindow) {
+  ComparedCurve a, b;
+  a.frequency = {0.0, 10.0};
+  a.displacement = {1.0, 1.0};
+  b.frequency = {0.0, 5.0, 10.0};
+  b.displacement = {1.0, 2.0, 1.0};  // its height is 2
+  EXPECT_NEAR(curve_distance(a, b, 10.0), 0.5, 1e-12);
+  EXPECT_NEAR(curve_distance(b, b, 10.0), 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(curve_distance(a, ComparedCurve{}, 10.0)));
+}
+
+}  // namespace
+}  // namespace wavebalance::app

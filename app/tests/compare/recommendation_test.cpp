@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "wavebalance/app/compare/recommendation.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+const BasisPair fourier{"fourier", "fourier"}, spline{"bspline", "bspline"}, haar{"haar", "fourier"};
+
+SolvePoint solved(const BasisPair& pair, int functions, double seconds, double error) {
+  SolvePoint point;
+  point.pair = pair;
+  point.functions = functions;
+  point.points = 2 * (functions + functions % 2);
+  point.seconds = seconds;
+  point.error = error;
+  point.converged = true;
+  point.status = "converged";
+  return point;
+}
+
+SolvePoint failed(const BasisPair& pair, int functions, double seconds) {
+  SolvePoint point = solved(pair, functions, seconds, 1e-9);
+  point.converged = false;
+  point.status = "stalled";
+  return point;
+}
+
+Recommendation recommended(const std::vector<SolvePoint>& points, double error, double reference = 1e-11) {
+  return recommend(points, error, reference, Time{});
+}
+
+TEST(Recommendation, IsTheCheapestThatReachesTheErrorAndSaysHowMuchLongerFourierTakes) {
+  const auto found = recommended({solved(fourier, 63, 8e-4, 5e-3), solved(fourier, 31, 1e-5, 5e-2),
+                                  solved(spline, 64, 1e-4, 9e-3), solved(haar, 64, 2e-4, 1e-3)},
+                                 1e-2);
+  ASSERT_TRUE(found.choice && found.fourier);
+  EXPECT_EQ(found.choice->pair, spline);
+  EXPECT_EQ(found.matters, BasisMatters::much);
+  EXPECT_DOUBLE_EQ(found.fourier_time_ratio(), 8.0);
+  EXPECT_EQ(found.sentences,
+            "For an error of 1e-2 the cheapest is B-spline:B-spline with 64 functions and 128 points: 100 µs "
+            "per solve (error 9.0e-3). The basis matters: Fourier:Fourier with 63 functions and 128 points "
+            "takes 8 times as long (800 µs).");
+}
+
+TEST(Recommendation, SaysThatTheBasisMattersLittleUpToTwiceTheTime) {
+  const auto at = [](double seconds) {
+    return recommended({solved(fourier, 63, seconds, 5e-3), solved(spline, 64, 1e-4, 9e-3)}, 1e-2);
+  };
+  EXPECT_EQ(at(1.9e-4).matters, BasisMatters::little);
+  EXPECT_NE(at(1.9e-4).sentences.find("The basis matters little: Fourier:Fourier"), std::string::npos);
+  EXPECT_EQ(at(2.1e-4).matters, BasisMatters::much);
+}
+
+TEST(Recommendation, TakesFourierWhereItIsAtMostATenthSlowerAndNamesTheNextPair) {
+  const auto found = recommended({solved(fourier, 63, 1.05e-4, 5e-3), solved(spline, 64, 1e-4, 9e-3)}, 1e-2);
+  EXPECT_EQ(found.choice->pair, fourier);
+  EXPECT_EQ(found.runner_up->pair, spline);
+  EXPECT_EQ(found.matters, BasisMatters::little);
+  EXPECT_NE(
+      found.sentences.find("The basis matters little: the next, B-spline:B-spline with 64 functions and "
+                           "128 points, takes as long (100 µs)."),
+      std::string::npos)
+      << found.sentences;
+}
+
+TEST(Recommendation, OfEqualTimesTheFewerFunctions) {
+  const auto found = cheapest({solved(spline, 64, 1e-4, 1e-3), solved(haar, 32, 1e-4, 2e-3)}, 1e-2);
+  EXPECT_EQ(found->pair, haar);
+}
+
+TEST(Recommendation, NeverTakesASolveThatFailed) {
+  const auto found = recommended({failed(fourier, 31, 1e-6), solved(fourier, 63, 1e-3, 1e-3)}, 1e-2);
+  EXPECT_EQ(found.choice->functions, 63);
+  const auto none = recommended({failed(fourier, 31, 1e-6), failed(spline, 32, 1e-6)}, 1e-2);
+  EXPECT_FALSE(none.choice);
+  EXPECT_EQ(none.matters, BasisMatters::no_choice);
+  EXPECT_EQ(none.sentences,
+            "No pair reaches an error of 1e-2 within the budget. None of the solves has converged with a "
+            "known error.");
+}
+
+TEST(Recommendation, SaysWhatComesNearestWhereNoPairReachesTheError) {
+  const auto found = recommended({solved(fourier, 63, 8e-4, 5e-3), solved(spline, 64, 1e-4, 9e-3)}, 1e-4);
+  EXPECT_FALSE(found.choice);
+  EXPECT_TRUE(found.time_table.empty());
+  EXPECT_TRUE(std::isnan(found.fourier_time_ratio()));
+  EXPECT_EQ(found.sentences,
+            "No pair reaches an error of 1e-4 within the budget. Fourier:Fourier with 63 functions and 128 "
+            "points comes nearest, with 5.0e-3 in 800 µs.");
+}
+
+TEST(Recommendation, SaysThatFourierDoesNotReachTheErrorAndItsSmallest) {
+  const auto found = recommended({solved(fourier, 63, 8e-4, 5e-3), solved(spline, 64, 1e-4, 9e-5)}, 1e-4);
+  EXPECT_EQ(found.matters, BasisMatters::fourier_fails);
+  EXPECT_NE(found.sentences.find("Fourier:Fourier does not reach it within the budget, its smallest error is "
+                                 "5.0e-3."),
+            std::string::npos)
+      << found.sentences;
+  EXPECT_EQ(recommended({solved(spline, 64, 1e-4, 9e-5)}, 1e-4).matters, BasisMatters::not_compared);
+}
+
+TEST(Recommendation, PassesOverASizeWhoseNextOneDoesNotKeepToTheError) {
+  const std::vector<SolvePoint> points{solved(spline, 32, 1e-5, 1e-3), solved(spline, 64, 2e-5, 4e-2),
+                                       solved(spline, 128, 5e-5, 3e-3)};
+  EXPECT_FALSE(is_steady(points[0], points, 1e-2));
+  EXPECT_EQ(cheapest(points, 1e-2)->functions, 128);
+  // Better than none.
+  const std::vector<SolvePoint> lucky(points.begin(), points.begin() + 2);
+  EXPECT_EQ(cheapest(lucky, 1e-2)->functions, 32);
+  EXPECT_NE(recommended(lucky, 1e-2).sentences.find("but the next size does not keep to it"),
+            std::string::npos);
+  // 31 and 63 functions are a series as 32 and 64 are.
+  EXPECT_FALSE(is_steady(solved(fourier, 31, 1.0, 1e-3), {solved(fourier, 63, 1.0, 1.0)}, 1e-2));
+}
+
+TEST(Recommendation, KnowsNothingBelowAQuarterOfTheErrorOfTheReference) {
+  const std::vector<SolvePoint> points{solved(fourier, 63, 8e-4, 5e-6)};
+  EXPECT_TRUE(recommended(points, 1e-4, 2e-5).choice);
+  const auto found = recommended(points, 1e-4, 3e-5);
+  EXPECT_FALSE(found.choice);
+  EXPECT_NE(found.sentences.find("Whether a pair reaches an error of 1e-4 is not known, as that of the "
+                                 "reference is about 3.0e-5."),
+            std::string::npos)
+      << found.sentences;
+}
+
+TEST(Recommendation, NamesAMuchFasterSizeThatMissesTheErrorByLittle) {
+  const auto at = [](double seconds) {
+    return recommended({solved(fourier, 63, seconds, 1.04e-4), solved(spline, 128, 1e-2, 8e-5)}, 1e-4);
+  };
+  EXPECT_FALSE(at(6e-3).near_miss);
+  EXPECT_NE(at(1e-3).sentences.find("; Fourier:Fourier with 63 functions and 128 points has 1.0e-4 in 1 ms."),
+            std::string::npos)
+      << at(1e-3).sentences;
+}
+
+TEST(Recommendation, GivesTheTimeTableOfItsChoice) {
+  Time time;
+  time.inner_products = InnerProducts::exact;
+  const auto of = [&](const SolvePoint& point) { return recommend({point}, 1e-2, 0.0, time).time_table; };
+  EXPECT_EQ(of(solved(spline, 64, 1e-4, 9e-3)),
+            "[time]\ntrial = \"bspline\"\nweight = \"bspline\"\nfunctions = 64\nquadrature_points = 128\n"
+            "formulation = \"distributional\"\ninner_products = \"exact\"\nnyquist = \"drop\"\n");
+  EXPECT_EQ(of(solved(fourier, 63, 1e-4, 9e-3)).find("nyquist"), std::string::npos);
+}
+
+TEST(DurationText, HasThreeDigitsAndItsUnit) {
+  EXPECT_EQ(duration_text(54.321e-6), "54.3 µs");
+  EXPECT_EQ(duration_text(1.8e-3), "1.8 ms");
+  EXPECT_EQ(duration_text(2.125), "2.12 s");
+}
+
+}  // namespace
+}  // namespace wavebalance::app
