@@ -125,6 +125,7 @@ std::string time_table_of(const SolvePoint& point, Time time) {
       time.trial, time.weight, point.functions, point.points, name_of(time.formulation),
       name_of(effective_inner_products(time)));
   if (point.functions % 2 == 0) text += fmt::format("nyquist = \"{}\"\n", name_of(time.nyquist));
+  if (time.sample_offset != 0.0) text += fmt::format("sample_offset = {}\n", time.sample_offset);
   return text;
 }
 

@@ -60,6 +60,7 @@ class ReferenceSearch {
           return !interrupted_ && elapsed() < allowed_;
         }) {
     scene_.analysis.output_points = points;
+    scene_.time.sample_offset = 0.0;  // the levels of a refinement share their points at the left ends
   }
 
   Reference find() {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -89,7 +90,7 @@ class SizeSeries {
     SolvePoint& point = points_.back();
     max_seconds_ = longest_solve(functions, point.points);
     measure(scene, point);
-    if (point.status != "singular") limit_.took(point.seconds);
+    if (point.seconds > 0.0) limit_.took(point.seconds);
     solved_.note(functions, point);
     ended_ = (point.converged && point.error <= options_.smallest_error) || is_hopeless(functions, point);
   }
@@ -134,8 +135,13 @@ class SizeSeries {
   }
 
   void measure(const Scene& scene, SolvePoint& point) const {
-    point.construction_seconds =
-        least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
+    try {
+      point.construction_seconds =
+          least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
+    } catch (const std::invalid_argument&) {
+      point.status = "refused";  // as many Fourier functions as points at the middles
+      return;
+    }
     solvers::CondensedProblem problem = uncondensed_problem(scene, measured_.model);
     const solvers::ContactLaws laws = make_laws(scene);
     solvers::PeriodicResponse response;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "wavebalance/app/analysis/analysis.hpp"
@@ -129,6 +130,9 @@ class CurveComparison {
     } catch (const solvers::SingularSystem&) {
       found_.curves.push_back(curve_of(scene, pair, Sweep{}, processor_seconds() - start));
       found_.curves.back().status = "singular";
+    } catch (const std::invalid_argument&) {
+      found_.curves.push_back(curve_of(scene, pair, Sweep{}, processor_seconds() - start));
+      found_.curves.back().status = "refused";  // as many Fourier functions as points at the middles
     }
     ComparedCurve& last = found_.curves.back();
     if (last.status == "interrupted" && !found_.interrupted) last.status = "out_of_time";

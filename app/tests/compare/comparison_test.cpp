@@ -127,6 +127,21 @@ TEST(Comparison, TakesBothNumbersOfFourierFunctionsOnlyWhereTheSceneKeepsTheNyqu
   EXPECT_GT(evens("keep"), 0);
 }
 
+TEST(Comparison, AtTheMiddlesOfTheIntervalsRefusesAsManyFourierFunctionsAsPoints) {
+  ComparisonOptions options = brief();
+  options.largest_functions = 16;
+  const Comparison found =
+      compare_responses(scene_of({"time.sample_offset=0.5", "time.nyquist=keep"}), options);
+  EXPECT_EQ(found.reference.kind, "shooting");
+  int refused = 0;
+  for (const SolvePoint& point : found.points)
+    if (point.status == "refused") {
+      ++refused;
+      EXPECT_EQ(point.functions, point.points);
+    }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Comparison, OfNoNamedPairsTakesEveryAdmissibleOneAndSaysWhyTheOthersAreNot) {
   ComparisonOptions options = brief();
   options.pairs.clear();

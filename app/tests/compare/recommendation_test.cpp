@@ -146,6 +146,8 @@ TEST(Recommendation, GivesTheTimeTableOfItsChoice) {
             "[time]\ntrial = \"bspline\"\nweight = \"bspline\"\nfunctions = 64\nquadrature_points = 128\n"
             "formulation = \"distributional\"\ninner_products = \"exact\"\nnyquist = \"drop\"\n");
   EXPECT_EQ(of(solved(fourier, 63, 1e-4, 9e-3)).find("nyquist"), std::string::npos);
+  time.sample_offset = 0.5;
+  EXPECT_NE(of(solved(fourier, 63, 1e-4, 9e-3)).find("\nsample_offset = 0.5\n"), std::string::npos);
 }
 
 TEST(DurationText, HasThreeDigitsAndItsUnit) {
