@@ -74,7 +74,7 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
 
-/// "run, check, keys"
+/// "run, check, compare, keys"
 std::string names_of_commands(const CLI::App& app) {
   std::string names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

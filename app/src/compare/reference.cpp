@@ -81,10 +81,10 @@ class ReferenceSearch {
   double elapsed() const { return std::chrono::duration<double>(SteadyClock::now() - start_).count(); }
 
   static Reference missing_reference(const std::string& status) {
-    Reference none;
-    none.status = status;
-    none.text = "none";
-    return none;
+    Reference without;
+    without.status = status;
+    without.text = "none";
+    return without;
   }
 
   /// A reference that is the motion of a coarse balance, the guide, where there is one.
