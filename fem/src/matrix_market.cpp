@@ -1,6 +1,5 @@
 #include "wavebalance/fem/matrix_market.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,82 +9,18 @@
 #include <limits>
 #include <sstream>
 #include <string_view>
-#include <system_error>
-#include <vector>
+#include <utility>
+
+#include "matrix_entries.hpp"
+#include "text_lines.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-using Triplet = Eigen::Triplet<double, int>;
-
-// Lines of a file with their numbers, for errors that say where.
-class Lines {
- public:
-  Lines(std::istream& input, const std::string& name) : input_(input), name_(name) {}
-
-  bool next() {
-    if (!std::getline(input_, text_)) return false;
-    ++number_;
-    words_.clear();
-    const std::string_view view = text_;
-    for (std::size_t start = view.find_first_not_of(blank); start != std::string_view::npos;) {
-      const std::size_t end = std::min(view.find_first_of(blank, start), view.size());
-      words_.push_back(view.substr(start, end - start));
-      start = view.find_first_not_of(blank, end);
-    }
-    return true;
-  }
-  bool next_with_data() {
-    while (next())
-      if (!words_.empty() && words_[0][0] != '%') return true;
-    return false;
-  }
-  const std::vector<std::string_view>& words() const { return words_; }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw MatrixMarketError(name_ + ":" + std::to_string(number_) + ": " + what);
-  }
-  void require_words(std::size_t count, const char* layout) const {
-    if (words_.size() != count) fail("found \"" + text_ + "\"; the line must hold " + std::string(layout));
-  }
-  template <typename Number>
-  Number number(std::size_t word, const char* what) const {
-    std::string_view text = words_[word];
-    if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      fail(std::string(what) + " is \"" + std::string(words_[word]) + "\"; it must be a " +
-           (std::is_integral_v<Number> ? "whole number" : "number") + " in range");
-    return value;
-  }
-  int index(std::size_t word, const char* what, int size) const {
-    const int value = number<int>(word, what);
-    if (value < 1 || value > size)
-      fail(std::string(what) + " is " + std::to_string(value) + "; it must be in 1.." + std::to_string(size));
-    return value - 1;
-  }
-  double finite(std::size_t word) const {
-    const double value = number<double>(word, "the value");
-    if (!std::isfinite(value)) fail("the value is \"" + std::string(words_[word]) + "\"; it must be finite");
-    return value;
-  }
-
- private:
-  static constexpr const char* blank = " \t\r";
-  std::istream& input_;
-  std::string name_;
-  std::string text_;
-  std::vector<std::string_view> words_;
-  int number_ = 0;
-};
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return result;
-}
+using detail::Lines;
+using detail::lower;
+using detail::MatrixEntries;
 
 struct Header {
   bool array, symmetric;
@@ -107,9 +42,6 @@ Header read_header(Lines& lines) {
   return {array, choice(4, "symmetry", "general", "symmetric")};
 }
 
-// Bounds the memory that a line of sizes alone can claim.
-constexpr int largest_side = 100'000'000;
-
 int read_size(const Lines& lines, std::size_t word, const char* what) {
   const int size = lines.number<int>(word, what);
   if (size < 0) lines.fail(std::string(what) + " is " + std::to_string(size) + "; it must not be negative");
@@ -118,20 +50,20 @@ int read_size(const Lines& lines, std::size_t word, const char* what) {
 
 int read_side(const Lines& lines, std::size_t word, const char* what) {
   const int size = read_size(lines, word, what);
-  if (size > largest_side)
+  if (size > detail::largest_side)
     lines.fail(std::string(what) + " is " + std::to_string(size) + "; it must be at most " +
-               std::to_string(largest_side));
+               std::to_string(detail::largest_side));
   return size;
 }
 
 void require_data(Lines& lines, long long found, long long expected) {
-  if (!lines.next_with_data())
+  if (!lines.next_with_data('%'))
     lines.fail("the file ends after " + std::to_string(found) + " of " + std::to_string(expected) +
                " entries");
 }
 
 void require_end(Lines& lines, long long expected) {
-  if (lines.next_with_data())
+  if (lines.next_with_data('%'))
     lines.fail("there is more than the " + std::to_string(expected) + " entries announced");
 }
 
@@ -142,7 +74,7 @@ struct Sizes {
 
 // columns: how many the matrix must have, 0 for any number.
 Sizes read_sizes(Lines& lines, const Header& header, int columns) {
-  if (!lines.next_with_data()) lines.fail("the line of sizes is missing");
+  if (!lines.next_with_data('%')) lines.fail("the line of sizes is missing");
   lines.require_words(header.array ? 2 : 3, header.array ? "rows and columns" : "rows, columns and entries");
   Sizes sizes{read_side(lines, 0, "the count of rows"), read_side(lines, 1, "the count of columns"), 0};
   const long long rows = sizes.rows, room = rows * sizes.columns;
@@ -162,33 +94,8 @@ Sizes read_sizes(Lines& lines, const Header& header, int columns) {
   return sizes;
 }
 
-void reject_repeats(const std::vector<Triplet>& entries, const std::string& name) {
-  std::vector<std::pair<int, int>> places;
-  places.reserve(entries.size());
-  for (const Triplet& entry : entries) places.emplace_back(entry.col(), entry.row());
-  std::sort(places.begin(), places.end());
-  const auto twice = std::adjacent_find(places.begin(), places.end());
-  if (twice != places.end())
-    throw MatrixMarketError(name + ": the entry (" + std::to_string(twice->second + 1) + ", " +
-                            std::to_string(twice->first + 1) + ") is given twice");
-}
-
-std::ifstream open(const std::filesystem::path& file) {
-  std::error_code failure;
-  const auto status = std::filesystem::status(file, failure);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw MatrixMarketError(file.string() + " is not a regular file");
-  const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  std::ifstream input(file);
-  if (failure || !input) throw MatrixMarketError(file.string() + ": the file cannot be opened for reading");
-  if (size > largest_matrix_market_file)
-    throw MatrixMarketError(file.string() + ": the size of the file is " + std::to_string(size) +
-                            " bytes; it must be at most " + std::to_string(largest_matrix_market_file));
-  return input;
-}
-
-std::vector<Triplet> read_coordinates(Lines& lines, const Sizes& sizes, bool symmetric) {
-  std::vector<Triplet> entries;
+MatrixEntries read_coordinates(Lines& lines, const Sizes& sizes, bool symmetric) {
+  MatrixEntries entries;
   for (long long found = 0; found < sizes.entries; ++found) {
     require_data(lines, found, sizes.entries);
     lines.require_words(3, "row, column and value");
@@ -203,8 +110,8 @@ std::vector<Triplet> read_coordinates(Lines& lines, const Sizes& sizes, bool sym
 }
 
 // The values column by column; of a symmetric matrix, the lower triangle. Zeros are left out.
-std::vector<Triplet> read_array(Lines& lines, const Sizes& sizes, bool symmetric) {
-  std::vector<Triplet> entries;
+MatrixEntries read_array(Lines& lines, const Sizes& sizes, bool symmetric) {
+  MatrixEntries entries;
   long long found = 0;
   for (int column = 0; column < sizes.columns; ++column)
     for (int row = symmetric ? column : 0; row < sizes.rows; ++row) {
@@ -220,17 +127,10 @@ Sparse read_with_columns(std::istream& input, const std::string& name, int colum
   Lines lines(input, name);
   const Header header = read_header(lines);
   const Sizes sizes = read_sizes(lines, header, columns);
-  std::vector<Triplet> entries = header.array ? read_array(lines, sizes, header.symmetric)
-                                              : read_coordinates(lines, sizes, header.symmetric);
+  MatrixEntries entries = header.array ? read_array(lines, sizes, header.symmetric)
+                                       : read_coordinates(lines, sizes, header.symmetric);
   require_end(lines, sizes.entries);
-  reject_repeats(entries, name);
-  if (header.symmetric)
-    for (std::size_t i = 0, stored = entries.size(); i < stored; ++i)
-      if (entries[i].row() != entries[i].col())
-        entries.emplace_back(entries[i].col(), entries[i].row(), entries[i].value());
-  Sparse matrix(sizes.rows, sizes.columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return detail::matrix_of(std::move(entries), sizes.rows, sizes.columns, header.symmetric, name);
 }
 
 void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {
@@ -254,7 +154,7 @@ Sparse read_matrix_market(std::istream& input, const std::string& name) {
 }
 
 Sparse read_matrix_market(const std::filesystem::path& file) {
-  std::ifstream input = open(file);
+  std::ifstream input = detail::open_matrix_file(file);
   return read_matrix_market(input, file.string());
 }
 
@@ -263,7 +163,7 @@ Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string
 }
 
 Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file) {
-  std::ifstream input = open(file);
+  std::ifstream input = detail::open_matrix_file(file);
   return read_matrix_market_vector(input, file.string());
 }
 

@@ -4,19 +4,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
-#include <stdexcept>
 #include <string>
+
+#include "wavebalance/fem/matrix_file.hpp"
 
 namespace wavebalance::fem {
 
-/// What is wrong with a Matrix Market file: file, line, what was found and what is allowed.
-class MatrixMarketError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+/// What is wrong with a Matrix Market file.
+using MatrixMarketError = MatrixFileError;
 
 /// Largest file that is read, in bytes.
-constexpr std::uintmax_t largest_matrix_market_file = 8'000'000'000;
+constexpr std::uintmax_t largest_matrix_market_file = largest_matrix_file;
 
 /// Reads `matrix coordinate|array real|integer general|symmetric` [BPR96]. In the coordinate format indices
 /// count from 1 and zeros are kept; the array format lists the values column by column and its zeros are left

@@ -1,0 +1,52 @@
+#pragma once
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "wavebalance/fem/matrix_file.hpp"
+
+namespace wavebalance::fem {
+
+/// A motion of a node of a mesh: displacement along x, y, z (1, 2, 3), or rotation about it (4, 5, 6).
+struct NodeDof {
+  int node = 0;
+  int direction = 0;
+
+  auto operator<=>(const NodeDof&) const = default;
+};
+
+/// The direction by its name, in letters of either case: x, y, z, ux, uy, uz, rx, ry, rz, rotx, roty, rotz,
+/// or a number in 1..6. 0 if it is none of these.
+int direction_of(std::string_view name);
+
+/// Which row of the matrices is which motion of which node. Immutable.
+class DofMap {
+ public:
+  /// Row i is dofs[i]. Throws std::invalid_argument if one is there twice. O(rows log rows).
+  explicit DofMap(std::vector<NodeDof> dofs);
+
+  int rows() const { return static_cast<int>(dofs_.size()); }
+  /// The row, from 0, or -1 if the map has no such motion. O(log rows).
+  int row(const NodeDof& dof) const;
+  /// The directions that a node has in the map, ascending; none if it is no node of the map. O(log rows).
+  std::vector<int> directions(int node) const;
+  /// "node 1042 z" for a row from 0.
+  std::string name(int row) const;
+
+ private:
+  std::vector<NodeDof> dofs_;
+  std::vector<std::pair<NodeDof, int>> sorted_;
+};
+
+/// Reads a dof map: the .dof file of CalculiX, a line "node.direction" per row of the matrices, or a table of
+/// columns node and direction, separated by commas, semicolons or blanks. Its first line may name the
+/// columns, with a third one, "row" (from 1), where the lines are not in the order of the rows. Lines that
+/// open with # are comments. Throws MatrixFileError with file and line.
+DofMap read_dof_map(const std::filesystem::path& file);
+/// The same from a stream; errors call it `name`.
+DofMap read_dof_map(std::istream& input, const std::string& name);
+
+}  // namespace wavebalance::fem

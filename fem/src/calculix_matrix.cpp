@@ -1,0 +1,31 @@
+#include <algorithm>
+
+#include "matrix_entries.hpp"
+#include "text_lines.hpp"
+#include "wavebalance/fem/matrix_file.hpp"
+
+namespace wavebalance::fem {
+
+Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std::string& name) {
+  detail::Lines lines(input, name);
+  detail::MatrixEntries entries;
+  int size = 0;
+  while (lines.next()) {
+    if (lines.words().empty()) continue;
+    lines.require_words(3, "row, column and value");
+    const int row = lines.index(std::size_t{0}, "the row", detail::largest_side);
+    const int column = lines.index(std::size_t{1}, "the column", detail::largest_side);
+    const double value = lines.finite(std::size_t{2});
+    size = std::max({size, row + 1, column + 1});
+    if (value != 0.0) entries.emplace_back(row, column, value);
+  }
+  if (size == 0) lines.fail("there is no entry; lines must hold row, column and value");
+  return detail::matrix_of(std::move(entries), size, size, true, name);
+}
+
+Eigen::SparseMatrix<double> read_calculix_matrix(const std::filesystem::path& file) {
+  std::ifstream input = detail::open_matrix_file(file);
+  return read_calculix_matrix(input, file.string());
+}
+
+}  // namespace wavebalance::fem

@@ -1,0 +1,209 @@
+#include "wavebalance/fem/dof_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <istream>
+#include <stdexcept>
+
+#include "text_lines.hpp"
+
+namespace wavebalance::fem {
+namespace {
+
+using detail::Lines;
+
+constexpr std::array<const char*, 6> direction_names = {"x", "y", "z", "rx", "ry", "rz"};
+
+std::string name_of_dof(const NodeDof& dof) {
+  return "node " + std::to_string(dof.node) + " " +
+         direction_names.at(static_cast<std::size_t>(dof.direction - 1));
+}
+
+/// The words of a line, which commas and semicolons separate too.
+std::vector<std::string> cells(const Lines& lines) {
+  std::string text = lines.text();
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == ';' || c == '\t' || c == '\r'; }, ' ');
+  std::vector<std::string> found;
+  for (std::size_t start = text.find_first_not_of(' '); start != std::string::npos;) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    found.push_back(text.substr(start, end - start));
+    start = text.find_first_not_of(' ', end);
+  }
+  return found;
+}
+
+/// The places of the columns in a line; row -1 where the lines are in the order of the rows.
+struct Columns {
+  int node = 0, direction = 1, row = -1;
+  std::size_t count = 2;
+};
+
+Columns named_columns(const Lines& lines, const std::vector<std::string>& names) {
+  Columns columns{-1, -1, -1, names.size()};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = detail::lower(names[i]);
+    int* const place = name == "node"                         ? &columns.node
+                       : name == "direction" || name == "dof" ? &columns.direction
+                       : name == "row" || name == "equation"  ? &columns.row
+                                                              : nullptr;
+    if (place == nullptr || *place >= 0)
+      lines.fail("found the column \"" + names[i] +
+                 "\"; columns must be node, direction and, if there is one, row, each once");
+    *place = static_cast<int>(i);
+  }
+  if (columns.node < 0 || columns.direction < 0)
+    lines.fail("the columns node and direction must both be there");
+  return columns;
+}
+
+int direction_in(const Lines& lines, const std::string& name) {
+  const int direction = direction_of(name);
+  if (direction == 0)
+    lines.fail("the direction is \"" + name + "\"; it must be x, y, z, rx, ry, rz or a number in 1..6");
+  return direction;
+}
+
+int node_in(const Lines& lines, std::string_view text) {
+  const int node = lines.number<int>(text, "the node");
+  if (node < 0) lines.fail("the node is " + std::to_string(node) + "; it must not be negative");
+  return node;
+}
+
+/// "node.direction" of CalculiX.
+NodeDof dotted(const Lines& lines, const std::string& word) {
+  const std::size_t dot = word.find('.');
+  if (dot == std::string::npos)
+    lines.fail("found \"" + word +
+               "\"; the line must hold node.direction, or the columns node and direction");
+  return {node_in(lines, std::string_view(word).substr(0, dot)), direction_in(lines, word.substr(dot + 1))};
+}
+
+class DofMapReader {
+ public:
+  DofMapReader(std::istream& input, const std::string& name) : lines_(input, name) {}
+
+  DofMap read() {
+    while (lines_.next_with_data('#')) read_line(cells(lines_));
+    if (found_.empty()) lines_.fail("there is no row; lines must hold node.direction, or node and direction");
+    return map();
+  }
+
+ private:
+  struct Found {
+    int row;
+    NodeDof dof;
+    int line;
+  };
+
+  void read_line(const std::vector<std::string>& words) {
+    if (words.empty()) return;
+    const bool opens = std::exchange(first_, false);
+    const char letter = words[0][0];
+    if (opens && ((letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z'))) {
+      columns_ = named_columns(lines_, words);
+      return;
+    }
+    const int next = static_cast<int>(found_.size());
+    if (words.size() == 1 && columns_.count == 2) return add(next, dotted(lines_, words[0]));
+    if (words.size() != columns_.count)
+      lines_.fail(
+          "found \"" + lines_.text().substr(0, 120) + "\"; the line must hold " +
+          (columns_.row < 0 ? "node.direction, or node and direction" : "the columns of the first line"));
+    const auto word = [&](int column) -> const std::string& {
+      return words[static_cast<std::size_t>(column)];
+    };
+    const NodeDof dof{node_in(lines_, word(columns_.node)), direction_in(lines_, word(columns_.direction))};
+    add(columns_.row < 0 ? next : lines_.index(word(columns_.row), "the row", detail::largest_side), dof);
+  }
+
+  void add(int row, const NodeDof& dof) { found_.push_back({row, dof, lines_.number_of_line()}); }
+
+  [[noreturn]] void fail_twice(const std::string& what, int first, int second) const {
+    throw MatrixFileError(lines_.name() + ":" + std::to_string(std::max(first, second)) + ": " + what +
+                          " is there twice, first in line " + std::to_string(std::min(first, second)) +
+                          "; each must be there once");
+  }
+
+  DofMap map() {
+    const auto by = [&](auto key, auto what) {
+      std::sort(found_.begin(), found_.end(),
+                [&](const Found& a, const Found& b) { return key(a) < key(b); });
+      for (std::size_t i = 1; i < found_.size(); ++i)
+        if (key(found_[i - 1]) == key(found_[i]))
+          fail_twice(what(found_[i]), found_[i - 1].line, found_[i].line);
+    };
+    by([](const Found& one) { return one.dof; }, [](const Found& one) { return name_of_dof(one.dof); });
+    by([](const Found& one) { return one.row; },
+       [](const Found& one) { return "row " + std::to_string(one.row + 1); });
+    if (found_.back().row + 1 != static_cast<int>(found_.size()))
+      throw MatrixFileError(lines_.name() + ": there are " + std::to_string(found_.size()) +
+                            " rows, the last is " + std::to_string(found_.back().row + 1) +
+                            "; all from 1 on must be there");
+    std::vector<NodeDof> dofs;
+    dofs.reserve(found_.size());
+    for (const Found& one : found_) dofs.push_back(one.dof);
+    return DofMap(std::move(dofs));
+  }
+
+  Lines lines_;
+  Columns columns_;
+  std::vector<Found> found_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+int direction_of(std::string_view name) {
+  constexpr std::array<std::array<std::string_view, 4>, 6> names = {{{"1", "x", "ux", ""},
+                                                                     {"2", "y", "uy", ""},
+                                                                     {"3", "z", "uz", ""},
+                                                                     {"4", "rx", "rotx", ""},
+                                                                     {"5", "ry", "roty", ""},
+                                                                     {"6", "rz", "rotz", ""}}};
+  const std::string wanted = detail::lower(name);
+  if (wanted.empty()) return 0;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::find(names[i].begin(), names[i].end(), wanted) != names[i].end()) return static_cast<int>(i) + 1;
+  return 0;
+}
+
+DofMap::DofMap(std::vector<NodeDof> dofs) : dofs_(std::move(dofs)) {
+  sorted_.reserve(dofs_.size());
+  for (const NodeDof& dof : dofs_) {
+    if (dof.direction < 1 || dof.direction > 6)
+      throw std::invalid_argument("DofMap: a direction is " + std::to_string(dof.direction) +
+                                  "; it must be in 1..6");
+    sorted_.emplace_back(dof, static_cast<int>(sorted_.size()));
+  }
+  std::sort(sorted_.begin(), sorted_.end());
+  const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end(),
+                                        [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice != sorted_.end())
+    throw std::invalid_argument("DofMap: " + name_of_dof(twice->first) +
+                                " is there twice; each must be there once");
+}
+
+int DofMap::row(const NodeDof& dof) const {
+  const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{dof, 0});
+  return found != sorted_.end() && found->first == dof ? found->second : -1;
+}
+
+std::vector<int> DofMap::directions(int node) const {
+  std::vector<int> found;
+  for (auto one = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{NodeDof{node, 0}, 0});
+       one != sorted_.end() && one->first.node == node; ++one)
+    found.push_back(one->first.direction);
+  return found;
+}
+
+std::string DofMap::name(int row) const { return name_of_dof(dofs_.at(static_cast<std::size_t>(row))); }
+
+DofMap read_dof_map(std::istream& input, const std::string& name) { return DofMapReader(input, name).read(); }
+
+DofMap read_dof_map(const std::filesystem::path& file) {
+  std::ifstream input = detail::open_matrix_file(file);
+  return read_dof_map(input, file.string());
+}
+
+}  // namespace wavebalance::fem

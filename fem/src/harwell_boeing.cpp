@@ -1,0 +1,155 @@
+#include <vector>
+
+#include "fortran_format.hpp"
+#include "matrix_entries.hpp"
+#include "text_lines.hpp"
+#include "wavebalance/fem/matrix_file.hpp"
+
+namespace wavebalance::fem {
+namespace {
+
+using detail::FortranFormat;
+using detail::Lines;
+
+struct HarwellBoeingHeader {
+  bool symmetric = false;
+  int rows = 0;
+  int entries = 0;
+  FortranFormat pointers, indices, values;
+};
+
+int counted(const Lines& lines, std::size_t word, const char* what, int most) {
+  if (lines.words().size() <= word) lines.fail(std::string(what) + " is missing");
+  const int count = lines.number<int>(word, what);
+  if (count < 1 || count > most)
+    lines.fail(std::string(what) + " is " + std::to_string(count) + "; it must be in 1.." +
+               std::to_string(most));
+  return count;
+}
+
+void next_line(Lines& lines, const char* what) {
+  if (!lines.next()) lines.fail("the file ends before " + std::string(what));
+}
+
+void read_type(Lines& lines, HarwellBoeingHeader& header) {
+  next_line(lines, "the line of the matrix type");
+  const std::string type = lines.words().empty() ? "" : detail::lower(lines.words()[0]);
+  if (type != "rsa" && type != "rua")
+    lines.fail("the type of the matrix is \"" + type +
+               "\"; it must be RSA (real, symmetric, assembled) or RUA (real, unsymmetric, assembled)");
+  header.symmetric = type == "rsa";
+  header.rows = counted(lines, 1, "the number of rows", detail::largest_side);
+  const int columns = counted(lines, 2, "the number of columns", detail::largest_side);
+  if (columns != header.rows)
+    lines.fail("the matrix is " + std::to_string(header.rows) + " x " + std::to_string(columns) +
+               "; it must be square");
+  header.entries = counted(lines, 3, "the number of entries", std::numeric_limits<int>::max() - 1);
+}
+
+FortranFormat read_format(const Lines& lines, std::string_view& rest, const char* what, bool real) {
+  const std::string_view text = detail::next_parentheses(rest);
+  const auto format = detail::fortran_format(text);
+  if (!format || format->real() != real)
+    lines.fail("the format of the " + std::string(what) + " is \"" + std::string(text) +
+               "\"; it must be a Fortran format such as " +
+               (real ? "(4D20.12), (3E26.18), (1P,5E16.8) or (4F20.8)" : "(10I8) or (1I14)"));
+  return *format;
+}
+
+HarwellBoeingHeader read_header_of_harwell_boeing(Lines& lines) {
+  HarwellBoeingHeader header;
+  next_line(lines, "its title");
+  next_line(lines, "the line of counts");
+  constexpr std::size_t right_hand_sides = 4;
+  const bool loaded = lines.words().size() > right_hand_sides &&
+                      lines.number<int>(right_hand_sides, "the count of lines of right-hand sides") > 0;
+  read_type(lines, header);
+  next_line(lines, "the line of formats");
+  std::string_view rest = lines.text();
+  header.pointers = read_format(lines, rest, "pointers", false);
+  header.indices = read_format(lines, rest, "row indices", false);
+  header.values = read_format(lines, rest, "values", true);
+  if (loaded) next_line(lines, "the line of right-hand sides");
+  return header;
+}
+
+/// Calls use(field) for `count` fields of a format. The first one opens a line.
+template <class Use>
+void for_each_field(Lines& lines, const FortranFormat& format, int count, const char* what, Use use) {
+  const auto width = static_cast<std::size_t>(format.width);
+  for (int found = 0; found < count;) {
+    if (!lines.next())
+      lines.fail("the file ends after " + std::to_string(found) + " of " + std::to_string(count) + " " +
+                 what);
+    const std::string_view text = lines.text();
+    for (int i = 0; i < format.repeat && found < count; ++i, ++found) {
+      const std::size_t start = static_cast<std::size_t>(i) * width;
+      use(start < text.size() ? text.substr(start, width) : std::string_view());
+    }
+  }
+}
+
+int integer_in(const Lines& lines, std::string_view field, const char* what) {
+  const auto first = field.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos)
+    lines.fail("the field of " + std::string(what) + " is blank; the line must hold a whole number there");
+  field = field.substr(first, field.find_last_not_of(" \t\r") - first + 1);
+  return lines.number<int>(field, what);
+}
+
+/// The place of the first entry of each column, from 0, and the number of entries.
+std::vector<int> read_pointers(Lines& lines, const HarwellBoeingHeader& header) {
+  std::vector<int> pointers;
+  for_each_field(lines, header.pointers, header.rows + 1, "column pointers", [&](std::string_view field) {
+    const int pointer = integer_in(lines, field, "a column pointer") - 1;
+    const int least = pointers.empty() ? 0 : pointers.back();
+    if (pointer < least || pointer > header.entries || (pointers.empty() && pointer != 0))
+      lines.fail("a column pointer is " + std::to_string(pointer + 1) +
+                 "; pointers must increase from 1 to " + std::to_string(header.entries + 1) +
+                 ", the number of entries and 1");
+    pointers.push_back(pointer);
+  });
+  if (pointers.back() != header.entries)
+    lines.fail("the last column pointer is " + std::to_string(pointers.back() + 1) + "; it must be " +
+               std::to_string(header.entries + 1) + ", the number of entries and 1");
+  return pointers;
+}
+
+detail::MatrixEntries read_entries(Lines& lines, const HarwellBoeingHeader& header) {
+  const std::vector<int> pointers = read_pointers(lines, header);
+  std::vector<int> rows;
+  for_each_field(lines, header.indices, header.entries, "row indices", [&](std::string_view field) {
+    const int row = integer_in(lines, field, "a row index");
+    if (row < 1 || row > header.rows)
+      lines.fail("a row index is " + std::to_string(row) + "; it must be in 1.." +
+                 std::to_string(header.rows));
+    rows.push_back(row - 1);
+  });
+  detail::MatrixEntries entries;
+  std::size_t entry = 0, column = 0;
+  for_each_field(lines, header.values, header.entries, "values", [&](std::string_view field) {
+    const auto value = detail::fortran_real(field, header.values);
+    if (!value)
+      lines.fail("a value is \"" + std::string(field) + "\"; it must be a finite number in a field of " +
+                 std::to_string(header.values.width) + " characters");
+    while (static_cast<std::size_t>(pointers[column + 1]) <= entry) ++column;
+    if (*value != 0.0) entries.emplace_back(rows[entry], static_cast<int>(column), *value);
+    ++entry;
+  });
+  return entries;
+}
+
+}  // namespace
+
+Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::string& name) {
+  Lines lines(input, name);
+  const HarwellBoeingHeader header = read_header_of_harwell_boeing(lines);
+  return detail::matrix_of(read_entries(lines, header), header.rows, header.rows, header.symmetric, name);
+}
+
+Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file) {
+  std::ifstream input = detail::open_matrix_file(file);
+  return read_harwell_boeing(input, file.string());
+}
+
+}  // namespace wavebalance::fem

@@ -1,0 +1,77 @@
+#include "text_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+
+namespace wavebalance::fem::detail {
+namespace {
+
+constexpr const char* blank_characters = " \t\r";
+
+}  // namespace
+
+std::ifstream open_matrix_file(const std::filesystem::path& file) {
+  std::error_code failure;
+  const auto status = std::filesystem::status(file, failure);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw MatrixFileError(file.string() + " is not a regular file");
+  const std::uintmax_t size = std::filesystem::file_size(file, failure);
+  std::ifstream input(file);
+  if (failure || !input) throw MatrixFileError(file.string() + ": the file cannot be opened for reading");
+  if (size > largest_matrix_file)
+    throw MatrixFileError(file.string() + ": the size of the file is " + std::to_string(size) +
+                          " bytes; it must be at most " + std::to_string(largest_matrix_file));
+  return input;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return result;
+}
+
+bool Lines::next() {
+  if (!std::getline(input_, text_)) return false;
+  ++number_;
+  words_.clear();
+  const std::string_view view = text_;
+  for (std::size_t start = view.find_first_not_of(blank_characters); start != std::string_view::npos;) {
+    const std::size_t end = std::min(view.find_first_of(blank_characters, start), view.size());
+    words_.push_back(view.substr(start, end - start));
+    start = view.find_first_not_of(blank_characters, end);
+  }
+  return true;
+}
+
+bool Lines::next_with_data(char comment) {
+  while (next())
+    if (!words_.empty() && words_[0][0] != comment) return true;
+  return false;
+}
+
+void Lines::fail(const std::string& what) const {
+  throw MatrixFileError(name_ + ":" + std::to_string(number_) + ": " + what);
+}
+
+void Lines::require_words(std::size_t count, const char* layout) const {
+  constexpr std::size_t most = 120;  // of a file that is no text at all
+  if (words_.size() != count)
+    fail("found \"" + text_.substr(0, most) + "\"; the line must hold " + std::string(layout));
+}
+
+int Lines::index(std::string_view text, const char* what, int size) const {
+  const int value = number<int>(text, what);
+  if (value < 1 || value > size)
+    fail(std::string(what) + " is " + std::to_string(value) + "; it must be in 1.." + std::to_string(size));
+  return value - 1;
+}
+
+double Lines::finite(std::string_view text) const {
+  const double value = number<double>(text, "the value");
+  if (!std::isfinite(value)) fail("the value is \"" + std::string(text) + "\"; it must be finite");
+  return value;
+}
+
+}  // namespace wavebalance::fem::detail

@@ -1,0 +1,72 @@
+#pragma once
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+#include "wavebalance/fem/matrix_file.hpp"
+
+namespace wavebalance::fem::detail {
+
+/// Bounds the memory that an index or a size alone can claim.
+constexpr int largest_side = 100'000'000;
+
+/// Opens a regular file of at most largest_matrix_file bytes. Throws MatrixFileError.
+std::ifstream open_matrix_file(const std::filesystem::path& file);
+
+/// The text in lower case.
+std::string lower(std::string_view text);
+
+/// Lines of a file with their numbers, for errors that say where. Errors are MatrixFileError.
+class Lines {
+ public:
+  Lines(std::istream& input, std::string name) : input_(input), name_(std::move(name)) {}
+
+  /// Goes to the next line. False at the end of the file.
+  bool next();
+  /// Goes to the next line that is neither empty nor opened by `comment`.
+  bool next_with_data(char comment);
+  const std::string& text() const { return text_; }
+  /// The words of the line, which blanks separate.
+  const std::vector<std::string_view>& words() const { return words_; }
+  const std::string& name() const { return name_; }
+  int number_of_line() const { return number_; }
+
+  [[noreturn]] void fail(const std::string& what) const;
+  void require_words(std::size_t count, const char* layout) const;
+  /// The number that a text of this line is.
+  template <typename Number>
+  Number number(std::string_view text, const char* what) const {
+    std::string_view digits = text;
+    if (digits.size() > 1 && digits[0] == '+') digits.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size())
+      fail(std::string(what) + " is \"" + std::string(text) + "\"; it must be a " +
+           (std::is_integral_v<Number> ? "whole number" : "number") + " in range");
+    return value;
+  }
+  template <typename Number>
+  Number number(std::size_t word, const char* what) const {
+    return number<Number>(words_[word], what);
+  }
+  /// An index from 1 to size, less 1.
+  int index(std::string_view text, const char* what, int size) const;
+  int index(std::size_t word, const char* what, int size) const { return index(words_[word], what, size); }
+  double finite(std::string_view text) const;
+  double finite(std::size_t word) const { return finite(words_[word]); }
+
+ private:
+  std::istream& input_;
+  std::string name_;
+  std::string text_;
+  std::vector<std::string_view> words_;
+  int number_ = 0;
+};
+
+}  // namespace wavebalance::fem::detail
