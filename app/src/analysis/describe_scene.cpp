@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "compose/structure_facts.hpp"
 #include "compose/structure_files.hpp"
 #include "files/number_text.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
@@ -190,6 +191,46 @@ std::string cost_line(const Scene& scene) {
          "\n";
 }
 
+std::string five_digits(const Eigen::VectorXd& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) texts.push_back(fmt::format("{:.5g}", number));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string ratios_text(const Eigen::VectorXd& ratios) {
+  if (ratios.size() == 0 || ratios.cwiseAbs().maxCoeff() == 0.0) return "without damping";
+  const bool alike = ratios.maxCoeff() - ratios.minCoeff() <= 1e-9 * ratios.maxCoeff();
+  return "damping ratios " + (alike ? five_digits(ratios.head(1)) + " each" : five_digits(ratios));
+}
+
+/// A few contacts one by one, many by the least and the largest.
+std::string compliance_text(const StructureFacts& facts) {
+  constexpr Eigen::Index few = 4;
+  const auto at = [&](Eigen::Index contact) {
+    return fmt::format("{:.5g} m/N at {}", facts.compliances[contact],
+                       facts.contacts[static_cast<std::size_t>(contact)]);
+  };
+  const Eigen::Index count = facts.compliances.size();
+  std::vector<std::string> texts;
+  for (Eigen::Index contact = 0; contact < std::min(count, few); ++contact) texts.push_back(at(contact));
+  if (count <= few) return fmt::format("{}", fmt::join(texts, "; "));
+  Eigen::Index least = 0, most = 0;
+  facts.compliances.minCoeff(&least);
+  facts.compliances.maxCoeff(&most);
+  return "from " + at(least) + " to " + at(most);
+}
+
+/// Figures by which wrong units, files or boundary conditions of matrices show.
+std::string matrices_lines(const Scene& scene) {
+  constexpr std::int64_t most = 200'000;  // beyond which a check would take minutes
+  if (scene.structure.type != StructureType::matrices) return "";
+  if (structure_dofs(scene) > most)
+    return fmt::format("modes      not computed for more than {} degrees of freedom\n", most);
+  const StructureFacts facts = structure_facts(scene);
+  return "modes      " + five_digits(facts.frequencies_hz) + " Hz, " + ratios_text(facts.damping_ratios) +
+         "\ncompliance " + compliance_text(facts) + "\n";
+}
+
 std::string warning_lines(const Scene& scene) {
   if (scene.structure.type != StructureType::matrices) return "";
   std::string text;
@@ -202,8 +243,8 @@ std::string warning_lines(const Scene& scene) {
 
 std::string describe_scene(const Scene& scene) {
   const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
-  const std::string first_lines =
-      "analysis   " + name_of(scene.analysis.type) + "\n" + structure_line(scene) + contact_line(scene);
+  const std::string first_lines = "analysis   " + name_of(scene.analysis.type) + "\n" +
+                                  structure_line(scene) + matrices_lines(scene) + contact_line(scene);
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return first_lines + mode_lines(scene) + cost_line(scene);
   return first_lines + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene) +

@@ -1,5 +1,6 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 
+#include "compose/dof_names.hpp"
 #include "compose/scene_rules.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/scene_reader.hpp"
@@ -18,7 +19,8 @@ std::string read_text(const std::filesystem::path& file) {
   }
 }
 
-Scene checked_scene(const Document& document) {
+Scene checked_scene(const Document& given) {
+  const Document document = with_rows_for_names(given);
   Scene scene = read_scene(document);
   check_scene_rules(document, scene);
   return scene;

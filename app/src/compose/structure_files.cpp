@@ -8,6 +8,7 @@
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
+#include "wavebalance/fem/matrix_file.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::app {
@@ -16,28 +17,41 @@ namespace {
 constexpr std::string_view mass_key = "structure.mass";
 constexpr std::string_view stiffness_key = "structure.stiffness";
 constexpr std::string_view damping_key = "structure.damping";
+constexpr std::string_view dof_map_key = "structure.dof_map";
 constexpr std::string_view load_key = "forcing.load";
 
 template <class Read>
 auto read(const std::string& path, std::string_view key, Read reader) {
   try {
     return reader(std::filesystem::path(path));
-  } catch (const fem::MatrixMarketError& error) {
+  } catch (const fem::MatrixFileError& error) {
     throw StructureFault(std::string(key), error.what());
   }
 }
 
 Eigen::SparseMatrix<double> read_matrix(const std::string& path, std::string_view key) {
-  return read(path, key, [](const std::filesystem::path& file) { return fem::read_matrix_market(file); });
+  return read(path, key, [](const std::filesystem::path& file) { return fem::read_matrix(file); });
 }
 
-void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view key, Eigen::Index size) {
+/// Names both files, as one of them may belong to another mesh.
+void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view key, const std::string& path,
+                  Eigen::Index size, const std::string& stiffness_path) {
   if (matrix.rows() == size && matrix.cols() == size && size > 0) return;
-  const std::string expected = key == stiffness_key
-                                   ? "a square one that is not empty"
-                                   : fmt::format("{0} x {0}, the size of structure.stiffness", size);
-  throw StructureFault(std::string(key), fmt::format("the matrix is {} x {}; expected {}", matrix.rows(),
-                                                     matrix.cols(), expected));
+  const std::string expected =
+      key == stiffness_key
+          ? "a square one that is not empty"
+          : fmt::format("{0} x {0}, the size of structure.stiffness in {1}", size, stiffness_path);
+  throw StructureFault(std::string(key), fmt::format("the matrix in {} is {} x {}; expected {}", path,
+                                                     matrix.rows(), matrix.cols(), expected));
+}
+
+fem::DofMap read_map(const std::string& path, Eigen::Index size, const std::string& stiffness_path) {
+  fem::DofMap map =
+      read(path, dof_map_key, [](const std::filesystem::path& file) { return fem::read_dof_map(file); });
+  if (map.rows() == size) return map;
+  throw StructureFault(std::string(dof_map_key),
+                       fmt::format("{} names {} rows; expected {}, the rows of structure.stiffness in {}",
+                                   path, map.rows(), size, stiffness_path));
 }
 
 std::string_view key_of(fem::StructureMatrix matrix) {
@@ -53,19 +67,20 @@ void check_matrices(const fem::Matrices& matrices) {
   }
 }
 
-StructureFiles read_files(const std::array<std::string, 4>& paths) {
+StructureFiles read_files(const std::array<std::string, 5>& paths) {
   StructureFiles files;
   files.paths = paths;
   fem::Matrices& matrices = files.matrices;
   matrices.stiffness = read_matrix(paths[1], stiffness_key);
   const Eigen::Index size = matrices.stiffness.rows();
-  require_size(matrices.stiffness, stiffness_key, size);
+  require_size(matrices.stiffness, stiffness_key, paths[1], size, paths[1]);
   matrices.mass = read_matrix(paths[0], mass_key);
-  require_size(matrices.mass, mass_key, size);
+  require_size(matrices.mass, mass_key, paths[0], size, paths[1]);
   if (!paths[2].empty()) {
     matrices.damping = read_matrix(paths[2], damping_key);
-    require_size(matrices.damping, damping_key, size);
+    require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
   }
+  if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
   check_matrices(matrices);
   files.damping_adds_energy = !fem::positive_semidefinite(matrices.damping);
   if (paths[3].empty()) return files;
@@ -124,6 +139,10 @@ void check_load(const Scene& scene) {
 StructureFault::StructureFault(std::string key, const std::string& reason)
     : std::runtime_error(reason), key_(std::move(key)) {}
 
+std::string StructureFiles::row_name(int row) const {
+  return dof_map ? dof_map->name(row) : "row " + std::to_string(row + 1);
+}
+
 std::vector<std::string> warnings_of(const StructureFiles& files) {
   if (!files.damping_adds_energy) return {};
   return {
@@ -133,8 +152,8 @@ std::vector<std::string> warnings_of(const StructureFiles& files) {
 
 std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
-  const std::array<std::string, 4> paths{structure.mass, structure.stiffness, structure.damping,
-                                         scene.forcing.load};
+  const std::array<std::string, 5> paths{structure.mass, structure.stiffness, structure.damping,
+                                         scene.forcing.load, structure.dof_map};
   if (structure.files.contents && structure.files.contents->paths == paths) return structure.files.contents;
   return std::make_shared<const StructureFiles>(read_files(paths));
 }

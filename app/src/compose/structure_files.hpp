@@ -2,11 +2,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/fem/dof_map.hpp"
 #include "wavebalance/fem/matrices.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
@@ -14,10 +16,14 @@ namespace wavebalance::app {
 
 /// The files of a structure of matrices, read and checked.
 struct StructureFiles {
-  std::array<std::string, 4> paths;  ///< files of mass, stiffness, damping and load; empty: none
+  std::array<std::string, 5> paths;  ///< files of mass, stiffness, damping, load and dof map; empty: none
   fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
   Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
+  std::optional<fem::DofMap> dof_map;
   bool damping_adds_energy = false;  ///< it is not positive semidefinite
+
+  /// "node 7 z" for a row from 0, or "row 20" without a dof map.
+  std::string row_name(int row) const;
 };
 
 /// What is wrong with a structure that can nevertheless be solved, a sentence each.

@@ -22,13 +22,26 @@ std::string shortened(std::string text) {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-/// A list of integers if all entries are, else a list of numbers; monostate unless all entries are numbers.
+/// A list of texts and integers as texts; monostate if there is another entry or no text.
+DocumentValue texts_of(const toml::array& array) {
+  std::vector<std::string> texts;
+  bool any = false;
+  for (const auto& node : array) {
+    if (!node.is_string() && !node.is_integer()) return std::monostate{};
+    any = any || node.is_string();
+    texts.push_back(node.is_string() ? node.as_string()->get() : std::to_string(node.as_integer()->get()));
+  }
+  if (!any) return std::monostate{};
+  return texts;
+}
+
+/// A list of integers if all entries are, else a list of numbers, or of texts; monostate if there are others.
 DocumentValue list_of(const toml::array& array) {
   std::vector<std::int64_t> integers;
   std::vector<double> numbers;
   for (const auto& node : array) {
     const bool integer = node.is_integer();
-    if (!integer && !node.is_floating_point()) return std::monostate{};
+    if (!integer && !node.is_floating_point()) return texts_of(array);
     if (integer) integers.push_back(node.as_integer()->get());
     numbers.push_back(integer ? static_cast<double>(integers.back()) : node.as_floating_point()->get());
   }

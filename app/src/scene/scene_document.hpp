@@ -11,10 +11,10 @@
 
 namespace wavebalance::app {
 
-/// A TOML value of a type that scenes use, lists of integers or of numbers included; monostate is any other
-/// value (another array, table, date).
+/// A TOML value of a type that scenes use, lists of integers, of numbers or of texts (and integers, as texts)
+/// included; monostate is any other value (another array, table, date).
 using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                                   std::vector<std::int64_t>, std::vector<double>>;
+                                   std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
 
 /// One `key = value` of a scene file or of an override.
 struct DocumentEntry {

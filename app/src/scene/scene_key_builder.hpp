@@ -115,6 +115,9 @@ inline Property single_or_list(SceneValue (*get)(const Scene&), void (*set)(Scen
   };
 }
 
+/// Degrees of freedom, which structure.dof_map may name.
+inline void named_dofs(SceneKey& key) { key.dofs = true; }
+
 /// Entries of [[contact.pairs]] may each have their own.
 inline void or_in_pairs(SceneKey& key) { key.in_pairs = true; }
 

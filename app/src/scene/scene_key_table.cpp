@@ -49,15 +49,25 @@ void add_bar(std::vector<SceneKey>& keys) {
 void add_matrices(std::vector<SceneKey>& keys) {
   const Section matrices(keys, "structure", matrices_part, structure_is({"matrices"}));
   matrices(&MatricesStructure::mass, "mass", "kg",
-           "mass matrix M: Matrix Market coordinate file, symmetric and positive definite", path);
+           "mass matrix M, symmetric and positive definite: a file in the format of Matrix Market (.mtx), "
+           "CalculiX (.sti, .mas) or Harwell-Boeing (.rsa, .rua; Ansys, LS-DYNA), known by its first lines",
+           path);
   matrices(&MatricesStructure::stiffness, "stiffness", "N/m",
            "stiffness matrix K, likewise; the structure must not be free to move", path);
   matrices(&MatricesStructure::damping, "damping", "N s/m",
            "damping matrix C, symmetric; in place of stiffness_damping or modal_damping", path, optional);
-  matrices(&MatricesStructure::contact_dofs, "contact_dofs", "",
-           "degrees of freedom that may touch an obstacle, rows of the matrices counted from 1; -7 is row 7 "
-           "with its obstacle on the negative side; or else [[contact.pairs]]",
-           optional);
+  matrices(
+      &MatricesStructure::dof_map, "dof_map", "",
+      "file that says which row of the matrices is which motion of which node: the .dof file of CalculiX "
+      "(a line 1042.3 per row), or text or CSV with the columns node and direction (x, y, z, rx, ry, rz "
+      "or 1..6) and, where lines are not in the order of the rows, row",
+      path, optional);
+  matrices(
+      &MatricesStructure::contact_dofs, "contact_dofs", "",
+      "degrees of freedom that may touch an obstacle, rows of the matrices counted from 1; -7 is row 7 "
+      "with its obstacle on the negative side; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; or "
+      "else [[contact.pairs]]",
+      optional, named_dofs);
 }
 
 void add_damping_and_reduction(std::vector<SceneKey>& keys) {
@@ -245,8 +255,8 @@ void add_forcing(std::vector<SceneKey>& keys) {
           optional, only_with(structure_is({"matrices"})));
   forcing(&Forcing::load_dofs, "load_dofs", "",
           "degrees of freedom that each take the whole force, rows counted from 1; -7 is row 7 in its "
-          "negative direction; in place of load",
-          optional, only_with(structure_is({"matrices"})));
+          "negative direction; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; in place of load",
+          optional, named_dofs, only_with(structure_is({"matrices"})));
   forcing(&Forcing::place, "place", "", "corner nodes of the blade's tip that share the force", optional,
           only_with(structure_is({"blade"})));
   forcing(&Forcing::direction, "direction", "",
@@ -361,8 +371,9 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
   pair(
       &ContactPair::dofs, "dofs", "",
       "degrees of freedom whose weighted sum is the displacement in contact, rows of the matrices counted from "
-      "1: two nodes that face each other, or the components along the normal of a surface",
-      within(1, 100'000'000));
+      "1 or with dof_map \"node 1042 z\": two nodes that face each other, or the components along the normal of "
+      "a surface",
+      within(1, 100'000'000), named_dofs);
   pair(&ContactPair::coefficients, "coefficients", "", "their weights, one for each", within(-1e9, 1e9),
        derived("[1.0] for one of dofs, [1.0, -1.0] for two", [=](const Scene& scene) {
          return part(scene).dofs.size() == 1 ? std::vector<double>{1.0} : std::vector<double>{1.0, -1.0};

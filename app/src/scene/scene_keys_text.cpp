@@ -84,7 +84,9 @@ std::string number_words(const SceneKey& key) {
   std::string text = key.type == SceneKey::Type::integer ? "an integer" : "a number";
   if (key.form == SceneKey::Form::list) {
     const std::string many = key.type == SceneKey::Type::integer ? "integers" : "numbers";
-    text = key.length > 0 ? "a list of " + std::to_string(key.length) + " " + many : "a list of " + many;
+    text = key.dofs         ? "a list of integers or texts such as \"node 1042 z\""
+           : key.length > 0 ? "a list of " + std::to_string(key.length) + " " + many
+                            : "a list of " + many;
   }
   return text;
 }
@@ -138,7 +140,7 @@ std::string Condition::text() const {
 std::string SceneKey::expected() const {
   if (type == Type::text) return alternatives(choices);
   if (type == Type::boolean) return "true or false";
-  if (type == Type::path) return "the name of a Matrix Market file, relative to the scene's folder";
+  if (type == Type::path) return "the name of a file, relative to the scene's folder";
   std::string text = number_words(*this);
   if (!unit.empty()) text += " in " + std::string(unit);
   const std::string range = bounds.text();

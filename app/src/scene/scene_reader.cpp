@@ -130,8 +130,7 @@ SceneValue checked_list(const Document& document, const DocumentEntry& entry, co
 SceneValue checked_path(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
   const auto* text = std::get_if<std::string>(&entry.value);
   if (text == nullptr || text->empty()) fail_at(document, entry, "expected " + key.expected());
-  const auto folder = std::filesystem::absolute(document.name).parent_path();
-  return (folder / *text).lexically_normal().string();
+  return path_in(document, *text);
 }
 
 bool is_list(const DocumentValue& value) {
@@ -148,7 +147,8 @@ SceneValue checked(const Document& document, const DocumentEntry& entry, const S
   using Form = SceneKey::Form;
   if (key.form == Form::list || (key.form == Form::single_or_list && is_list(entry.value)))
     return checked_list(document, entry, key);
-  if (key.form == Form::single_or_list && std::holds_alternative<std::monostate>(entry.value))
+  if (key.form == Form::single_or_list && (std::holds_alternative<std::monostate>(entry.value) ||
+                                           std::holds_alternative<std::vector<std::string>>(entry.value)))
     fail_at(document, entry, "expected " + key.expected() + ", or a list of them");
   switch (key.type) {
     case SceneKey::Type::boolean:
@@ -202,6 +202,11 @@ void read_key(const Document& document, const SceneKey& key, Scene& scene) {
 void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
   throw SceneError(
       {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
+}
+
+std::string path_in(const Document& document, const std::string& name) {
+  const auto folder = std::filesystem::absolute(document.name).parent_path();
+  return (folder / name).lexically_normal().string();
 }
 
 SceneValue checked_value(const Document& document, const DocumentEntry& entry, const SceneKey& key) {

@@ -10,6 +10,9 @@ namespace wavebalance::app {
 /// Throws SceneError at the place of `entry`.
 [[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed);
 
+/// The absolute path of a file that the document names relative to its own.
+std::string path_in(const Document& document, const std::string& name);
+
 /// The value of `entry` if the key allows it. Throws SceneError.
 SceneValue checked_value(const Document& document, const DocumentEntry& entry, const SceneKey& key);
 

@@ -163,10 +163,10 @@ TEST(CommandRun, WrongMatricesAreTwoAndWriteNothing) {
     if (arguments[0] == "run") arguments.insert(arguments.end(), {"--output", folder / "out"});
     const Outcome outcome = run(folder, arguments);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.errors,
-              "wavebalance: " + scene +
-                  ":3: structure.mass = \"m.mtx\": the matrix is 2 x 2; expected 3 x 3, the size "
-                  "of structure.stiffness\n");
+    EXPECT_EQ(outcome.errors, "wavebalance: " + scene + ":3: structure.mass = \"m.mtx\": the matrix in " +
+                                  (folder / "m.mtx").string() +
+                                  " is 2 x 2; expected 3 x 3, the size of structure.stiffness in " +
+                                  (folder / "k.mtx").string() + "\n");
   }
   EXPECT_FALSE(fs::exists(folder / "out"));
 }

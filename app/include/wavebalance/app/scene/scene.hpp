@@ -48,9 +48,10 @@ struct ReadFiles {
 /// A structure from any finite element code. Paths are absolute once loaded; in a file they are relative to
 /// it.
 struct MatricesStructure {
-  std::string mass = {};               ///< Matrix Market file, n x n, kg
-  std::string stiffness = {};          ///< Matrix Market file, n x n, N/m
-  std::string damping = {};            ///< Matrix Market file, n x n, N s/m; or empty
+  std::string mass = {};               ///< file of a matrix [fem::read_matrix], n x n, kg
+  std::string stiffness = {};          ///< likewise, N/m
+  std::string damping = {};            ///< likewise, N s/m; or empty
+  std::string dof_map = {};            ///< file that names the n rows by nodes [fem::read_dof_map]; or empty
   std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side
   ReadFiles files = {};
 

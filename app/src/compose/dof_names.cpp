@@ -1,0 +1,140 @@
+#include "compose/dof_names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <sstream>
+
+#include "scene/pair_reader.hpp"
+#include "scene/scene_reader.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/fem/dof_map.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+struct NamedDof {
+  int sign = 1;
+  fem::NodeDof dof;
+};
+
+bool is_list_of_dofs(const DocumentEntry& entry) {
+  if (is_pair_section(entry.section)) return entry.key == "dofs";
+  const SceneKey* key = find_scene_key(entry.full_name());
+  return key != nullptr && key->dofs;
+}
+
+template <class Integer>
+std::optional<Integer> integer_of(const std::string& word) {
+  Integer value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// "node 1042 z", with a minus sign before it or not; none if the text is another.
+std::optional<NamedDof> named_dof(std::string text) {
+  NamedDof found;
+  if (text.starts_with('-')) {
+    found.sign = -1;
+    text.erase(0, 1);
+  }
+  std::istringstream words(text);
+  std::string node, number, direction, more;
+  words >> node >> number >> direction;
+  const auto value = integer_of<int>(number);
+  if (node != "node" || !value || words >> more) return std::nullopt;
+  found.dof = {*value, fem::direction_of(direction)};
+  return found.dof.direction == 0 ? std::nullopt : std::optional(found);
+}
+
+class RowsOfNames {
+ public:
+  explicit RowsOfNames(const Document& document) : document_(document) {}
+
+  std::vector<std::int64_t> rows(const DocumentEntry& entry, const std::vector<std::string>& texts) {
+    std::vector<std::int64_t> result;
+    for (const std::string& text : texts) {
+      const auto integer = integer_of<std::int64_t>(text);
+      result.push_back(integer ? *integer : row(entry, text));
+    }
+    return result;
+  }
+
+ private:
+  std::int64_t row(const DocumentEntry& entry, const std::string& text) {
+    const auto named = named_dof(text);
+    if (!named)
+      fail_at(
+          document_, entry,
+          fmt::format("\"{}\" is no degree of freedom; expected an integer, \"node 1042 z\" or \"-node 1042 "
+                      "z\", with a direction of x, y, z, rx, ry, rz",
+                      text));
+    if (named->sign < 0 && is_pair_section(entry.section))
+      fail_at(document_, entry,
+              fmt::format("\"{}\": expected no sign here; coefficients has the signs", text));
+    const fem::DofMap& map = read_once(entry);
+    const int found = map.row(named->dof);
+    if (found < 0) fail_at(document_, entry, absent_text(map, named->dof));
+    return named->sign * (found + std::int64_t{1});
+  }
+
+  const fem::DofMap& read_once(const DocumentEntry& entry) {
+    if (map_) return *map_;
+    const DocumentEntry* place = document_.find("structure", "dof_map");
+    const std::string* name = place == nullptr ? nullptr : std::get_if<std::string>(&place->value);
+    if (name == nullptr || name->empty())
+      fail_at(
+          document_, entry,
+          "names a node, but the scene has no structure.dof_map; expected this file, which says which row "
+          "is which motion of which node, or integers");
+    path_ = path_in(document_, *name);
+    try {
+      map_ = fem::read_dof_map(path_);
+    } catch (const fem::MatrixFileError& error) {
+      fail_at(document_, *place, error.what());
+    }
+    return *map_;
+  }
+
+  std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof) const {
+    std::vector<std::string> present;
+    for (const int direction : map.directions(dof.node)) {
+      const std::string name = map.name(map.row({dof.node, direction}));
+      present.push_back(name.substr(name.rfind(' ') + 1));
+    }
+    if (present.empty())
+      return fmt::format(
+          "node {} is not in {}; expected one that has rows of the matrices, which a node that "
+          "is held does not",
+          dof.node, path_);
+    return fmt::format("node {} does not move that way in {}; expected one of {}", dof.node, path_,
+                       fmt::join(present, ", "));
+  }
+
+  const Document& document_;
+  std::string path_;
+  std::optional<fem::DofMap> map_;
+};
+
+}  // namespace
+
+Document with_rows_for_names(Document document) {
+  const DocumentEntry* type = document.find("structure", "type");
+  if (type == nullptr || type->value != DocumentValue("matrices")) return document;
+  RowsOfNames names(document);
+  std::vector<std::pair<std::size_t, std::vector<std::int64_t>>> found;
+  for (std::size_t i = 0; i < document.entries.size(); ++i) {
+    const DocumentEntry& entry = document.entries[i];
+    const auto* texts = std::get_if<std::vector<std::string>>(&entry.value);
+    if (texts != nullptr && is_list_of_dofs(entry)) found.emplace_back(i, names.rows(entry, *texts));
+  }
+  for (auto& [index, rows] : found) document.entries[index].value = std::move(rows);
+  return document;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,23 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// What tells a user of matrices whether units, boundary conditions and files are right.
+struct StructureFacts {
+  Eigen::VectorXd frequencies_hz;  ///< of the first linear modes without contact
+  Eigen::VectorXd damping_ratios;  ///< phi^T C phi / (2 omega) of each
+  Eigen::VectorXd compliances;  ///< m/N: static displacement along each direction of contact per force there
+  std::vector<std::string> contacts;  ///< one per compliance: "node 7 z", "row 20", "node 7 z, node 9 z"
+};
+
+/// Facts of a scene of matrices with at most `modes` modes: a pair with obstacles on both sides is one
+/// contact. Two sparse factorisations and one per repeated count of modes. Throws std::domain_error, and
+/// StructureFault as structure_files() does.
+StructureFacts structure_facts(const Scene& scene, int modes = 5);
+
+}  // namespace wavebalance::app
