@@ -58,15 +58,13 @@ void add_matrices(std::vector<SceneKey>& keys) {
            "damping matrix C, symmetric; in place of stiffness_damping or modal_damping", path, optional);
   matrices(
       &MatricesStructure::dof_map, "dof_map", "",
-      "file that says which row of the matrices is which motion of which node: the .dof file of CalculiX "
-      "(a line 1042.3 per row), or text or CSV with the columns node and direction (x, y, z, rx, ry, rz "
-      "or 1..6) and, where lines are not in the order of the rows, row",
+      "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "
+      "columns node, direction (x, y, z, rx, ry, rz or 1..6) and, unless in the order of the rows, row",
       path, optional);
   matrices(
       &MatricesStructure::contact_dofs, "contact_dofs", "",
       "degrees of freedom that may touch an obstacle, rows of the matrices counted from 1; -7 is row 7 "
-      "with its obstacle on the negative side; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; or "
-      "else [[contact.pairs]]",
+      "with its obstacle on the negative side; with dof_map also \"-node 1042 z\"; or else [[contact.pairs]]",
       optional, named_dofs);
 }
 
