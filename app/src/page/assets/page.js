@@ -25,15 +25,19 @@ wavebalance.element = (tag, attributes = {}, ...children) => {
 
 // Calls `start` with each element that `selector` finds when it comes near the window.
 wavebalance.whenNear = (selector, start) => {
-  const observer = new IntersectionObserver((entries) => entries.forEach((entry) => {
-    if (!entry.isIntersecting) return;
-    observer.unobserve(entry.target);
-    start(entry.target);
-  }), { rootMargin: "300px" });
-  document.querySelectorAll(selector).forEach((box) => {
-    box.classList.add("waiting");
-    observer.observe(box);
-  });
+  let waiting = [...document.querySelectorAll(selector)];
+  waiting.forEach((box) => box.classList.add("waiting"));
+  const near = (box) => {
+    const { top, bottom } = box.getBoundingClientRect();
+    return bottom > -300 && top < window.innerHeight + 300;
+  };
+  const check = () => {
+    const found = waiting.filter(near);
+    waiting = waiting.filter((box) => !found.includes(box));
+    found.forEach(start);
+  };
+  for (const event of ["scroll", "resize"]) window.addEventListener(event, check, { passive: true });
+  check();
 };
 
 document.addEventListener("DOMContentLoaded", () => {

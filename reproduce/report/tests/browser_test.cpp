@@ -1,0 +1,255 @@
+// The pages in a real browser: chromium without a window opens them in frames, and what it finds is compared
+// with the data.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "paper_results.hpp"
+#include "wavebalance/app/page/assets.hpp"
+#include "wavebalance/report/page.hpp"
+
+namespace wavebalance::report {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// What `pages` show in frames of 400, 800 and 1400 px: one object for each of both. `log` has the browser's
+/// messages.
+nlohmann::json probed(const std::vector<Path>& pages, const Path& folder, std::string& log) {
+  std::string names;
+  for (const Path& page : pages) names += "\"file://" + page.string() + "\",";
+  app::write_file(folder / "probe.html", "<!DOCTYPE html><title>probe</title><body><script>const pages = [" +
+                                             names + "];</script><script src=\"probe.js\"></script></body>");
+  app::write_file(folder / "probe.js", app::read_file(WAVEBALANCE_PROBE));
+  const std::string command =
+      "'" WAVEBALANCE_CHROMIUM
+      "' --headless=new --no-sandbox --disable-gpu --allow-file-access-from-files "
+      "--enable-logging=stderr --window-size=1600,1100 --virtual-time-budget=600000 --user-data-dir='" +
+      (folder / "profile").string() + "' --dump-dom 'file://" + (folder / "probe.html").string() + "' > '" +
+      (folder / "dom").string() + "' 2> '" + (folder / "log").string() + "'";
+  const int status = std::system(("timeout 150 " + command).c_str());
+  log = app::read_file(folder / "log");
+  const std::string dom = app::read_file(folder / "dom");
+  const std::string begin = "<pre id=\"found\">";
+  const std::size_t first = dom.find(begin);
+  if (status != 0 || first == dom.npos)
+    throw std::runtime_error("chromium ended with status " + std::to_string(WEXITSTATUS(status)) + "\n" +
+                             log + dom);
+  std::string text = dom.substr(first + begin.size(), dom.find("</pre>", first) - first - begin.size());
+  for (const auto& [entity, sign] : {std::pair{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}})
+    for (std::size_t at = text.find(entity); at != text.npos; at = text.find(entity, at + 1))
+      text.replace(at, std::string(entity).size(), sign);
+  return nlohmann::json::parse(text);
+}
+
+/// Messages of scripts that failed and of files that were not found.
+std::string complaints(const std::string& log) {
+  std::string found;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("CONSOLE") != line.npos &&
+        (line.find("Uncaught") != line.npos || line.find("Failed to load") != line.npos ||
+         line.find("rror:") != line.npos))
+      found += line + "\n";
+  return found;
+}
+
+/// The targets of links and sources of a page that lead nowhere: files that are missing, anchors without an
+/// element.
+std::set<std::string> broken_links(const Path& page) {
+  const std::string text = app::read_file(page);
+  std::set<std::string> ids, broken;
+  const auto each = [&](const std::string& name, const auto& found) {
+    const std::string begin = " " + name + "=\"";
+    for (std::size_t at = text.find(begin); at != text.npos; at = text.find(begin, at + 1))
+      found(text.substr(at + begin.size(), text.find('"', at + begin.size()) - at - begin.size()));
+  };
+  each("id", [&](const std::string& id) { ids.insert(id); });
+  const auto check = [&](const std::string& target) {
+    if (target.starts_with("https://")) return;
+    const bool there = target.starts_with("#")
+                           ? ids.count(target.substr(1)) > 0
+                           : std::filesystem::exists(page.parent_path() / target.substr(0, target.find('#')));
+    if (!there) broken.insert(target);
+  };
+  for (const char* name : {"href", "src", "data-curves", "data-motion", "data-library"}) each(name, check);
+  each("data-bodies", [&](const std::string& list) {
+    std::istringstream targets(list);
+    for (std::string target; targets >> target;) check(target);
+  });
+  return broken;
+}
+
+void expect_in_order(const std::vector<int>& levels, const std::string& where) {
+  ASSERT_FALSE(levels.empty()) << where;
+  EXPECT_EQ(levels[0], 1) << where;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    EXPECT_LE(levels[i], levels[i - 1] + 1) << where << " heading " << i;
+}
+
+/// What must hold of every page.
+void expect_sound(const nlohmann::json& found, const std::string& log) {
+  EXPECT_EQ(complaints(log), "");
+  for (const auto& one : found) {
+    ASSERT_FALSE(one.contains("error")) << one["error"];
+    const std::string where =
+        one["page"].get<std::string>() + " at " + std::to_string(one["width"].get<int>()) + " px";
+    EXPECT_LE(one["folded"].get<int>(), 0) << where;
+    EXPECT_LE(one["unfolded"].get<int>(), 0) << where << one["tooWide"];
+    EXPECT_EQ(one["language"], "en") << where;
+    EXPECT_TRUE(one["withoutAlternative"].empty()) << where << one["withoutAlternative"];
+    EXPECT_EQ(one["mathLeft"], 0) << where;
+    expect_in_order(one["levels"].get<std::vector<int>>(), where);
+  }
+}
+
+nlohmann::json moving_bar() {
+  nlohmann::json data{{"gap", 1e-3}, {"amplitude", 2.0}, {"frequency", 150.0}, {"length", 0.5}};
+  const auto motion = [&](const std::string& label, double size) {
+    nlohmann::json one{{"label", label}, {"name", label}};
+    for (int i = 0; i < 16; ++i) {
+      const double tip = size * std::cos(2.0 * std::numbers::pi * i / 16.0) -
+                         1e-4 * std::sin(2.0 * std::numbers::pi * i / 16.0);
+      one["nodes"].push_back({0.0, 0.5 * tip, tip});
+      one["tip"].push_back(tip);
+      one["force"].push_back(std::max(0.0, tip / 1e-3 - 1.0));
+    }
+    return one;
+  };
+  for (int i = 0; i < 16; ++i) data["time"].push_back(i / 16.0);
+  data["pairs"] = {motion("one", 1.2e-3), motion("two", 0.7e-3)};
+  data["reference"] = motion("time stepping", 1.1e-3);
+  return data;
+}
+
+/// Results with a figure that has all that a page shows, and a table on a page of its own.
+void write_results(const Path& results) {
+  const Path folder = results / "jones_legrand_2014";
+  Artefact artefact({"jones_legrand_2014", "JL14 Fig. 6", "Tip displacement, case 1", "fig06_tip_case1"},
+                    folder, folder);
+  app::Figure figure;
+  figure.columns = 2;
+  for (const char* title : {"first", "second"}) {
+    std::vector<double> x, y;
+    for (int i = 0; i <= 40; ++i) {
+      x.push_back(i / 40.0);
+      y.push_back(std::sin(2.0 * std::numbers::pi * x.back()));
+    }
+    auto& panel = figure.add_panel(title);
+    panel.x.label = "Time (periods)";
+    panel.y.label = "u_{tip} (mm)";
+    panel.add({"sine", x, y}).add({"half", x, std::vector<double>(x.size(), 0.5)}).mark_y(0.8, "gap");
+  }
+  artefact.picture(figure);
+  artefact.caption("The gap is $g_0 = 1$ mm.");
+  artefact.note("A note with a long formula: $\\omega^2 = r + \\langle\\lambda\\rangle g_0 / m$.");
+  artefact.statement({"section 5.1", "It holds.", "x < 1", "0.5", Verdict::agrees, "", {}, "(a)", "x < 2"});
+  artefact.statement(
+      {"section 5.2",
+       "It depends on a detail_with_a_name_that_has_no_blank_at_all_where_a_line_could_be_broken.",
+       "x < 1",
+       "1.5",
+       Verdict::depends,
+       "x is open",
+       {{"x = 1", Verdict::agrees, "1"}, {"x = 2", Verdict::differs, "2"}},
+       "(b)",
+       ""});
+  artefact.check({"", "The code is right.", "error < 1", "0.1", true});
+  artefact.attach("motion_case1.json", moving_bar().dump(), false);
+  artefact.made_by("jl14 fig06");
+  artefact.write(0.1);
+  const Path other = results / "extremes";
+  Artefact table({"extremes", "Extremes", "inputs", "extremes"}, other, other);
+  app::Table wide({"a_rather_long_name_of_a_column_1", "a_rather_long_name_of_a_column_2",
+                   "a_rather_long_name_of_a_column_3", "a_rather_long_name_of_a_column_4",
+                   "a_rather_long_name_of_a_column_5"});
+  wide.append_row({1.0, 2.0, 3.0, 4.0, std::string("$\\omega^2$")});
+  table.printed(wide);
+  table.caption("A wide table.");
+  table.write(0.1);
+}
+
+class Browser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(WAVEBALANCE_CHROMIUM).empty())
+      GTEST_SKIP() << "chromium is not installed (setup installs it)";
+  }
+};
+
+TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
+  const TemporaryFolder folder;
+  const Path results = folder.path() / "results";
+  write_results(results);
+  write_pages(results, Origin{});
+  const std::vector<Path> pages{results / "index.html", results / "extremes" / "index.html"};
+  for (const Path& page : pages) EXPECT_EQ(broken_links(page), std::set<std::string>{}) << page;
+  std::string log;
+  const auto found = probed(pages, folder.path(), log);
+  ASSERT_EQ(found.size(), 6u);
+  expect_sound(found, log);
+
+  const auto& whole = found[2];
+  ASSERT_TRUE(whole["tips"].is_object()) << whole["tips"];
+  EXPECT_TRUE(whole["tips"]["moved"].get<bool>());
+  ASSERT_EQ(whole["tips"]["found"].size(), 9u);
+  const auto bar = moving_bar();
+  for (const auto& one : whole["tips"]["found"]) {
+    const int pair = one["pair"];
+    const auto& motion = pair < 0 ? bar["reference"] : bar["pairs"][static_cast<std::size_t>(pair)];
+    const std::size_t instant =
+        (one["position"].get<std::size_t>() + 8) % 16;  // shown from -1/2 to 1/2 of the period
+    EXPECT_NEAR(one["tip"].get<double>(), motion["tip"][instant].get<double>(), 1e-9) << one;
+  }
+
+  if (!app::available(app::Library::d3)) GTEST_SKIP() << "d3 is not installed (setup installs it)";
+  const auto& curves = whole["curves"];
+  ASSERT_TRUE(curves.is_object()) << curves;
+  std::string values = curves["values"];
+  if (const std::size_t minus = values.find("\u2212"); minus != values.npos) values.replace(minus, 3, "-");
+  double x = 0.0, y = 0.0;
+  ASSERT_EQ(std::sscanf(values.c_str(), "sineTime (periods): %lfutip (mm): %lf", &x, &y), 2) << values;
+  EXPECT_NEAR(x, curves["x"].get<double>(), 1e-9);
+  EXPECT_NEAR(y, std::sin(2.0 * std::numbers::pi * x), 1e-4);
+  EXPECT_EQ(curves["before"], 4);
+  EXPECT_EQ(curves["hidden"], 2);
+  EXPECT_TRUE(curves["zoomed"].get<bool>());
+  EXPECT_TRUE(curves["reset"].get<bool>());
+}
+
+TEST_F(Browser, TheResultsOfTheRunAreSound) {
+  const Path results = WAVEBALANCE_RESULTS;
+  if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";
+  std::vector<Path> pages{results / "index.html"};
+  for (const Paper& paper : papers())
+    if (paper.own_page && std::filesystem::exists(results / paper.folder / "index.html"))
+      pages.push_back(results / paper.folder / "index.html");
+  for (const Path& page : pages) EXPECT_EQ(broken_links(page), std::set<std::string>{}) << page;
+  const TemporaryFolder folder;
+  std::string log;
+  const auto found = probed(pages, folder.path(), log);
+  EXPECT_EQ(found.size(), 3 * pages.size());
+  expect_sound(found, log);
+  const auto& tips = found.at(2)["tips"];
+  ASSERT_TRUE(tips.is_object()) << tips;
+  std::string source = tips["source"];
+  source = source.substr(0, source.find(".motion.js")) + ".json";
+  const auto bar = nlohmann::json::parse(app::read_file(results / source));
+  const std::size_t count = bar["time"].size();
+  for (const auto& one : tips["found"]) {
+    const int pair = one["pair"];
+    const auto& motion = pair < 0 ? bar["reference"] : bar["pairs"][static_cast<std::size_t>(pair)];
+    const std::size_t instant = (one["position"].get<std::size_t>() + count / 2) % count;
+    EXPECT_NEAR(one["tip"].get<double>(), motion["tip"][instant].get<double>(),
+                1e-6 * bar["gap"].get<double>())
+        << one;
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::report
