@@ -11,6 +11,8 @@
 namespace wavebalance::report {
 namespace {
 
+constexpr const char* bench_page = "bench/index.html";
+
 /// "✓5 ✗1", each with its colour.
 std::string small_tally(const Record& record) {
   Tally tally;
@@ -42,7 +44,7 @@ std::string contents_box(const std::string& entries) {
          entries + "</ol>\n</details>\n</nav>\n";
 }
 
-std::string contents(const std::vector<Section>& sections, bool judged) {
+std::string contents(const std::vector<Section>& sections, bool judged, bool measured) {
   std::string text;
   if (judged)
     text += entry("#brief", "What holds, and why") + entry("#matrix", "Every statement at a glance") +
@@ -55,7 +57,7 @@ std::string contents(const std::vector<Section>& sections, bool judged) {
       text += fmt::format("<li><a href=\"#{}\">{}</a>\n{}</li>\n", section.paper.folder, name,
                           records_contents(section));
   }
-  return contents_box(text);
+  return contents_box(text + (measured ? entry(bench_page, "Speed against accuracy →") : ""));
 }
 
 std::string totals(const Section& section) {
@@ -108,7 +110,7 @@ Section in_order(Section section) {
 
 }  // namespace
 
-std::string page_html(const std::vector<Section>& given, const Origin& origin) {
+std::string page_html(const std::vector<Section>& given, const Origin& origin, bool measured) {
   std::vector<Section> sections;
   for (const Section& section : given) sections.push_back(in_order(section));
   const std::string brief = brief_html(sections);
@@ -121,8 +123,12 @@ std::string page_html(const std::vector<Section>& given, const Origin& origin) {
   for (const Section& section : sections)
     main += section.paper.own_page ? linked_section(section)
                                    : section_html({section, origin, section.paper.folder + "/", "assets/"});
-  return app::page_html(
-      parts("Wavebalance: papers regenerated", "assets/", layout(contents(sections, !brief.empty()), main)));
+  if (measured)
+    main += fmt::format(
+        "<h2 id=\"bench\">Speed against accuracy</h2>\n<p><a href=\"{}\">What make bench measured</a>.</p>\n",
+        bench_page);
+  return app::page_html(parts("Wavebalance: papers regenerated", "assets/",
+                              layout(contents(sections, !brief.empty(), measured), main)));
 }
 
 std::string own_page_html(const Section& given, const Origin& origin) {

@@ -9,6 +9,8 @@
 namespace wavebalance::report {
 namespace {
 
+constexpr std::size_t most_open_readings = 6;
+
 std::string item(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, app::with_formulas(text));
 }
@@ -19,17 +21,22 @@ std::string word(const Statement& one) {
                      one.readings.size());
 }
 
+/// Open for a few readings, folded for many.
 std::string readings_html(const Statement& one) {
   if (one.readings.empty()) return "";
   std::string rows;
-  for (const Reading& reading : one.readings)
+  Tally tally;
+  for (const Reading& reading : one.readings) {
+    ++tally.counts[static_cast<std::size_t>(reading.verdict)];
     rows +=
-        fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td class=\"verdict\">{}&nbsp;{}</td></tr>\n",
+        fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td class=\"verdict\">{} {}</td></tr>\n",
                     kind(reading.verdict), app::with_formulas(reading.name),
                     app::with_formulas(reading.measured), sign(reading.verdict), to_string(reading.verdict));
-  return "<div class=\"wide\" tabindex=\"0\"><table class=\"readings\"><thead><tr><th>Reading</th><th>Found</th>"
-         "<th>Verdict</th></tr></thead>\n<tbody>" +
-         rows + "</tbody></table></div>\n";
+  }
+  return fmt::format(
+      "<details class=\"readings\"{}><summary>{} readings: {}</summary>\n<div class=\"wide\" tabindex=\"0\"><table>"
+      "<thead><tr><th>Reading</th><th>Found</th><th>Verdict</th></tr></thead>\n<tbody>{}</tbody></table></div></details>\n",
+      one.readings.size() <= most_open_readings ? " open" : "", one.readings.size(), tally_text(tally), rows);
 }
 
 std::string where(const Statement& one) {

@@ -94,22 +94,6 @@ std::string paper_line(const Section& section) {
                      whole.empty() ? "" : " All agree at " + whole + ".");
 }
 
-/// What the lines before leave out.
-std::string rest_line(const std::vector<Section>& sections) {
-  std::string links;
-  std::size_t count = 0;
-  const auto add = [&](Verdict verdict, std::size_t shown) {
-    const auto list = with_verdict(sections, verdict);
-    for (std::size_t i = shown; i < list.size(); ++i, ++count)
-      links += (links.empty() ? "" : ", ") + link(list[i]) + " " + badge(list[i].statement());
-  };
-  add(Verdict::differs, most_differing);
-  add(Verdict::depends, most_depending);
-  add(Verdict::partly, 0);
-  add(Verdict::misprint, 0);
-  return count == 0 ? "" : "<li>Further statements that do not simply agree: " + links + ".</li>\n";
-}
-
 std::string cell(const Record& record, std::size_t index) {
   const Statement& one = record.statements[index];
   return fmt::format(
@@ -117,6 +101,28 @@ std::string cell(const Record& record, std::size_t index) {
       kind(one.verdict), anchor(record, index), app::escaped(shortened(one.quote, 200)),
       app::escaped(record.identity.number), index + 1, to_string(one.verdict),
       sign(one.verdict, one.readings));
+}
+
+/// What the lines before leave out, figure by figure.
+std::string rest_line(const std::vector<Section>& sections) {
+  std::vector<Found> left;
+  const auto add = [&](Verdict verdict, std::size_t shown) {
+    const auto list = with_verdict(sections, verdict);
+    for (std::size_t i = shown; i < list.size(); ++i) left.push_back(list[i]);
+  };
+  add(Verdict::differs, most_differing);
+  add(Verdict::depends, most_depending);
+  add(Verdict::partly, 0);
+  add(Verdict::misprint, 0);
+  std::string text;
+  for (const Section& section : sections)
+    for (const Record& record : section.records) {
+      std::string cells;
+      for (const Found& found : left)
+        if (&found.record == &record) cells += " " + cell(record, found.index);
+      if (!cells.empty()) text += (text.empty() ? "" : ", ") + app::escaped(record.identity.number) + cells;
+    }
+  return text.empty() ? "" : "<li>Further statements that do not simply agree: " + text + ".</li>\n";
 }
 
 std::string matrix_rows(const Section& section) {

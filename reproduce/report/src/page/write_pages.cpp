@@ -32,7 +32,8 @@ void write_pages(const std::filesystem::path& results, const Origin& origin) {
   for (const Section& section : sections)
     if (section.paper.own_page)
       app::write_file(results / section.paper.folder / "index.html", own_page_html(section, origin));
-  app::write_file(results / "index.html", page_html(sections, origin));
+  app::write_file(results / "index.html",
+                  page_html(sections, origin, std::filesystem::exists(results / "bench" / "index.html")));
 }
 
 }  // namespace wavebalance::report

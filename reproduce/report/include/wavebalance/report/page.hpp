@@ -44,7 +44,8 @@ std::string this_machine();
 /// results/index.html: what holds in brief, a matrix of verdicts, the rule, and the sections with figures
 /// beside their statements; links to the sections that have their own page. It shows all of that without
 /// scripts too.
-std::string page_html(const std::vector<Section>& sections, const Origin& origin);
+/// `measured`: whether results/bench/index.html is there to be linked.
+std::string page_html(const std::vector<Section>& sections, const Origin& origin, bool measured = false);
 
 /// results/<folder>/index.html of a section that has its own page.
 std::string own_page_html(const Section& section, const Origin& origin);
