@@ -70,7 +70,7 @@ void append_attractor(Record& record, int periods, const Response& response) {
 }
 
 /// Instants of the period at which the motion of a bar is kept for its report.
-constexpr int bar_instants = 64;
+constexpr int bar_instants = 128;
 
 /// The response's motion of the structure at bar_instants or, where that does not divide it, at all instants.
 Eigen::MatrixXd bar_motion_of(const Scene& scene, const StructureModel& model, const Response& response) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <span>
 
+#include "command/bar_motion.hpp"
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
 #include "command/run_report.hpp"
@@ -63,6 +64,9 @@ std::vector<ResultFile> result_files(const Scene& scene, const Record& record, b
   append_table(files, "sweep.csv", record.sweep, "periodic responses along the frequency response curve");
   append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
   append_picture(files, record, report);
+  if (report && has_bar_motion(scene, record))
+    files.push_back({"response.motion.js", bar_motion_script(scene, record, "response"),
+                     "the moving bar of report.html"});
   return files;
 }
 

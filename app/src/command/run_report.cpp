@@ -128,6 +128,14 @@ std::string picture(const std::vector<ResultFile>& files, const std::string& hea
   return figure_html(block);
 }
 
+/// The box in which motion.js moves the bar, where its data are among the files.
+std::string motion(const std::vector<ResultFile>& files) {
+  const auto found = std::find_if(files.begin(), files.end(),
+                                  [](const auto& file) { return file.name.ends_with(".motion.js"); });
+  return found == files.end() ? ""
+                              : fmt::format("<div class=\"motion\" data-motion=\"{}\"></div>\n", found->name);
+}
+
 std::string asked(const RunArguments& arguments, const Scene& scene) {
   return "<p>The command:</p>\n<pre><code>" + escaped(command_of(arguments)) +
          "</code></pre>\n<p>What it solves:</p>\n<pre><code>" + escaped(describe_scene(scene)) +
@@ -145,10 +153,11 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.title = heading + ", Wavebalance";
   page.assets = "";
   page.libraries = {Library::d3};
+  page.scripts = {"motion.js"};
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section("What came out",
-              paragraph(outcome_sentences(summary, one_gap(scene.contact))) + picture(files, heading)) +
+      section("What came out", paragraph(outcome_sentences(summary, one_gap(scene.contact))) +
+                                   picture(files, heading) + motion(files)) +
       section("Stability",
               paragraph(stability_sentences(summary, record.sweep)) + special_points_table(summary)) +
       section("Warnings", record.warnings.empty() ? "" : list(record.warnings)) +

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <sstream>
 #include <thread>
 
 #include "support/chain_files.hpp"
@@ -27,10 +28,10 @@ TEST(CommandRun, SolvesAndWritesEverything) {
   const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
-  for (const char* name :
-       {"report.html", "summary.json", "response.csv", "response.svg", "response.figure.js", "scene.toml"})
+  for (const char* name : {"report.html", "summary.json", "response.csv", "response.svg",
+                           "response.figure.js", "response.motion.js", "scene.toml"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 7);
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"converged\": true"), std::string::npos);
   EXPECT_EQ(read_csv(folder / "out" / "response.csv").rows(), 1024u);
   EXPECT_EQ(read_file(folder / "out" / "response.csv").find("time_fraction,displacement_m,"), 0u);
@@ -51,6 +52,25 @@ TEST(CommandRun, ReportTellsWhatWasAskedAndWhatCameOut) {
         "The motion is stable", "href=\"response.csv\"", "src=\"response.svg\"", "alt=\""})
     EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_EQ(report.find("<h2>Warnings"), std::string::npos);
+}
+
+TEST(CommandRun, TheMovingBarOfTheReportIsTheMotionOfTheResponse) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  for (const std::string type : {"forced_response", "time_stepping"}) {
+    run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.type=" + type});
+    const std::string script = read_file(folder / "out" / "response.motion.js");
+    const std::size_t begin = script.find("\"tip\":[") + 7;
+    const std::vector<double> response = read_csv(folder / "out" / "response.csv").numbers("displacement_m");
+    std::istringstream tip(script.substr(begin, script.find(']', begin) - begin));
+    char comma;
+    for (std::size_t k = 0; k < 128; ++k) {
+      double value = 0.0;
+      ASSERT_TRUE(tip >> value) << type << " " << k;
+      EXPECT_NEAR(value, response[k * response.size() / 128], 1e-8) << type << " " << k;
+      tip >> comma;
+    }
+  }
 }
 
 TEST(CommandRun, ReportSaysThatNothingWasFound) {

@@ -130,6 +130,7 @@
     let position = 0, pair = data.pairs[0] ?? data.reference, started = null;
     const list = element("select", { "aria-label": "Pair of bases" },
       ...data.pairs.map((one, i) => element("option", { value: i }, one.label)), element("option", { value: -1 }, data.reference.label));
+    list.hidden = data.pairs.length === 0;
     const play = element("button", { type: "button", "aria-pressed": "false" }, "Play");
     const slider = element("input", { type: "range", min: 0, max: data.order.length - 1, step: 1, value: 0, "aria-label": "Time" });
     const values = element("output", { class: "quiet" });
@@ -168,7 +169,7 @@
       element("h4", {}, `The bar over a period, ${number(data.frequency, 4)} Hz`),
       element("div", { class: "tools" }, list, play, slider, values), element("div", {}, bar.svg),
       element("div", { class: "pair" }, ...diagrams.map((diagram) => element("div", {}, diagram.svg))),
-      element("p", { class: "quiet" }, "Grey dashed: time stepping. Displacements are enlarged; the arrow is the contact force. Drag " +
+      element("p", { class: "quiet" }, (data.pairs.length ? "Grey dashed: time stepping. " : "") + "Displacements are enlarged; the arrow is the contact force. Drag " +
         "in a diagram to set the time."));
     new ResizeObserver(draw).observe(box);
     draw();
