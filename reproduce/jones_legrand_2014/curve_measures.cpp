@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace wavebalance::jl14 {
 namespace {
@@ -13,6 +15,12 @@ void require_equal(Eigen::Index a, Eigen::Index b, const char* function) {
   if (a != b)
     throw std::invalid_argument(
         fmt::format("{}: the lengths are {} and {}; they must be equal", std::string(function), a, b));
+}
+
+void require_divisor(int parts, Eigen::Index values, const char* function) {
+  if (parts < 1 || values % parts != 0)
+    throw std::invalid_argument(fmt::format("{}: {} parts of {} values; the one must divide the other",
+                                            std::string(function), parts, values));
 }
 
 }  // namespace
@@ -41,7 +49,46 @@ double largest_change(const Eigen::VectorXd& values, int steps) {
   return largest;
 }
 
-Eigen::VectorXd select(const Eigen::VectorXd& values, const Eigen::Array<bool, Eigen::Dynamic, 1>& where) {
+Mask whole_cells(const Mask& where, int cells) {
+  require_divisor(cells, where.size(), "whole_cells");
+  const Eigen::Index width = where.size() / cells;
+  return Mask::NullaryExpr(where.size(),
+                           [&](Eigen::Index i) { return where.segment(i / width * width, width).all(); });
+}
+
+Eigen::VectorXd best_constants(const Eigen::VectorXd& values, int cells) {
+  require_divisor(cells, values.size(), "best_constants");
+  const Eigen::Index width = values.size() / cells;
+  return Eigen::VectorXd::NullaryExpr(
+      values.size(), [&](Eigen::Index i) { return values.segment(i / width * width, width).mean(); });
+}
+
+Eigen::VectorXd thinned(const Eigen::VectorXd& values, int points) {
+  require_divisor(points, values.size(), "thinned");
+  const Eigen::Index step = values.size() / points;
+  return Eigen::VectorXd::NullaryExpr(points, [&](Eigen::Index i) { return values[i * step]; });
+}
+
+Eigen::VectorXd central_differences(const Eigen::VectorXd& values, int points, double period) {
+  if (points < 3)
+    throw std::invalid_argument(fmt::format("central_differences: points is {}; it takes 3 or more", points));
+  const Eigen::VectorXd u = thinned(values, points);
+  return Eigen::VectorXd::NullaryExpr(points, [&](Eigen::Index i) {
+    return (u[(i + 1) % points] - u[(i + points - 1) % points]) * points / (2.0 * period);
+  });
+}
+
+int coefficients_needed(const Eigen::VectorXd& coefficients, double share) {
+  std::vector<double> squares;
+  for (const double c : coefficients) squares.push_back(c * c);
+  std::sort(squares.begin(), squares.end());
+  double allowed = share * share * coefficients.squaredNorm();
+  std::size_t left_out = 0;
+  while (left_out < squares.size() && (allowed -= squares[left_out]) >= 0.0) ++left_out;
+  return static_cast<int>(squares.size() - left_out);
+}
+
+Eigen::VectorXd select(const Eigen::VectorXd& values, const Mask& where) {
   require_equal(values.size(), where.size(), "select");
   Eigen::VectorXd selected(where.count());
   Eigen::Index next = 0;

@@ -15,9 +15,29 @@ double excess_variation(const Eigen::VectorXd& values, const Eigen::VectorXd& re
 /// max |v[i+steps] - v[i]| round the period. Throws std::invalid_argument unless 1 <= steps < n.
 double largest_change(const Eigen::VectorXd& values, int steps);
 
+using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// The entries in those of `cells` equal cells of the period whose entries are all in `where`. Throws
+/// std::invalid_argument unless cells divides their number.
+Mask whole_cells(const Mask& where, int cells);
+
+/// The mean over each of `cells` equal cells of the period: the best constants there. Throws
+/// std::invalid_argument unless cells divides the number of values.
+Eigen::VectorXd best_constants(const Eigen::VectorXd& values, int cells);
+
+/// (u[k+1] - u[k-1]) / (2 period / points) of every n-th of `values`, `points` of them round the period.
+/// Throws std::invalid_argument unless points divides their number and is at least 3.
+Eigen::VectorXd central_differences(const Eigen::VectorXd& values, int points, double period);
+/// Every n-th of `values`, `points` of them. Throws std::invalid_argument unless points divides their number.
+Eigen::VectorXd thinned(const Eigen::VectorXd& values, int points);
+
+/// How many of the largest of `coefficients` of an orthonormal basis leave out at most `share` of the rms of
+/// all. O(n log n).
+int coefficients_needed(const Eigen::VectorXd& coefficients, double share);
+
 /// The entries of `values` at which `where` is true, in their order. Throws std::invalid_argument if the
 /// lengths differ.
-Eigen::VectorXd select(const Eigen::VectorXd& values, const Eigen::Array<bool, Eigen::Dynamic, 1>& where);
+Eigen::VectorXd select(const Eigen::VectorXd& values, const Mask& where);
 
 /// mean |values - reference| / mean |reference|. Short spikes weigh less than in app::relative_rms_error().
 /// Throws std::invalid_argument if the lengths differ.

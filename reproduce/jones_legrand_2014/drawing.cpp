@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 #include "jl14.hpp"
 
 namespace wavebalance::jl14 {
@@ -6,6 +11,7 @@ using app::Colour;
 using app::Figure;
 using app::Legend;
 using app::Panel;
+using app::plain;
 using app::SeriesStyle;
 
 app::Axis axis(const std::string& label, double lower, double upper) {
@@ -35,58 +41,80 @@ Series reference_series(const Eigen::VectorXd& values, double from) {
   return series;
 }
 
-namespace {
-
-Panel pair_panel(const PairPanels& content, const Eigen::VectorXd& values, const Pair& pair) {
-  Panel panel;
-  Series series = periodic_series(pair.label, content.scale * values, content.from);
-  series.colour = pair.colour;
-  panel.add(series).add(reference_series(content.scale * content.reference, content.from));
-  panel.x = axis("Normalised time t/T", content.from, content.from + 1.0);
-  panel.y = content.y;
-  panel.legend = Legend::none;
-  if (content.level) panel.mark_y(content.scale * *content.level);
-  return panel;
-}
-
-Panel zoomed(Panel panel, const Zoom& zoom) {
-  panel.x = axis(panel.x.label, zoom.from, zoom.to);
-  panel.x.ticks = zoom.ticks;
-  panel.y = axis(panel.y.label, zoom.lower, zoom.upper);
-  return panel;
-}
-
-}  // namespace
-
-Figure pair_figure(const PairPanels& content) {
-  constexpr std::size_t columns = 3;
-  Figure figure;
-  figure.columns = columns;
-  figure.panel_width = 400;
-  figure.panel_height = content.zoom ? 260 : 300;
-  figure.letters = false;
-  figure.title = content.title + "; dashed: time stepping";
-  const auto chosen = panel_pairs();
-  const Values values = reordered(content.values, pairs(), chosen);
-  for (std::size_t row = 0; row < chosen.size(); row += columns) {
-    for (const bool zoom : {false, true}) {
-      if (zoom && !content.zoom) continue;
-      for (std::size_t i = row; i < row + columns; ++i) {
-        Panel panel = pair_panel(content, values[i], chosen[i]);
-        const std::string letter = std::string("{/:Bold (") + static_cast<char>('a' + i) + ")}  ";
-        panel.title = letter + (zoom ? "enlarged" : chosen[i].label);
-        figure.panels.push_back(zoom ? zoomed(panel, *content.zoom) : panel);
-      }
+app::Axis fitted_axis(const std::string& label, const Values& curves) {
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  for (const auto& curve : curves)
+    for (const double value : curve) {
+      if (!std::isfinite(value)) continue;
+      lower = std::min(lower, value);
+      upper = std::max(upper, value);
     }
+  if (!(lower <= upper)) throw std::invalid_argument("fitted_axis: no values; it takes one or more");
+  const double margin = 0.06 * std::max(upper - lower, 1e-12 * std::max(std::abs(upper), 1.0));
+  return axis(label, lower - margin, upper + margin);
+}
+
+Eigen::VectorXd window(const Eigen::VectorXd& values, double from, double to) {
+  const auto n = static_cast<double>(values.size());
+  const auto first = static_cast<Eigen::Index>(std::ceil(from * n - 1e-9)),
+             last = static_cast<Eigen::Index>(std::floor(to * n + 1e-9));
+  return Eigen::VectorXd::NullaryExpr(
+      last - first + 1, [&](Eigen::Index i) { return values[(first + i + values.size()) % values.size()]; });
+}
+
+std::vector<Panel> pair_view(const PairView& view, bool haar_apart) {
+  const auto chosen = panel_pairs();
+  const Values values = reordered(view.values, pairs(), chosen);
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Values shown{window(view.reference, view.from, view.to)};
+    for (std::size_t other = 0; other < chosen.size(); ++other)
+      if (!haar_apart || has_haar_trial(chosen[i]) == has_haar_trial(chosen[other]))
+        shown.push_back(window(values[other], view.from, view.to));
+    Panel& panel = panels.emplace_back();
+    Series series = periodic_series(chosen[i].label, values[i], std::min(view.from, 0.0));
+    series.colour = chosen[i].colour;
+    panel.add(series).add(reference_series(view.reference, std::min(view.from, 0.0)));
+    panel.x = axis(time_label, view.from, view.to);
+    panel.y = fitted_axis(view.label, shown);
+    panel.legend = Legend::none;
+    if (view.level) panel.mark_y(*view.level);
+  }
+  return panels;
+}
+
+Figure pair_rows(const std::string& title, app::TextMark key, std::vector<Panel> panels,
+                 std::vector<Panel> more, const std::string& second) {
+  const auto chosen = panel_pairs();
+  Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 400;
+  figure.panel_height = more.empty() ? 260 : 215;
+  figure.letters = false;
+  figure.title = title;
+  key.text = "dashed: time stepping";
+  panels.at(0).texts.push_back(std::move(key));
+  for (std::size_t row = 0; row < chosen.size(); ++row) {
+    Panel& panel = panels.at(row);
+    panel.title = std::string("{/:Bold (") + static_cast<char>('a' + row) + ")}  " + plain(chosen[row].label);
+    // The abscissa has its name at the foot of each column only.
+    const bool last = row + (more.empty() ? 2 : 1) >= chosen.size();
+    if (!last) panel.x.label.clear();
+    figure.panels.push_back(panel);
+    if (more.empty()) continue;
+    Panel& beside = more.at(row);
+    beside.title = second;
+    if (!last) beside.x.label.clear();
+    figure.panels.push_back(beside);
   }
   return figure;
 }
 
 Figure levels_figure(const Table& table, const std::string& name, SeriesStyle style) {
   Figure figure;
-  figure.columns = 3;
-  figure.panel_width = 340;
-  figure.panel_height = 240;
+  figure.columns = 2;
+  figure.panel_width = 400;
+  figure.panel_height = 230;
   for (int level = 0; level <= 5; ++level) {
     const std::vector<double> values = table.numbers("level_" + std::to_string(level));
     Panel& panel = figure.add_panel("J = " + std::to_string(level));
@@ -96,8 +124,8 @@ Figure levels_figure(const Table& table, const std::string& name, SeriesStyle st
     series.style = style;
     series.colour = Colour::blue;
     panel.add(std::move(series));
-    panel.x = axis("Normalised time t", 0.0, 1.0);
-    panel.y = axis(name, -0.45 * (1 << level), 1.45 * (1 << level));
+    panel.x = axis(level >= 4 ? time_label : "", 0.0, 1.0);
+    panel.y = axis(level % 2 == 0 ? name : "", -0.45 * (1 << level), 1.45 * (1 << level));
   }
   return figure;
 }

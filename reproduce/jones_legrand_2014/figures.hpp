@@ -21,9 +21,11 @@ void fig11(report::Artefact& artefact);
 void fig12(report::Artefact& artefact);
 void tab01(report::Artefact& artefact);
 void tab02(report::Artefact& artefact);
+void haar_readings(report::Artefact& artefact);
 void rigid_plateau(report::Artefact& artefact);
 
-/// What the program jl14 makes. Figs. 6-11 read the references, which must be made before.
+/// What the program jl14 makes. Figs. 6-11 read the references, and Figs. 6-9 what
+/// haar_readings leaves; both must be made before.
 const std::vector<report::Step>& figures();
 
 }  // namespace wavebalance::jl14

@@ -9,6 +9,7 @@
 
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
 
@@ -43,6 +44,15 @@ const Pair& pair(const std::string& name) {
 
 bool has_haar_trial(const Pair& pair) { return pair.trial == "haar"; }
 
+namespace {
+
+std::vector<std::string> overrides_of(const Pair& pair, int functions) {
+  return {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
+          "time.functions=" + std::to_string(functions)};
+}
+
+}  // namespace
+
 Case::Case(report::Artefact& artefact, int number)
     : artefact_(artefact),
       number_(number),
@@ -61,11 +71,17 @@ Case::Case(report::Artefact& artefact, int number)
 
 std::string Case::frequency_text() const { return report::number(scene_.forcing.frequency, 6) + " Hz"; }
 
-app::Scene Case::scene_for(const Pair& pair, int functions, const std::string& inner_products) {
-  return artefact_.scene(
-      "case" + std::to_string(number_) + ".toml",
-      {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
-       "time.functions=" + std::to_string(functions), "time.inner_products=" + inner_products});
+std::string Case::scene_name() const { return "case" + std::to_string(number_) + ".toml"; }
+
+app::Scene Case::scene_for(const Pair& pair, int functions) {
+  return artefact_.scene(scene_name(), overrides_of(pair, functions));
+}
+
+app::Scene Case::scene_under(const Pair& pair, int functions,
+                             const std::vector<std::string>& overrides) const {
+  auto all = overrides_of(pair, functions);
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return app::load_scene(artefact_.scenes() / scene_name(), all);
 }
 
 app::Response Case::solve(const Pair& pair, int functions, bool whole_structure) {
@@ -78,10 +94,6 @@ app::Response Case::solve(const Pair& pair, int functions, bool whole_structure)
         "{} with {} functions at {} did not converge ({}, residual {}) and is not drawn.", pair.label,
         functions, frequency_text(), response.status, report::number(response.residual)));
   return response;
-}
-
-app::Response Case::solve_exactly(const Pair& pair, int functions) {
-  return app::weighted_residual_response(scene_for(pair, functions, "exact"));
 }
 
 std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen, bool whole_structure) {

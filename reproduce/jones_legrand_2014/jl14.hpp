@@ -44,6 +44,7 @@ class Case {
   /// number: 1 or 2. Reads caseN.toml and, with its columns of one period, reference_caseN.csv.
   Case(report::Artefact& artefact, int number);
 
+  int number() const { return number_; }
   const app::Scene& scene() const { return scene_; }
   double gap() const { return scene_.contact.gap; }
   /// "150 Hz"
@@ -54,14 +55,16 @@ class Case {
 
   /// The scene with this pair, solved. A response that has not converged is noted in the artefact.
   app::Response solve(const Pair& pair, int functions, bool whole_structure = false);
-  /// The same with exact inner products in place of sums over 256 points.
-  app::Response solve_exactly(const Pair& pair, int functions);
   /// All of `chosen` with the scene's number of functions.
   std::vector<app::Response> solve_all(const std::vector<Pair>& chosen, bool whole_structure = false);
   /// The scene that solve() solves.
-  app::Scene scene_for(const Pair& pair, int functions, const std::string& inner_products = "quadrature");
+  app::Scene scene_for(const Pair& pair, int functions);
+  /// The same with further overrides, of which the record says nothing.
+  app::Scene scene_under(const Pair& pair, int functions, const std::vector<std::string>& overrides) const;
 
  private:
+  std::string scene_name() const;
+
   report::Artefact& artefact_;
   int number_;
   app::Scene scene_;
@@ -91,26 +94,34 @@ Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 /// time_fraction, reference and one column per pair, `values` in the order of pairs().
 Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference, const Values& values);
 
-/// A part of the period drawn again on its own axes.
-struct Zoom {
-  double from = 0.0, to = 1.0;      ///< t/T
-  double lower = 0.0, upper = 1.0;  ///< limits of the ordinate
-  std::vector<double> ticks;        ///< t/T; chosen by gnuplot when empty
+/// What all pictures over a period call their abscissa.
+inline constexpr const char* time_label = "Normalised time t/T";
+
+/// An axis whose limits hold all of `curves` with a margin of 6 % of their range; missing values are skipped.
+/// Throws std::invalid_argument when there is no value.
+app::Axis fitted_axis(const std::string& label, const Values& curves);
+
+/// The samples of a periodic history at from <= t/T <= to, -1/2 <= from < to <= 1.
+Eigen::VectorXd window(const Eigen::VectorXd& values, double from, double to);
+
+/// A pair's curve with that of time stepping, dashed, over from <= t/T <= to.
+struct PairView {
+  Values values;  ///< in the order of pairs()
+  Eigen::VectorXd reference;
+  double from = 0.0, to = 1.0;
+  std::string label;            ///< of the ordinate
+  std::optional<double> level;  ///< an ordinate to mark, such as the gap
 };
 
-/// Six panels, one per pair in the order of panel_pairs(): the pair's curve with the reference. With a zoom a
-/// second panel below each.
-struct PairPanels {
-  std::string title;
-  app::Axis y;
-  double from = 0.0;   ///< t/T at the left edge
-  double scale = 1.0;  ///< factor on reference, values and level, 1e3 for mm
-  Eigen::VectorXd reference;
-  Values values;                ///< in the order of pairs()
-  std::optional<double> level;  ///< an ordinate to mark, such as the gap
-  std::optional<Zoom> zoom;
-};
-app::Figure pair_figure(const PairPanels& content);
+/// One panel per pair in the order of panel_pairs(), without title. The ordinates of all pairs are the same,
+/// or, with `haar_apart`, those of the pairs with Haar trial functions and those of the others; they hold
+/// every curve.
+std::vector<app::Panel> pair_view(const PairView& view, bool haar_apart);
+
+/// The panels of panel_pairs(), lettered once: in two columns, or, with a second panel for each pair titled
+/// `second`, in a row per pair. `key` says in the first panel what the dashed curve is, where it stands.
+app::Figure pair_rows(const std::string& title, app::TextMark key, std::vector<app::Panel> panels,
+                      std::vector<app::Panel> more = {}, const std::string& second = "");
 
 /// `values` over t/T = -1/2 to 1/2, so that the contact about t = 0 is not split. O(n).
 Eigen::VectorXd shifted_by_half_a_period(const Eigen::VectorXd& values);

@@ -14,7 +14,7 @@ constexpr Eigen::Index instants = 128;
 
 /// The samples at `count` uniform instants. Throws std::invalid_argument unless count divides their number.
 template <class Matrix>
-Matrix thinned(const Matrix& samples, Eigen::Index count) {
+Matrix at_instants(const Matrix& samples, Eigen::Index count) {
   if (count < 1 || samples.cols() % count != 0)
     throw std::invalid_argument(fmt::format(
         "thinned: {} instants of {} samples; the one must divide the other", count, samples.cols()));
@@ -46,7 +46,7 @@ std::string motion_object(const std::string& label, const std::string& name, con
 }  // namespace
 
 Table node_columns(const solvers::Motion& structure) {
-  const Eigen::MatrixXd nodes = thinned(structure.displacement, instants);
+  const Eigen::MatrixXd nodes = at_instants(structure.displacement, instants);
   Table table;
   table.add_column("time_fraction", app::time_fractions(static_cast<int>(instants)));
   for (Eigen::Index i = 0; i < nodes.rows(); ++i)
@@ -63,15 +63,15 @@ std::string motion_json(const Case& study, const std::vector<app::Response>& res
     stepped.col(i) = Eigen::Map<const Eigen::VectorXd>(values.data(), count);
   }
   const auto force = [&](const app::Response& response) -> Eigen::VectorXd {
-    return thinned(response.contacts.force, count).transpose() / scene.forcing.amplitude;
+    return at_instants(response.contacts.force, count).transpose() / scene.forcing.amplitude;
   };
   std::string moving;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     if (!responses[i].converged) continue;
     moving += moving.empty() ? "" : ",\n";
-    moving +=
-        motion_object(pairs()[i].label, pairs()[i].name(),
-                      thinned(responses[i].structure.displacement, count).transpose(), force(responses[i]));
+    moving += motion_object(pairs()[i].label, pairs()[i].name(),
+                            at_instants(responses[i].structure.displacement, count).transpose(),
+                            force(responses[i]));
   }
   return fmt::format(R"({{"gap":{:.6g},"amplitude":{:.6g},"frequency":{:.6g},"length":{:.6g},
 "time":{},

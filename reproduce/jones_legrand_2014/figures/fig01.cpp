@@ -44,17 +44,26 @@ void annotate(app::Panel& panel) {
   const auto arrow = [&](double x1, double y1, double x2, double y2) {
     panel.segments.push_back({x1, y1, x2, y2, true, app::Dash::solid, Colour::black, 1.3});
   };
+  const auto line = [&](double x1, double y1, double x2, double y2) {
+    panel.segments.push_back({x1, y1, x2, y2, false, app::Dash::solid, Colour::grey, 0.8});
+  };
   const auto text = [&](double x, double y, const char* words) { panel.texts.push_back({x, y, words}); };
   panel.rectangles.push_back({0, -0.08, 1, 0.08, Colour::sky_blue, 0.35});
   arrow(0, -0.17, 0.2, -0.17);
   text(0.24, -0.17, "{/:Italic x}");
-  text(0.5, 0, "{/:Italic E, S, ρ, ℓ}, damping {/:Italic C} = β{/:Italic K}");
-  arrow(1, 0.17, 1.14, 0.17);
-  arrow(1.14, 0.17, 1, 0.17);
-  text(1.07, 0.215, "gap {/:Italic g}");
-  text(1.28, 0.11, "{/:Italic K_p}");
-  arrow(0.8, 0.14, 1, 0.14);
-  text(0.72, 0.2, "{/:Italic F} cos 2π{/:Italic ft},  {/:Italic u}(ℓ, {/:Italic t})");
+  text(0.3, 0, "{/:Italic E, S, ρ, ℓ};  {/:Italic C} = β{/:Italic K}");
+  // The dimension of the gap, with lines down to what it measures.
+  line(1, 0.09, 1, 0.2);
+  line(1.14, 0.12, 1.14, 0.2);
+  arrow(1.07, 0.17, 1.14, 0.17);
+  arrow(1.07, 0.17, 1, 0.17);
+  text(1.07, 0.225, "gap {/:Italic g}");
+  text(1.28, 0.11, "{/:Italic K}_p");
+  // The force at the tip, and its displacement.
+  arrow(0.83, 0, 1, 0);
+  text(0.72, 0, "{/:Italic F} cos 2π{/:Italic ft}");
+  arrow(1, -0.13, 1.1, -0.13);
+  text(1.04, -0.185, "{/:Italic u}(ℓ, {/:Italic t})");
 }
 
 }  // namespace
@@ -81,7 +90,7 @@ void fig01(report::Artefact& artefact) {
   artefact.data(points_table(lines), "units of the bar's length");
   artefact.picture(figure);
   artefact.caption(
-      "The bar clamped at x = 0, the gap g and the exponential spring K_p of eq. (5), with the force at "
+      "The bar clamped at x = 0, the gap g and the exponential spring Kₚ of eq. (5), with the force at "
       "the tip (the paper does not say where it acts; the tip gives its displacements without contact).");
 }
 

@@ -31,15 +31,15 @@ Table functions_table() {
 
 app::Figure functions_figure(const Table& table) {
   app::Figure figure;
-  figure.columns = 3;
-  figure.panel_width = 340;
-  figure.panel_height = 240;
+  figure.columns = 2;
+  figure.panel_width = 400;
+  figure.panel_height = 200;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto values = table.numbers("function_" + std::to_string(i + 1));
     auto& panel = figure.add_panel(names[i]);
     panel.add(periodic_series("", Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())));
-    panel.x = axis("Normalised time t", 0.0, 1.0);
-    panel.y = axis("Amplitude (-)", -1.2, 1.2);
+    panel.x = axis(i >= 4 ? time_label : "", 0.0, 1.0);
+    panel.y = axis(i % 2 == 0 ? "Amplitude (-)" : "", -1.2, 1.2);
   }
   return figure;
 }
@@ -63,7 +63,7 @@ void fig02(report::Artefact& artefact) {
                 {"functions 1 to 6: 1, cos 2 pi t, sin 2 pi t, cos 4 pi t, sin 4 pi t, cos 6 pi t"});
   artefact.picture(functions_figure(table));
   artefact.caption(
-      "The Fourier basis of L^2 on the circle, in the order in which it is cut after M functions.");
+      "The Fourier basis of L² on the circle, in the order in which it is cut after M functions.");
   const double spread = formulation_spread(artefact);
   artefact.check(
       {"section 3.1",

@@ -9,7 +9,7 @@ void fig03(report::Artefact& artefact) {
   artefact.data(table, "time in periods, functions normalised to integral 1",
                 {"the translate whose maximum lies at t = 1/2"});
   artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
-  artefact.caption("Of the 2^J translates the one whose maximum lies at t = 1/2 is drawn.");
+  artefact.caption("Of the 2ᴶ translates the one whose maximum lies at t = 1/2 is drawn.");
 
   const double integral = largest_integral_error(table);
   artefact.check({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",

@@ -3,7 +3,10 @@
 #include "curve_measures.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
+#include "readings.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/report/rule.hpp"
+#include "wavebalance/wavelets/connection.hpp"
 #include "wavebalance/wavelets/scaling_function.hpp"
 
 namespace wavebalance::jl14 {
@@ -17,35 +20,78 @@ double dilation_error(int level) {
   return (fine.head(points) - coarse).cwiseAbs().maxCoeff();
 }
 
-void claim_levels(report::Artefact& artefact) {
-  std::string measured;
+void state_levels(report::Artefact& artefact) {
+  std::string text;
   double low = 1.0, high = 0.0;
   for (int level = 0; level <= 4; ++level) {
     const double error = dilation_error(level);
-    measured += (level == 0 ? "" : ", ") + report::number(error) + " at J = " + std::to_string(level);
+    text += (level == 0 ? "" : ", ") + report::number(error) + " at J = " + std::to_string(level);
     (level <= 2 ? low : high) = level <= 2 ? std::min(low, error) : std::max(high, error);
   }
-  artefact.check(
-      {"section 3.4",
-       "the wrapping procedure results in functions which are no longer scale-invariant at low J values",
-       "max |g_{J+1}(t/2) - g_J(t)| is above 1e-3 for J = 0, 1, 2, where the support 5/2^J exceeds the "
-       "circle, and below 1e-12 for J = 3, 4",
-       measured, low > 1e-3 && high < 1e-12});
+  report::Statement statement{
+      "section 3.4",
+      "When Daubechies scaling functions are periodized on S¹, the wrapping procedure results in functions which "
+      "are no longer scale-invariant at low J values",
+      "max |g_{J+1}(t/2) - g_J(t)| is above rounding (1e-12) for J = 0, 1, 2, where the support 5/2^J exceeds the "
+      "circle, and not for J = 3, 4",
+      text, report::plain(low > 1e-12 && high < 1e-12)};
+  statement.because = "It is " + text + ".";
+  statement.earlier =
+      "At first the difference had to exceed 0.01, and the statement differed; then 1e-3, and it agreed. Now "
+      "rounding decides.";
+  artefact.statement(reasoned(statement));
 }
 
-void claim_shape(report::Artefact& artefact) {
+void state_shape(report::Artefact& artefact) {
   const auto phi = wavelets::ScalingFunction::daubechies(6);
   const auto gain = [&](int level) { return refinement_gain(phi.values(level), phi.values(level + 1)); };
   const double first = gain(2), middle = gain(6), last = gain(10);
-  artefact.check(
-      {"section 3.4",
-       "as one increases the resolution of the functions, the shape does not converge but rather continues "
-       "to increase in complexity",
-       "what a doubling of the resolution adds to the polygon through the values does not shrink (threshold: "
-       "by less than half over four doublings)",
-       fmt::format("it adds {} after 2 levels, {} after 6, {} after 10: the values converge",
-                   report::number(first), report::number(middle), report::number(last)),
-       last > 0.5 * middle});
+  const bool shrinks = middle < 0.5 * first && last < 0.5 * middle;
+  report::Statement statement{
+      "section 3.4",
+      "as one increases the resolution of the functions, the shape does not converge but rather continues to "
+      "increase in complexity",
+      "what a doubling of the resolution adds to the polygon through the values does not shrink to less than half "
+      "over four doublings",
+      fmt::format("it adds {} after 2 levels, {} after 6, {} after 10", report::number(first),
+                  report::number(middle), report::number(last)),
+      report::plain(!shrinks)};
+  statement.because = fmt::format(
+      "What a doubling adds falls by a factor of {} over the last four, so that the values converge (the Sobolev "
+      "exponent of the function is {}).",
+      report::number(middle / last), report::number(phi.sobolev_exponent(), 4));
+  artefact.statement(reasoned(statement));
+}
+
+/// Relative error of the sum over 2^level points per unit in place of the integral of (phi^(d))^2.
+double sum_error(const wavelets::ScalingFunction& phi, int level, int derivative) {
+  const double exact =
+      (derivative == 0 ? 1.0 : -1.0) * wavelets::connection_coefficients(phi, phi, 2 * derivative)(0);
+  const double sum = phi.values(level, derivative).squaredNorm() / (1 << level);
+  return std::abs(sum / exact - 1.0);
+}
+
+void state_products(report::Artefact& artefact) {
+  const auto daubechies = wavelets::ScalingFunction::daubechies(6);
+  const auto spline = wavelets::ScalingFunction::orthonormal_bspline();
+  std::vector<double> rough, smooth;
+  std::string text;
+  for (const int level : {2, 3, 4, 5}) {
+    rough.push_back(sum_error(daubechies, level, 1));
+    smooth.push_back(sum_error(spline, level, 1));
+    text += fmt::format("{}{} points per function: DB6 {}, B-spline {}", text.empty() ? "" : "; ", 1 << level,
+                        report::percent(rough.back()), report::percent(smooth.back()));
+  }
+  report::Statement statement{
+      "section 3.4",
+      "This makes accurately estimating the inner products of such scaling functions with each other prone to "
+      "error when numerical integration is used",
+      "the sum over points in place of the integral of φ'² has a higher error for DB6 than for the B-spline, with 4 "
+      "points per function, which the paper's 256 are for 64 functions, to 32",
+      text, report::lower(smooth, rough)};
+  statement.because = "The errors are: " + text + ".";
+  statement.earlier = "Not judged until now.";
+  artefact.statement(reasoned(statement));
 }
 
 }  // namespace
@@ -54,13 +100,14 @@ void fig04(report::Artefact& artefact) {
   const auto table = levels_table("daubechies6");
   artefact.data(table, "time in periods, functions normalised to integral 1", {"translate k = 0"});
   artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
-  artefact.caption("The translate k = 0; its support is 5/2^J of the period and wraps up to J = 2.");
+  artefact.caption("The translate k = 0; its support is 5/2ᴶ of the period and wraps up to J = 2.");
   const double integral = largest_integral_error(table);
   artefact.check({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
                   "mean of the samples within 1e-12 of 1 at every level",
                   "largest deviation " + report::number(integral), integral < 1e-12});
-  claim_levels(artefact);
-  claim_shape(artefact);
+  state_levels(artefact);
+  state_shape(artefact);
+  state_products(artefact);
 }
 
 }  // namespace wavebalance::jl14

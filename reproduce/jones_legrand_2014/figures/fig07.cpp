@@ -1,37 +1,150 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "curve_measures.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "motion.hpp"
+#include "readings.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {
+using report::lower;
+using report::percent;
+
 namespace {
 
-double haar_error(Case& study) {
-  const auto response = study.solve(pair("haar_fourier"), 64);
-  return app::relative_rms_error(response.displacement(), study.reference().displacement());
+constexpr int compared_cells = 64;
+
+/// rms and mean of an error in contact, over the rms of the whole motion.
+struct PlateauError {
+  double rms = 0.0, mean = 0.0;
+};
+
+PlateauError plateau_error(const Case& study, const Eigen::VectorXd& u) {
+  const Eigen::VectorXd& reference = study.reference().displacement();
+  const Eigen::VectorXd error = select(u - reference, study.reference().force().array() > 0.0);
+  const double size = app::rms(reference);
+  return {app::rms(error) / size, error.cwiseAbs().mean() / size};
 }
 
-double penetration(const Case& study) {
-  return study.reference().displacement().maxCoeff() / study.gap() - 1.0;
+/// How far the tip goes beyond the gap, over the gap.
+double penetration(const Eigen::VectorXd& u, double gap) { return u.maxCoeff() / gap - 1.0; }
+
+/// Variation of the plateau over the range of the motion: zero where it is flat.
+double unevenness(const Case& study) {
+  const Eigen::VectorXd& u = study.reference().displacement();
+  const Eigen::VectorXd plateau = select(u, study.reference().force().array() > 0.0);
+  return (plateau.maxCoeff() - plateau.minCoeff()) / (u.maxCoeff() - u.minCoeff());
 }
 
-void claim_haar(report::Artefact& artefact, Case& study) {
-  Case other(artefact, 1);
-  const double here = haar_error(study), there = haar_error(other);
-  artefact.check({"section 5.1", "The Haar basis appears to be less suited for the response at 1275 Hz",
-                  "the relative rms error of Haar:Fourier is higher than at 150 Hz",
-                  report::percent(here) + " against " + report::percent(there), here > there});
-  const double share = app::contact_fraction(study.reference().contacts);
-  const double other_share = app::contact_fraction(other.reference().contacts);
-  artefact.check(
-      {"section 5.1", "as the contact plateau is smaller and not as flat",
-       "the contact takes less of the period than at 150 Hz, and its penetration is a larger part of the gap",
-       fmt::format("contact during {} against {} of the period, penetration {} against {} of the gap",
-                   report::percent(share), report::percent(other_share), report::percent(penetration(study)),
-                   report::percent(penetration(other))),
-       share < other_share && penetration(study) > penetration(other)});
+void state_suited(report::Artefact& artefact, const Case& here, const Readings& readings) {
+  const std::vector<std::string> haar{"haar_fourier", "haar_bspline"};
+  const Case there(artefact, 1);
+  const Readings others(artefact, there, readings.chosen());
+  const auto best = [](const Case& study) {
+    return plateau_error(study, best_constants(study.reference().displacement(), compared_cells));
+  };
+  const auto less = [](const PlateauError& low, const PlateauError& high) {
+    return report::together({lower({low.rms}, {high.rms}), lower({low.mean}, {high.mean})});
+  };
+  const double share = app::contact_fraction(here.reference().contacts),
+               other_share = app::contact_fraction(there.reference().contacts);
+  const auto plateau =
+      report::together({report::plain(share < other_share), lower({unevenness(there)}, {unevenness(here)})});
+  const auto basis = less(best(there), best(here));
+  const auto found = judged(
+      [&](std::size_t i) {
+        std::vector<report::Verdict> parts{plateau, basis};
+        std::string text;
+        for (const Pair& pair : readings.chosen()) {
+          const auto low = plateau_error(there, others.at(i, pair.name()).displacement()),
+                     high = plateau_error(here, readings.at(i, pair.name()).displacement());
+          parts.push_back(less(low, high));
+          text += fmt::format("{}{} {} at 1275 Hz, {} at 150 Hz", text.empty() ? "" : "; ", pair.label,
+                              percent(high.rms), percent(low.rms));
+        }
+        return Finding{report::together(parts), text};
+      },
+      [&](std::size_t i) { return readings.missing(i, haar) + others.missing(i, haar); });
+  report::Statement statement{
+      "section 5.1",
+      "The Haar basis appears to be less suited for the response at 1275 Hz as the contact plateau is smaller and "
+      "not as flat",
+      "the contact takes less of the period than at 150 Hz and varies more over the range of the motion; and in "
+      "contact the best constants on 64 cells and both Haar pairs have a higher error, rms and mean over the "
+      "rms of the motion"};
+  statement.because = fmt::format(
+      "The plateau takes {} of the period against {} and varies by {} of the range against {}, and the best "
+      "constants have an rms error of {} there against {}: so much depends on no reading. The solutions at 150 Hz "
+      "have a saw tooth besides, which depends on the sums. {}.",
+      percent(share), percent(other_share), percent(unevenness(here)), percent(unevenness(there)),
+      percent(best(here).rms), percent(best(there).rms), spread(found));
+  statement.panel = "(c), (e)";
+  statement.earlier =
+      "Until now two statements. The first compared rms errors over the whole period, which measure the slope of "
+      "the motion and not the plateau, and differed; that on the plateau agreed.";
+  artefact.statement(concluded(statement, found));
+}
+
+void state_penetration(report::Artefact& artefact) {
+  std::vector<double> found;
+  std::string text;
+  for (const char* constant : {"1e8", "1e9", "1e10"}) {
+    const auto scene = artefact.scene("reference_case2.toml", {std::string("contact.constant=") + constant});
+    const auto response = app::time_stepping_response(scene);
+    if (!response.converged) throw report::NotConverged("time stepping, a_c = " + std::string(constant));
+    found.push_back(penetration(response.displacement(), scene.contact.gap));
+    text += fmt::format("{}{} of the gap with a_c = {} N", text.empty() ? "" : ", ", percent(found.back()),
+                        constant);
+  }
+  report::Statement statement{
+      "section 5.1",
+      "the tip penetration through the contact boundary is a result of the inexact modeling of hard contact using "
+      "the exponential spring penalty function",
+      "with a spring 10 and 100 times as stiff time stepping penetrates less, each time by more than 10 %",
+      text, lower({found[1], found[2]}, {found[0], found[1]})};
+  statement.because = "The penetration does not fall with a stiffer spring: " + text + ".";
+  statement.earlier = "Not judged until now.";
+  artefact.statement(reasoned(statement));
+}
+
+app::Figure case2_figure(const Case& study, const Values& u) {
+  PairView view;
+  Values errors;
+  double lowest = 1.0, highest = 0.0;
+  for (const auto& one : u) {
+    view.values.push_back(millimetres * one);
+    Eigen::VectorXd error = millimetres * (one - study.reference().displacement()).cwiseAbs();
+    if (error.allFinite()) {
+      highest = std::max(highest, error.maxCoeff());
+      std::vector<double> sorted(error.begin(), error.end());
+      std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 10, sorted.end());
+      lowest = std::min(lowest, sorted[sorted.size() / 10]);
+    }
+    errors.push_back(std::move(error));
+  }
+  view.reference = millimetres * study.reference().displacement();
+  view.level = millimetres * study.gap();
+  view.label = "Displacement (mm)";
+  std::vector<app::Panel> differences;
+  const auto chosen = panel_pairs();
+  for (const auto& error : reordered(errors, pairs(), chosen)) {
+    auto& panel = differences.emplace_back();
+    auto series = periodic_series("distance from time stepping", error);
+    series.colour = chosen[differences.size() - 1].colour;
+    panel.add(std::move(series));
+    panel.x = axis(time_label, 0.0, 1.0);
+    panel.y = axis("Distance (mm)", std::pow(10.0, std::floor(std::log10(lowest))),
+                   std::pow(10.0, std::ceil(std::log10(highest))));
+    panel.y.logarithmic = true;
+    panel.legend = app::Legend::none;
+  }
+  return pair_rows("Tip displacement at 1275 Hz, 64 functions", {0.62, 8.0, {}}, pair_view(view, false),
+                   std::move(differences), "distance from time stepping");
 }
 
 }  // namespace
@@ -42,20 +155,15 @@ void fig07(report::Artefact& artefact) {
   const auto u = drawn(responses, &app::Response::displacement);
   artefact.attach("motion_case2.json",
                   motion_json(study, responses, artefact.result("reference_case2_nodes.csv")), false);
-  const Eigen::VectorXd& reference = study.reference().displacement();
-  artefact.data(comparison_table(study.time(), reference, u), "time in periods, displacements in m",
-                {"64 functions; reference: time stepping"});
-  artefact.picture(pair_figure({"Tip displacement at 1275 Hz, 64 functions",
-                                axis("Displacement (mm)", -20.0, 20.0), 0.0, millimetres, reference, u,
-                                study.gap(), Zoom{0.03, 0.22, 13.0, 16.0, {0.05, 0.1, 0.15, 0.2}}}));
-  artefact.caption("64 functions at 1275 Hz; dashed: time stepping; dotted: the gap.");
-  const double error = app::relative_rms_error(u[0], reference);
-  artefact.check(
-      {"section 5.1",
-       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
-       "both 150 Hz and 1275 Hz compared to the time-stepping solution.",
-       "at 1275 Hz: relative rms error below 1 %", report::percent(error), error < 0.01});
-  claim_haar(artefact, study);
+  artefact.data(comparison_table(study.time(), study.reference().displacement(), u),
+                "time in periods, displacements in m", {"64 functions; reference: time stepping"});
+  artefact.picture(case2_figure(study, u));
+  artefact.caption(
+      "64 functions at 1275 Hz; the grey line is the gap. Right: the distance from time stepping, |u − u_ref|, on "
+      "one logarithmic scale; where the difference changes its sign the curve leaves the panel downwards.");
+  state_suited(artefact, study, Readings(artefact, study, pairs_named({"haar_fourier", "haar_bspline"})));
+  state_penetration(artefact);
+  note_readings(artefact);
 }
 
 }  // namespace wavebalance::jl14

@@ -40,8 +40,8 @@ void note_inadmissible(report::Artefact& artefact) {
                                       std::pair{"daubechies4", "daubechies4"}}) {
     const auto pairing = app::pair_admissibility(time_of(trial, weight));
     if (!pairing.admissible)
-      artefact.note(
-          fmt::format("Not in the paper's list, and rightly so: {}:{}. {}", trial, weight, pairing.reason));
+      artefact.note(fmt::format("{}:{} is not in the paper's list and not admissible: {}", trial, weight,
+                                pairing.reason));
   }
 }
 

@@ -45,6 +45,39 @@ TEST(LargestChange, GoesRoundThePeriod) {
   EXPECT_THROW(largest_change(values, 0), std::invalid_argument);
 }
 
+TEST(WholeCells, KeepsCellsThatLieInsideAltogether) {
+  Mask where(6);
+  where << true, true, true, false, true, true;
+  const Mask found = whole_cells(where, 3);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(found[i], i < 2 || i > 3) << i;
+  EXPECT_THROW(whole_cells(where, 4), std::invalid_argument);
+}
+
+TEST(BestConstants, AreTheMeansOfTheCells) {
+  EXPECT_EQ(best_constants(Eigen::Vector4d(1.0, 3.0, 5.0, 9.0), 2), Eigen::Vector4d(2.0, 2.0, 7.0, 7.0));
+  EXPECT_THROW(best_constants(Eigen::Vector4d::Zero(), 3), std::invalid_argument);
+}
+
+TEST(CentralDifferences, AreOfSecondOrder) {
+  const double period = 0.5, rate = 2.0 * std::numbers::pi / period;
+  const auto error = [&](int points) {
+    const Eigen::VectorXd found = central_differences(sampled(1024, cosine), points, period);
+    const Eigen::VectorXd sine = sampled(points, [](double t) { return std::sin(2 * std::numbers::pi * t); });
+    return (found + rate * sine).cwiseAbs().maxCoeff();
+  };
+  EXPECT_NEAR(error(64) / error(128), 4.0, 0.02);
+  EXPECT_THROW(central_differences(sampled(1024, cosine), 2, period), std::invalid_argument);
+  EXPECT_THROW(central_differences(sampled(1024, cosine), 100, period), std::invalid_argument);
+}
+
+TEST(CoefficientsNeeded, LeavesOutTheSmallest) {
+  const Eigen::Vector4d coefficients(3.0, 0.0, -4.0, 0.1);
+  EXPECT_EQ(coefficients_needed(coefficients, 0.0), 3);
+  EXPECT_EQ(coefficients_needed(coefficients, 0.03), 2);
+  EXPECT_EQ(coefficients_needed(coefficients, 0.61), 1);
+  EXPECT_EQ(coefficients_needed(coefficients, 1.0), 0);
+}
+
 TEST(Select, KeepsTheOrder) {
   Eigen::Array<bool, Eigen::Dynamic, 1> where(4);
   where << true, false, false, true;

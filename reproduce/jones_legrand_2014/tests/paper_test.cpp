@@ -8,14 +8,17 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "paper_results.hpp"
 #include "paper_values.hpp"
+#include "readings.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -79,7 +82,7 @@ TEST(Jl14Paper, ReferencesMeetTheShootingValues) {
 }
 
 TEST(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
-  results().need({"reference_case1", "reference_case2", "fig06", "fig07"});
+  results().need({"reference_case1", "reference_case2", "haar_readings", "fig06", "fig07"});
   for (const std::string stem : {"fig06_tip_displacement_case1", "fig07_tip_displacement_case2"}) {
     const Table table = results().read(stem + ".csv");
     EXPECT_EQ(table.columns(), pair_columns) << stem;
@@ -94,7 +97,7 @@ TEST(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
 }
 
 TEST(Jl14Paper, MotionsForThePageAreThoseOfTheFigures) {
-  results().need({"reference_case1", "reference_case2", "fig06", "fig07"});
+  results().need({"reference_case1", "reference_case2", "haar_readings", "fig06", "fig07"});
   const std::vector<std::string> stems{"fig06_tip_displacement_case1", "fig07_tip_displacement_case2"};
   for (std::size_t study = 0; study < 2; ++study) {
     const Table table = results().read(stems[study] + ".csv");
@@ -120,6 +123,105 @@ TEST(Jl14Paper, MotionsForThePageAreThoseOfTheFigures) {
         }
       }
     }
+  }
+}
+
+double reading(const Table& table, const std::string& samples, const std::string& offset,
+               const std::string& products, const std::string& nyquist, const std::string& weight,
+               const std::string& what) {
+  return table.where("samples", samples)
+      .where("offset", offset)
+      .where("inner_products", products)
+      .where("nyquist", nyquist)
+      .where("weight", weight)
+      .numbers(what)
+      .at(0);
+}
+
+TEST(Jl14Paper, HaarReadingsMeetAnIndependentSolver) {
+  results().need({"reference_case1", "reference_case2", "haar_readings"});
+  const Table table = results().read("haar_readings.csv");
+  EXPECT_EQ(table.rows(), 2 * all_sums().size());
+  const auto found = [&](const char* samples, const char* offset, const char* products, const char* nyquist,
+                         const char* weight, const char* what) {
+    return reading(table, samples, offset, products, nyquist, weight, what);
+  };
+  EXPECT_NEAR(found("256", "0", "quadrature", "keep", "fourier", "case1_rms_error"), 0.03746, 2e-5);
+  EXPECT_NEAR(found("256", "0", "quadrature", "keep", "fourier", "case1_midpoint_error"), 0.02445, 2e-5);
+  EXPECT_NEAR(found("256", "0", "quadrature", "keep", "fourier", "case1_force_error"), 0.624, 1e-3);
+  EXPECT_NEAR(found("64", "0", "exact", "keep", "fourier", "case1_force_error"), 0.145, 1e-3);
+  EXPECT_NEAR(found("64", "0", "exact", "keep", "bspline", "case1_force_error"), 0.146, 1e-3);
+  EXPECT_NEAR(found("64", "0.5", "exact", "keep", "bspline", "case1_force_error"), 0.412, 1e-3);
+  EXPECT_NEAR(found("256", "0.5", "quadrature", "drop", "fourier", "case1_force_error"), 0.506, 1e-3);
+  EXPECT_NEAR(found("256", "0.5", "quadrature", "drop", "bspline", "case1_force_error"), 0.365, 1e-3);
+  EXPECT_NEAR(found("256", "0.5", "quadrature", "keep", "fourier", "case2_rms_error"), 0.0288, 1e-4);
+  EXPECT_TRUE(results().passes("haar_readings", "Exact inner products take the saw tooth away"));
+}
+
+TEST(Jl14Paper, TheFirstReadingIsThatOfTheScenes) {
+  const fs::path file = std::string(WAVEBALANCE_SCENES) + "/jones_legrand_2014/case1.toml";
+  const auto overrides = all_sums().front().overrides(pair("fourier_fourier"));
+  EXPECT_EQ(app::load_scene(file, overrides), app::load_scene(file));
+  EXPECT_TRUE(all_sums().front().literal());
+  EXPECT_EQ(all_sums().size(), 18u);
+}
+
+TEST(Jl14Paper, StatementsOnTheCasesHaveTheirVerdicts) {
+  using report::Verdict;
+  results().need({"reference_case1", "reference_case2", "haar_readings", "fig04", "fig06", "fig07", "fig08",
+                  "fig09", "tab01", "rigid_plateau"});
+  const std::vector<std::tuple<std::string, std::string, Verdict>> expected{
+      {"reference_case2", "transient response to decay", Verdict::agrees},
+      {"fig04_daubechies6_levels", "no longer scale-invariant", Verdict::agrees},
+      {"fig04_daubechies6_levels", "the shape does not converge", Verdict::differs},
+      {"fig04_daubechies6_levels", "prone to error", Verdict::agrees},
+      {"tab01_cases", "fundamental frequency", Verdict::agrees},
+      {"tab01_cases", "maximum tip displacements", Verdict::agrees},
+      {"fig06_tip_displacement_case1", "HBM (Fourier:Fourier) approximates", Verdict::agrees},
+      {"fig06_tip_displacement_case1", "oscillations due to Gibbs", Verdict::agrees},
+      {"fig06_tip_displacement_case1", "less well due to the blocky nature", Verdict::agrees},
+      {"fig06_tip_displacement_case1", "contact plateau is well represented", Verdict::depends},
+      {"fig06_tip_displacement_case1", "localized error", Verdict::depends},
+      {"fig07_tip_displacement_case2", "less suited", Verdict::depends},
+      {"fig07_tip_displacement_case2", "tip penetration", Verdict::agrees},
+      {"fig08_tip_velocity_case1", "sharp jump in velocity", Verdict::agrees},
+      {"fig08_tip_velocity_case1", "ringing due to Gibbs", Verdict::agrees},
+      {"fig08_tip_velocity_case1", "more pronounced", Verdict::depends},
+      {"fig08_tip_velocity_case1", "best job", Verdict::depends},
+      {"fig08_tip_velocity_case1", "velocity function envelope", Verdict::depends},
+      {"fig08_tip_velocity_case1", "sparse representation", Verdict::agrees},
+      {"fig09_contact_force_case1", "Gibbs phenomenon can be seen", Verdict::depends},
+      {"fig09_contact_force_case1", "relatively well", Verdict::depends},
+      {"fig09_contact_force_case1", "most accurately approximate", Verdict::partly},
+      {"fig09_contact_force_case1", "more accurate contact force", Verdict::depends},
+      {"fig09_contact_force_case1", "comparable prediction accuracy", Verdict::partly},
+      {"rigid_plateau", "perform even better", Verdict::agrees},
+      {"rigid_plateau", "perfectly flat contact plateaus", Verdict::depends}};
+  for (const auto& [stem, words, verdict] : expected)
+    EXPECT_EQ(report::to_string(results().verdict(stem, words)), report::to_string(verdict)) << stem << words;
+}
+
+TEST(Jl14Paper, ReadingsAreCounted) {
+  results().need({"reference_case1", "reference_case2", "haar_readings", "fig06", "fig08", "fig09"});
+  const auto agreeing = [](const std::string& stem, const std::string& words) {
+    return report::agreeing(results().statement(stem, words).readings);
+  };
+  EXPECT_EQ(agreeing("fig06_tip_displacement_case1", "well represented"), 7);
+  EXPECT_EQ(agreeing("fig06_tip_displacement_case1", "localized error"), 13);
+  EXPECT_EQ(agreeing("fig08_tip_velocity_case1", "velocity function envelope"), 1);
+  EXPECT_EQ(agreeing("fig08_tip_velocity_case1", "best job"), 1);
+  EXPECT_EQ(agreeing("fig09_contact_force_case1", "relatively well"), 2);
+  EXPECT_EQ(agreeing("fig09_contact_force_case1", "Gibbs phenomenon can be seen"), 17);
+}
+
+TEST(Jl14Paper, ChecksOfTheCodePass) {
+  results().need({"reference_case1", "reference_case2", "fig02", "fig03", "fig04", "fig05", "tab02"});
+  for (const char* stem :
+       {"reference_case1", "reference_case2", "fig02_fourier_functions", "fig03_bspline_levels",
+        "fig04_daubechies6_levels", "fig05_haar_levels", "tab02_pairs"}) {
+    const auto record = results().record(stem);
+    EXPECT_FALSE(record.checks.empty()) << stem;
+    for (const auto& check : record.checks) EXPECT_TRUE(check.passes) << stem << ": " << check.sentence;
   }
 }
 
@@ -211,7 +313,7 @@ TEST(Jl14Paper, EverySceneReadsBackAsWritten) {
 }
 
 TEST(Jl14Paper, RigidObstacleFlattensThePlateauForAllPairs) {
-  results().need({"rigid_plateau"});
+  results().need({"reference_case1", "reference_case2", "rigid_plateau"});
   EXPECT_TRUE(results().has("rigid_plateau.svg") && results().has("rigid_plateau.png"));
   const Table table = results().read("rigid_plateau.csv");
   for (const char* number : {"1", "2"}) {

@@ -1,0 +1,92 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "jl14.hpp"
+
+/// The details of the sums over the period that JL14 leaves open, and what its statements are found to be
+/// under each of them.
+namespace wavebalance::jl14 {
+
+/// One way to compute the inner products. The paper computes them "as discrete inner products using 256
+/// points"; it does not say where these lie, over what the 256 count, or how the force is sampled where
+/// connection coefficients give the rest.
+struct Sums {
+  int samples = 256;          ///< uniform, over the period
+  double offset = 0.0;        ///< 0: at the left ends of the 1/samples, 0.5: at their middles
+  bool exact = false;         ///< exact A_d; the force is summed over the samples in any case
+  bool keeps_nyquist = true;  ///< the Nyquist coefficient of 64 functions
+
+  std::string name() const;  ///< "256 left ends, same sums"
+  std::string key() const;   ///< "256_left_sums", for the columns of a table
+  /// Of a scene of this pair. One sample per function is a reading of pairs with Haar trial functions alone,
+  /// which have one value per cell; the others keep 256.
+  std::vector<std::string> overrides(const Pair& pair) const;
+  /// Whether the paper's words give it: 256 points for all inner products.
+  bool literal() const { return samples == 256 && !exact; }
+};
+
+/// 64, 256, 512 and 1024 samples, at left ends and at mid-points, with the same sums for A_d or exact; and
+/// 256 samples without the Nyquist coefficient. The first is that of the scenes.
+const std::vector<Sums>& all_sums();
+
+/// What a statement is found to be under one reading.
+struct Finding {
+  report::Verdict verdict = report::Verdict::differs;
+  std::string measured;
+};
+
+/// The solutions of a case with 64 functions under all_sums().
+class Readings {
+ public:
+  /// The slow ones, of Haar pairs in case 1, start from haar_readings_cells.csv, where an earlier step has
+  /// left them; those without a solution there have none here.
+  Readings(report::Artefact& artefact, const Case& study, std::vector<Pair> chosen = pairs());
+
+  const std::vector<Pair>& chosen() const { return chosen_; }
+  /// Throws std::out_of_range for a pair that was not chosen.
+  const app::Response& at(std::size_t reading, const std::string& pair) const;
+  /// Histories of all pairs in the order chosen; missing values where none was found.
+  Values values(std::size_t reading, Eigen::VectorXd (app::Response::*history)() const) const;
+  /// The labels of those of `names` without a solution, ", " between them.
+  std::string missing(std::size_t reading, const std::vector<std::string>& names) const;
+
+ private:
+  std::vector<Pair> chosen_;
+  std::vector<std::vector<app::Response>> responses_;
+};
+
+/// The solution with Haar trial functions whose iterations start from these displacements of its cells.
+app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& cells);
+/// The displacements of the cells of a Haar solution, and its column in haar_readings_cells.csv.
+Eigen::VectorXd cell_values(const app::Response& response, int cells);
+std::string cells_column(const Pair& pair, const Sums& sums);
+
+/// A finding for each of all_sums(); a reading for which `missing` names a pair differs and says so.
+std::vector<report::Reading> judged(const std::function<Finding(std::size_t)>& judge,
+                                    const std::function<std::string(std::size_t)>& missing);
+/// The same of solutions of `needed` pairs of Table 2.
+std::vector<report::Reading> judged(const Readings& readings, const std::vector<std::string>& needed,
+                                    const std::function<Finding(std::size_t)>& judge);
+
+/// Whether errors are lower than others or similar to them: "reasonably", "relatively well", "comparable"
+/// beside another pair's. Agrees if most entries are at most report::similar_factor times as high, else
+/// differs. Throws as report::lower().
+report::Verdict at_most_similar(const std::vector<double>& errors, const std::vector<double>& others);
+
+/// The statement with the readings' common verdict, and what the first found with the number of those that
+/// agree as `measured`; without its reason where all agree.
+report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings);
+
+/// The statement without its reason if it agrees, so that one can be given beforehand.
+report::Statement reasoned(report::Statement statement);
+
+/// Under which readings a statement agrees: their names where they are few, else how many by each detail. The
+/// readings are those of all_sums(), once or several times over.
+std::string spread(const std::vector<report::Reading>& readings);
+
+/// Notes which keys of the scene the readings set.
+void note_readings(report::Artefact& artefact);
+
+}  // namespace wavebalance::jl14
