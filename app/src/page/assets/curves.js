@@ -9,6 +9,13 @@
                          d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle];
   const number = (value) => d3.format(".5~g")(value).replace("-", "\u2212");
 
+  // Powers of ten far from 1 are written as such.
+  const power = (value) => {
+    const exponent = Math.round(Math.log10(value));
+    if (Math.abs(exponent) < 3 || Math.abs(value / 10 ** exponent - 1) > 1e-9) return number(value);
+    return "10" + [...String(exponent)].map((c) => (c === "-" ? "\u207B" : "\u2070\u00B9\u00B2\u00B3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
+  };
+
   // gnuplot's enhanced text as parts {text, level, bold, italic}; level 1 is raised and -1 lowered.
   function parts(text, style = { level: 0, bold: false, italic: false }) {
     const found = [];
@@ -97,8 +104,11 @@
       this.dot = root.append("circle").attr("class", "dot").attr("r", 4).attr("visibility", "hidden");
       svgText(root.append("text").attr("class", "label").attr("x", this.width / 2).attr("y", this.height + 35)
         .attr("text-anchor", "middle"), this.data.x.label);
-      svgText(root.append("text").attr("class", "label").attr("transform", `translate(-44,${this.height / 2})rotate(-90)`)
-        .attr("text-anchor", "middle"), this.data.y.label);
+      const upright = root.append("text").attr("class", "label")
+        .attr("transform", `translate(-44,${this.height / 2})rotate(-90)`).attr("text-anchor", "middle");
+      svgText(upright, this.data.y.label);
+      const share = (this.height + 2 * margin.top) / upright.node().getComputedTextLength();
+      if (share < 1) upright.attr("font-size", `${Math.max(60, 100 * share)}%`);
       this.values = element("div", { class: "values", hidden: "" });
       box.append(this.values);
     }
@@ -137,8 +147,11 @@
       const transform = d3.zoomTransform(this.svg.node());
       this.x = transform.rescaleX(this.x0);
       this.y = transform.rescaleY(this.y0);
-      const ticks = (axis, given, count) => given.ticks.length && transform.k === 1
-        ? axis.tickValues(given.ticks) : axis.ticks(count, given.logarithmic ? number : undefined);
+      const ticks = (axis, given, count) => {
+        const chosen = given.ticks.length && transform.k === 1;
+        const format = given.logarithmic ? (chosen ? power : axis.scale().tickFormat(count, power)) : axis.scale().tickFormat(count);
+        return axis.ticks(count).tickValues(chosen ? given.ticks : null).tickFormat((value) => format(value).replace(/,/g, ""));
+      };
       this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickPadding(7));
       this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickPadding(7));
       this.svg.style("touch-action", transform.k > 1 ? "none" : "pan-y");
