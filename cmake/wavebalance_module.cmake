@@ -103,5 +103,6 @@ function(wavebalance_install_package)
   write_basic_package_version_file(wavebalanceConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfig.cmake
     ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfigVersion.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLAPACKE.cmake DESTINATION ${package_dir} COMPONENT package)
+    ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake ${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindLAPACKE.cmake DESTINATION ${package_dir} COMPONENT package)
 endfunction()

@@ -38,10 +38,13 @@ void require_positive_definite(StructureMatrix name, const Sparse& matrix, int f
     if (!(diagonal[i] > 0.0))
       throw StructureFault(name, "is not positive definite: its diagonal entry " +
                                      std::to_string(i + first_index) + " is " + detail::text(diagonal[i], 6));
-  const detail::SymmetricFactor factor(scaled(matrix, diagonal.cwiseSqrt().cwiseInverse()));
-  if (factor.complete() && factor.pivots().minCoeff() > 1e-13) return;
+  const Sparse unit_diagonal = scaled(matrix, diagonal.cwiseSqrt().cwiseInverse());
+  const detail::SymmetricFactor factor(unit_diagonal);
+  if (factor.positive_definite() && factor.smallest_pivot() > 1e-13) return;
+  const detail::Inertia signs = factor.positive_definite() ? detail::Inertia{true, 0, factor.smallest_pivot()}
+                                                           : detail::inertia(unit_diagonal);
   const std::string pivot =
-      factor.complete() ? detail::text(factor.pivots().minCoeff(), 6) + " times its diagonal entry" : "zero";
+      signs.complete ? detail::text(signs.smallest, 6) + " times its diagonal entry" : "zero";
   throw StructureFault(name, "is not positive definite: a pivot is " + pivot + advice);
 }
 

@@ -148,10 +148,10 @@ int missing_modes(const Sparse& stiffness, const Sparse& mass, const Modes& mode
   if (modes.squares.size() == 0) return 0;
   const double highest = modes.squares[std::min<Eigen::Index>(count, modes.squares.size()) - 1];
   const double below = highest - 1e-7 * std::abs(highest);
-  const Factor factor(stiffness - below * mass);
-  if (!factor.complete()) return 0;  // a zero pivot: the modes cannot be counted
-  const auto expected = (factor.pivots().array() < 0.0).count();
-  return static_cast<int>(std::max<Eigen::Index>(0, expected - (modes.squares.array() < below).count()));
+  const detail::Inertia signs = detail::inertia(stiffness - below * mass);
+  if (!signs.complete) return 0;  // a zero pivot: the modes cannot be counted
+  return static_cast<int>(
+      std::max<Eigen::Index>(0, signs.negative - (modes.squares.array() < below).count()));
 }
 
 Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& shifted, int count,
@@ -209,6 +209,8 @@ namespace detail {
 
 EigenmodesResult sparse_eigenmodes(const SymmetricFactor& factor, const Sparse& stiffness, const Sparse& mass,
                                    int count, const EigenmodesOptions& options) {
+  if (options.shift == 0.0)
+    return make_result(sparse_modes(stiffness, mass, stiffness, count, options, factor), stiffness, mass);
   const Sparse shifted = stiffness - options.shift * mass;
   return make_result(sparse_modes(stiffness, mass, shifted, count, options, factor), stiffness, mass);
 }

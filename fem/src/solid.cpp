@@ -131,7 +131,10 @@ Matrices solid_matrices(const SolidModel& model, double stiffness_damping) {
   });
   // Directions do not share mass: two thirds of the pattern are zeros.
   matrices.mass.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
-  matrices.damping = stiffness_damping * matrices.stiffness;
+  if (stiffness_damping > 0.0)
+    matrices.damping = stiffness_damping * matrices.stiffness;
+  else
+    matrices.damping.resize(matrices.stiffness.rows(), matrices.stiffness.cols());  // without entries
   return matrices;
 }
 
