@@ -155,6 +155,7 @@ TEST(Jl14Paper, HaarReadingsMeetAnIndependentSolver) {
   EXPECT_NEAR(found("256", "0.5", "quadrature", "drop", "fourier", "case1_force_error"), 0.506, 1e-3);
   EXPECT_NEAR(found("256", "0.5", "quadrature", "drop", "bspline", "case1_force_error"), 0.365, 1e-3);
   EXPECT_NEAR(found("256", "0.5", "quadrature", "keep", "fourier", "case2_rms_error"), 0.0288, 1e-4);
+  for (const double converged : table.numbers("converged")) EXPECT_EQ(converged, 1.0);
   EXPECT_TRUE(results().passes("haar_readings", "Exact inner products take the saw tooth away"));
 }
 
