@@ -31,6 +31,11 @@ std::string fourier_text(const app::Recommendation& found) {
       return "";
   }
   if (found.choice->pair.is_fourier()) return "";
+  if (const auto& near = found.fourier_near_miss) {
+    std::array<char, 32> error{};
+    std::snprintf(error.data(), error.size(), "%.1e", near->error);
+    return "Fourier: " + std::string(error.data()) + " in " + app::duration_text(near->seconds);
+  }
   std::array<char, 32> ratio{};
   std::snprintf(ratio.data(), ratio.size(), "%.2g", found.fourier_time_ratio());
   const std::string text = "Fourier: " + std::string(ratio.data()) + " times as long";

@@ -124,10 +124,10 @@ class ResponseComparison {
     return response.stability ? response.stability->status : "";
   }
 
+  WallClock::time_point start_ = WallClock::now();
   MeasuredScene measured_;
   const ComparisonOptions& options_;
   const solvers::Observer& observer_;
-  WallClock::time_point start_ = WallClock::now();
   Comparison found_;
 };
 

@@ -70,11 +70,23 @@ std::string runner_up_sentence(const Recommendation& found) {
                      duration_text(found.runner_up->seconds));
 }
 
+/// Where Fourier:Fourier is late or never reaches the error, but misses it by little.
+std::string near_fourier_sentence(const Recommendation& found) {
+  const SolvePoint& near = *found.fourier_near_miss;
+  const std::string later =
+      found.fourier ? fmt::format(", and reaches it with {} and {} in {}", found.fourier->functions,
+                                  found.fourier->points, duration_text(found.fourier->seconds))
+                    : std::string();
+  return fmt::format("The basis matters little: {} has {} in {}{}.", choice_text(near),
+                     error_text(near.error), duration_text(near.seconds), later);
+}
+
 std::string second_sentence(const Recommendation& found, const std::vector<SolvePoint>& points) {
   const double ratio = found.fourier_time_ratio();
   switch (found.matters) {
     case BasisMatters::little:
       if (found.choice->pair.is_fourier()) return runner_up_sentence(found);
+      if (found.fourier_near_miss) return near_fourier_sentence(found);
       return fmt::format("The basis matters little: {} {} ({}).", choice_text(*found.fourier),
                          ratio_text(ratio), duration_text(found.fourier->seconds));
     case BasisMatters::much:
@@ -111,8 +123,9 @@ std::string without_choice(const std::vector<SolvePoint>& points, double error, 
                               " in " + duration_text(best->seconds) + ".";
   if (reference_error > known_share * error)
     return fmt::format(
-        "Whether a pair reaches an error of {} is not known, as that of the reference is about {}. {}", which,
-        error_text(reference_error), nearest);
+        "Whether a pair reaches an error of {} is not known, as that of the reference is about {}; a larger "
+        "budget refines it. {}",
+        which, error_text(reference_error), nearest);
   return "No pair reaches an error of " + which + " within the budget. " + nearest;
 }
 
@@ -129,11 +142,26 @@ std::string time_table_of(const SolvePoint& point, Time time) {
   return text;
 }
 
+/// The error is a sharp limit, which a size may miss by little.
+void note_near_misses(Recommendation& found, const std::vector<SolvePoint>& points) {
+  constexpr double slightly = 1.5, much_faster = 0.5;
+  const auto near = [&](const std::vector<SolvePoint>& among, double most_seconds) {
+    auto one = cheapest(among, slightly * found.error);
+    if (one && (one->error <= found.error || one->seconds > most_seconds)) one.reset();
+    return one;
+  };
+  found.near_miss = near(points, much_faster * found.choice->seconds);
+  if (!found.fourier || found.fourier_time_ratio() > little_ratio)
+    found.fourier_near_miss =
+        near(points_of({"fourier", "fourier"}, points), little_ratio * found.choice->seconds);
+}
+
 BasisMatters matters_of(const Recommendation& found, const std::vector<SolvePoint>& points) {
   const bool compared = std::any_of(points.begin(), points.end(),
                                     [](const SolvePoint& point) { return point.pair.is_fourier(); });
   if (!found.choice) return BasisMatters::no_choice;
   if (!compared) return BasisMatters::not_compared;
+  if (found.fourier_near_miss) return BasisMatters::little;
   if (!found.fourier) return BasisMatters::fourier_fails;
   return found.fourier_time_ratio() <= little_ratio ? BasisMatters::little : BasisMatters::much;
 }
@@ -148,14 +176,6 @@ void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points
   std::vector<SolvePoint> others = points;
   std::erase_if(others, [](const SolvePoint& point) { return point.pair.is_fourier(); });
   found.runner_up = cheapest(others, found.error);
-}
-
-void note_near_miss(Recommendation& found, const std::vector<SolvePoint>& points) {
-  constexpr double slightly = 1.5, much_faster = 0.5;
-  if (!found.choice) return;
-  const auto near = cheapest(points, slightly * found.error);
-  if (near && near->error > found.error && near->seconds <= much_faster * found.choice->seconds)
-    found.near_miss = near;
 }
 
 }  // namespace
@@ -212,8 +232,8 @@ Recommendation recommend(const std::vector<SolvePoint>& points, double error, do
     found.fourier = cheapest(points_of({"fourier", "fourier"}, points), error);
     prefer_fourier(found, points);
   }
+  if (found.choice) note_near_misses(found, points);
   found.matters = matters_of(found, points);
-  note_near_miss(found, points);
   if (!found.choice) {
     found.sentences = without_choice(points, error, reference_error);
     return found;

@@ -105,8 +105,9 @@ class SizeSeries {
 
   bool is_hopeless(int functions, const SolvePoint& point) {
     constexpr int fewest_functions = 64, most_in_a_row = 2;
-    const bool applies =
-        options_.dominated_ratio > 0.0 && !pair_.is_fourier() && functions >= fewest_functions;
+    constexpr double long_solve = 0.01;  // s
+    const bool large = functions >= fewest_functions || point.seconds > long_solve;
+    const bool applies = options_.dominated_ratio > 0.0 && !pair_.is_fourier() && large;
     dominated_ = applies && solved_.dominates(point, options_.dominated_ratio) ? dominated_ + 1 : 0;
     return dominated_ >= most_in_a_row;
   }

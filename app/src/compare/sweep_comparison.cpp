@@ -156,11 +156,11 @@ class CurveComparison {
     return functions + functions % 2;
   }
 
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Scene scene_;
   StructureModel model_;
   const ComparisonOptions& options_;
   const solvers::Observer& observer_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepComparison found_;
 };
 

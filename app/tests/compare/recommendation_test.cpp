@@ -123,7 +123,7 @@ TEST(Recommendation, KnowsNothingBelowAQuarterOfTheErrorOfTheReference) {
   const auto found = recommended(points, 1e-4, 3e-5);
   EXPECT_FALSE(found.choice);
   EXPECT_NE(found.sentences.find("Whether a pair reaches an error of 1e-4 is not known, as that of the "
-                                 "reference is about 3.0e-5."),
+                                 "reference is about 3.0e-5; a larger budget refines it."),
             std::string::npos)
       << found.sentences;
 }
@@ -136,6 +136,24 @@ TEST(Recommendation, NamesAMuchFasterSizeThatMissesTheErrorByLittle) {
   EXPECT_NE(at(1e-3).sentences.find("; Fourier:Fourier with 63 functions and 128 points has 1.0e-4 in 1 ms."),
             std::string::npos)
       << at(1e-3).sentences;
+}
+
+TEST(Recommendation, SaysThatTheBasisMattersLittleWhereFourierMissesTheErrorByLittle) {
+  std::vector<SolvePoint> points{solved(fourier, 31, 1.7e-4, 1.1e-2), solved(spline, 32, 1.6e-4, 9.9e-3)};
+  const auto never = recommended(points, 1e-2);
+  EXPECT_EQ(never.matters, BasisMatters::little);
+  EXPECT_NE(
+      never.sentences.find("The basis matters little: Fourier:Fourier with 31 functions and 64 points has "
+                           "1.1e-2 in 170 µs."),
+      std::string::npos)
+      << never.sentences;
+  points.push_back(solved(fourier, 63, 7e-4, 2e-3));
+  const auto later = recommended(points, 1e-2);
+  EXPECT_EQ(later.matters, BasisMatters::little);
+  EXPECT_NE(later.sentences.find("in 170 µs, and reaches it with 63 and 128 in 700 µs."), std::string::npos)
+      << later.sentences;
+  points.front().error = 1.6e-2;
+  EXPECT_EQ(recommended(points, 1e-2).matters, BasisMatters::much);
 }
 
 TEST(Recommendation, GivesTheTimeTableOfItsChoice) {

@@ -19,7 +19,7 @@ bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, d
 /// How the cheapest choice of an error compares with Fourier functions on both sides.
 enum class BasisMatters {
   no_choice,      ///< no pair reaches the error
-  little,         ///< Fourier:Fourier is the choice or takes at most twice its time
+  little,         ///< Fourier:Fourier is the choice, or at most twice its time gives it 1.5 times the error
   much,           ///< Fourier:Fourier takes more than twice its time
   fourier_fails,  ///< Fourier:Fourier does not reach the error
   not_compared    ///< Fourier:Fourier is not among the pairs
@@ -37,6 +37,8 @@ struct Recommendation {
   std::optional<SolvePoint> runner_up;  ///< the cheapest of all other pairs, where the choice is that
   /// One that takes at most half the time of the choice with at most 1.5 times the error.
   std::optional<SolvePoint> near_miss;
+  /// One of Fourier:Fourier that takes at most twice the time of the choice with at most 1.5 times the error.
+  std::optional<SolvePoint> fourier_near_miss;
   BasisMatters matters = BasisMatters::no_choice;
   std::string sentences;   ///< two
   std::string time_table;  ///< "[time]\ntrial = ...": to be pasted into a scene; empty without a choice

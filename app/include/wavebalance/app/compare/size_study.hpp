@@ -33,8 +33,8 @@ struct SizeStudyOptions {
   /// > 0: a solve ends when it takes longer than so many times the fastest that has converged with as many
   /// functions and points, but not before 5 ms. It has not converged then.
   double longest_ratio = 0.0;
-  /// > 0: a series of sizes ends, Fourier:Fourier apart, with the second size in a row, of 64 functions or
-  /// more, that fails or takes so many times as long as another solve with no larger error.
+  /// > 0: a series of sizes ends, Fourier:Fourier apart, with the second size in a row, of 64 functions or 10
+  /// ms or more, that fails or takes so many times as long as another solve with no larger error.
   double dominated_ratio = 0.0;
   /// Called before each size with its pair as the phase. No size is begun after it has returned false, and
   /// one that was begun is `not_run`.
