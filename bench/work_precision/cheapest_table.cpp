@@ -37,7 +37,8 @@ std::string fourier_text(const app::Recommendation& found) {
     return "Fourier: " + std::string(error.data()) + " in " + app::duration_text(near->seconds);
   }
   std::array<char, 32> ratio{};
-  std::snprintf(ratio.data(), ratio.size(), "%.2g", found.fourier_time_ratio());
+  std::snprintf(ratio.data(), ratio.size(), "%.*f", found.fourier_time_ratio() < 9.95 ? 1 : 0,
+                found.fourier_time_ratio());
   const std::string text = "Fourier: " + std::string(ratio.data()) + " times as long";
   return found.matters == app::BasisMatters::much ? "<b>" + text + "</b>" : text;
 }

@@ -66,7 +66,7 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
   command
       .add_option("--pairs", arguments.pairs,
                   "pairs of bases, fourier:fourier,haar:fourier; without it every admissible one of "
-                  "fourier, haar, bspline and daubechies6")
+                  "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")
       ->type_name("SECONDS")

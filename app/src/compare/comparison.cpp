@@ -92,7 +92,7 @@ class ResponseComparison {
     sizes.smallest_error = std::max(smallest_error, found_.reference.error);
     sizes.solve = {
         .budget = std::min(0.02, 2e-4 * options_.budget), .least = 2, .max_seconds = 0.005 * options_.budget};
-    sizes.longest_ratio = 30.0;
+    sizes.longest_ratio = 10.0;
     sizes.dominated_ratio = 5.0;
     sizes.construction = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
     sizes.observer = [this](const solvers::Progress& progress) {

@@ -57,14 +57,17 @@ std::string first_sentence(const Recommendation& found, bool steady) {
 /// "takes 1.3 times as long"
 std::string ratio_text(double ratio) {
   constexpr double noise = 0.1;
-  return std::abs(ratio - 1.0) < noise ? std::string("takes as long")
-                                       : fmt::format("takes {:.2g} times as long", ratio);
+  if (std::abs(ratio - 1.0) < noise) return "takes as long";
+  return fmt::format("takes {:.{}f} times as long", ratio, ratio < 9.95 ? 1 : 0);
 }
 
 /// Of a choice that is Fourier:Fourier.
 std::string runner_up_sentence(const Recommendation& found) {
   if (!found.runner_up) return "No other pair reaches it within the budget.";
   const double ratio = found.runner_up->seconds / found.choice->seconds;
+  if (found.runner_up->error > found.error)
+    return fmt::format("The basis matters little: the next, {}, has {} in {}.", choice_text(*found.runner_up),
+                       error_text(found.runner_up->error), duration_text(found.runner_up->seconds));
   const char* opening = ratio <= little_ratio ? "The basis matters little" : "The basis matters";
   return fmt::format("{}: the next, {}, {} ({}).", opening, choice_text(*found.runner_up), ratio_text(ratio),
                      duration_text(found.runner_up->seconds));
@@ -150,6 +153,14 @@ void note_near_misses(Recommendation& found, const std::vector<SolvePoint>& poin
     if (one && (one->error <= found.error || one->seconds > most_seconds)) one.reset();
     return one;
   };
+  if (found.choice->pair.is_fourier()) {
+    std::vector<SolvePoint> others = points;
+    std::erase_if(others, [](const SolvePoint& point) { return point.pair.is_fourier(); });
+    const double little = little_ratio * found.choice->seconds;
+    found.runner_up = cheapest(others, found.error);
+    if (!found.runner_up || found.runner_up->seconds > little)
+      if (auto close = near(others, little)) found.runner_up = std::move(close);
+  }
   found.near_miss = near(points, much_faster * found.choice->seconds);
   if (!found.fourier || found.fourier_time_ratio() > little_ratio)
     found.fourier_near_miss =
@@ -172,10 +183,6 @@ void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points
   if (!found.fourier) return;
   const bool steady = is_steady(*found.fourier, points, found.error);
   if (steady && found.fourier->seconds <= noise * found.choice->seconds) found.choice = found.fourier;
-  if (!found.choice->pair.is_fourier()) return;
-  std::vector<SolvePoint> others = points;
-  std::erase_if(others, [](const SolvePoint& point) { return point.pair.is_fourier(); });
-  found.runner_up = cheapest(others, found.error);
 }
 
 }  // namespace

@@ -48,6 +48,15 @@ class SolvedSoFar {
     return std::numeric_limits<double>::infinity();
   }
 
+  /// Time of a solve over that of the fastest with no larger error: 1 on the front, infinite for a failure.
+  double lag(const SolvePoint& point) const {
+    if (!point.converged) return std::numeric_limits<double>::infinity();
+    double fastest = point.seconds;
+    for (const SolvePoint& other : converged_)
+      if (other.error <= point.error) fastest = std::min(fastest, other.seconds);
+    return point.seconds / fastest;
+  }
+
   /// Whether another solve with no larger error was `ratio` times as fast. A failure has an infinite error.
   bool dominates(const SolvePoint& point, double ratio) const {
     if (!point.converged) return !converged_.empty();
@@ -75,6 +84,8 @@ class SizeSeries {
         limit_(options.max_seconds) {}
 
   std::vector<SolvePoint>& points() { return points_; }
+  /// SolvedSoFar::lag() of the last size, 1 before the first.
+  double lag() const { return points_.empty() ? 1.0 : solved_.lag(points_.back()); }
 
   /// Solves the next size.
   void add(int functions) {
@@ -97,9 +108,10 @@ class SizeSeries {
 
  private:
   double longest_solve(int functions, int points) const {
-    constexpr double least = 5e-3;
+    constexpr double least = 5e-3, of_fourier = 10.0;
     if (!(options_.longest_ratio > 0.0)) return options_.max_seconds;
-    const double longest = std::max(least, options_.longest_ratio * solved_.fastest(functions, points));
+    const double ratio = options_.longest_ratio * (pair_.is_fourier() ? of_fourier : 1.0);
+    const double longest = std::max(least, ratio * solved_.fastest(functions, points));
     return std::min(options_.max_seconds, longest);
   }
 
@@ -178,6 +190,18 @@ class SizeSeries {
   bool ended_ = false;
 };
 
+/// Those that were on the front with their last size first, since time may end before the others. Bench has
+/// the time for all and takes them in their own order.
+std::vector<SizeSeries*> in_order(std::vector<SizeSeries>& all, const SizeStudyOptions& options) {
+  std::vector<std::pair<double, SizeSeries*>> lags;
+  for (SizeSeries& series : all)
+    lags.emplace_back(options.dominated_ratio > 0.0 ? series.lag() : 1.0, &series);
+  std::stable_sort(lags.begin(), lags.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<SizeSeries*> order;
+  for (const auto& [lag, series] : lags) order.push_back(series);
+  return order;
+}
+
 }  // namespace
 
 Scene discretised(Scene scene, const BasisPair& pair, int functions, int points) {
@@ -209,7 +233,7 @@ std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vec
       if (pair.is_fourier()) all.emplace_back(measured, options, solved, pair, points, -1);
     }
   for (const int functions : options.functions)
-    for (SizeSeries& series : all) series.add(functions);
+    for (SizeSeries* series : in_order(all, options)) series->add(functions);
   std::vector<SolvePoint> points;
   for (SizeSeries& series : all)
     points.insert(points.end(), std::make_move_iterator(series.points().begin()),

@@ -148,7 +148,7 @@ TEST(Comparison, OfNoNamedPairsTakesEveryAdmissibleOneAndSaysWhyTheOthersAreNot)
   options.largest_functions = 8;
   options.points_per_function = {2};
   const Comparison found = compare_responses(scene_of(), options);
-  ASSERT_EQ(found.pairs.size(), 16u);
+  ASSERT_EQ(found.pairs.size(), 18u);
   EXPECT_EQ(found.pairs.front().pair, (BasisPair{"fourier", "fourier"}));
   for (const PairResult& pair : found.pairs) {
     if (pair.pair == BasisPair{"haar", "haar"}) {

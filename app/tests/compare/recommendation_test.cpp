@@ -43,7 +43,7 @@ TEST(Recommendation, IsTheCheapestThatReachesTheErrorAndSaysHowMuchLongerFourier
   EXPECT_EQ(found.sentences,
             "For an error of 1e-2 the cheapest is B-spline:B-spline with 64 functions and 128 points: 100 µs "
             "per solve (error 9.0e-3). The basis matters: Fourier:Fourier with 63 functions and 128 points "
-            "takes 8 times as long (800 µs).");
+            "takes 8.0 times as long (800 µs).");
 }
 
 TEST(Recommendation, SaysThatTheBasisMattersLittleUpToTwiceTheTime) {
@@ -63,6 +63,19 @@ TEST(Recommendation, TakesFourierWhereItIsAtMostATenthSlowerAndNamesTheNextPair)
   EXPECT_NE(
       found.sentences.find("The basis matters little: the next, B-spline:B-spline with 64 functions and "
                            "128 points, takes as long (100 µs)."),
+      std::string::npos)
+      << found.sentences;
+}
+
+TEST(Recommendation, NamesTheNextPairThatMissesTheErrorByLittleBeforeOneThatIsMuchLater) {
+  const auto found = recommended(
+      {solved(fourier, 63, 1e-4, 9e-3), solved(spline, 64, 1.1e-4, 1.2e-2), solved(haar, 64, 9e-4, 5e-3)},
+      1e-2);
+  EXPECT_EQ(found.choice->pair, fourier);
+  EXPECT_EQ(found.runner_up->pair, spline);
+  EXPECT_NE(
+      found.sentences.find("The basis matters little: the next, B-spline:B-spline with 64 functions and "
+                           "128 points, has 1.2e-2 in 110 µs."),
       std::string::npos)
       << found.sentences;
 }

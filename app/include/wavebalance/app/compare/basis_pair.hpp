@@ -25,7 +25,8 @@ std::string label_of(const BasisPair& pair);
 /// allowed, for anything else, unknown bases and a pair that is there twice.
 std::vector<BasisPair> parse_pairs(std::string_view text);
 
-/// Every pair of "fourier", "haar", "bspline" and "daubechies6", admissible or not; Fourier:Fourier first.
+/// Every pair of "fourier", "haar", "bspline" and "daubechies6", admissible or not, Fourier:Fourier first,
+/// and "daubechies10" with itself and with Fourier weights.
 std::vector<BasisPair> common_pairs();
 
 /// Whether the pair can be taken with the scene's formulation and inner products, and if not, the reason.

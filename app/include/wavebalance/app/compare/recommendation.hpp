@@ -33,8 +33,10 @@ struct Recommendation {
   /// The cheapest, or that of Fourier:Fourier where it takes at most a tenth longer; empty where no pair
   /// reaches the error.
   std::optional<SolvePoint> choice;
-  std::optional<SolvePoint> fourier;    ///< the cheapest of Fourier:Fourier
-  std::optional<SolvePoint> runner_up;  ///< the cheapest of all other pairs, where the choice is that
+  std::optional<SolvePoint> fourier;  ///< the cheapest of Fourier:Fourier
+  /// The cheapest of all other pairs, where the choice is that of Fourier:Fourier; or one of them that takes
+  /// at most twice the time of the choice with at most 1.5 times the error, where that is sooner.
+  std::optional<SolvePoint> runner_up;
   /// One that takes at most half the time of the choice with at most 1.5 times the error.
   std::optional<SolvePoint> near_miss;
   /// One of Fourier:Fourier that takes at most twice the time of the choice with at most 1.5 times the error.

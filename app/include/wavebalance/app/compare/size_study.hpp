@@ -31,7 +31,8 @@ struct SizeStudyOptions {
   /// beside the odd one of the same functions.
   bool without_equals = true;
   /// > 0: a solve ends when it takes longer than so many times the fastest that has converged with as many
-  /// functions and points, but not before 5 ms. It has not converged then.
+  /// functions and points, ten times as many for Fourier:Fourier, but not before 5 ms. It has not converged
+  /// then.
   double longest_ratio = 0.0;
   /// > 0: a series of sizes ends, Fourier:Fourier apart, with the second size in a row, of 64 functions or 10
   /// ms or more, that fails or takes so many times as long as another solve with no larger error.
@@ -43,7 +44,8 @@ struct SizeStudyOptions {
 
 /// The scene in every pair over functions and points, a pair of Fourier functions also with one function
 /// less: an odd number has no Nyquist coefficient. Sizes rise for all pairs together, so that an early end
-/// leaves all of them equally far; the rows are those of one series after the other.
+/// leaves all of them equally far, with a dominated_ratio those first that lead; the rows are those of one
+/// series after the other.
 std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vector<BasisPair>& pairs,
                                    const SizeStudyOptions& options);
 
