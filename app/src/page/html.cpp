@@ -95,8 +95,7 @@ std::string figure_html(const FigureBlock& block) {
 
 std::string table_html(const std::vector<std::vector<std::string>>& rows) {
   if (rows.empty()) return "";
-  std::string text =
-      "<div class=\"wide\" tabindex=\"0\"><table>\n<thead>" + row_html(rows[0], "th") + "</thead>\n<tbody>\n";
+  std::string text = "<div class=\"wide\"><table>\n<thead>" + row_html(rows[0], "th") + "</thead>\n<tbody>\n";
   for (std::size_t i = 1; i < rows.size(); ++i) text += row_html(rows[i], "td");
   return text + "</tbody></table></div>\n";
 }

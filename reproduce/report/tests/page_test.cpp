@@ -10,7 +10,7 @@
 namespace wavebalance::report {
 namespace {
 
-Record example() {
+Record judged() {
   Record record;
   record.identity = {"some_paper", "SP Fig. 1", "A < B & \"C\"", "fig01_example"};
   record.caption = "caption with $x < 1$";
@@ -35,7 +35,7 @@ Paper some_paper(bool own_page = false) {
   return {"some_paper", "Some 2000", "Some 2000, A paper", "https://example.org", "CC BY", own_page, {}};
 }
 
-std::string page(const Record& record = example()) {
+std::string page(const Record& record = judged()) {
   const std::map<std::string, std::uintmax_t> files{
       {"fig01_example.svg", 1000}, {"fig01_example.figure.js", 10}, {"scenes/one.toml", 10}};
   return page_html({{some_paper(), {record}, files}}, {"abc123", "GNU 12", "a processor, 2 cores"});
@@ -71,7 +71,7 @@ TEST(Page, OpensWithCountsAndReasonsInTenLinesAtMost) {
                     "Of 3 statements 1 agrees, 1 differs, 1 depends on what is left open."));
   EXPECT_TRUE(holds(section(page(), "brief"), "<q>fails</q> x is large"));
   EXPECT_TRUE(holds(section(page(), "brief"), "<q>depends</q> x is open."));
-  Record many = example();
+  Record many = judged();
   for (int i = 0; i < 20; ++i) many.statements.push_back(many.statements[1 + i % 2]);
   const std::string brief = section(page(many), "brief");
   const std::string list = brief.substr(0, brief.find("</ul>"));
@@ -113,7 +113,7 @@ TEST(Page, StatesTheRuleAndWhatWasJudgedOtherwiseEarlier) {
 
 TEST(Page, ChecksAreFoldedAndNotCounted) {
   EXPECT_TRUE(holds(page(), "One check of the code, not counted: it passes"));
-  Record failing = example();
+  Record failing = judged();
   failing.checks.push_back({"", "checked too", "y < 1", "2", false});
   EXPECT_TRUE(
       holds(page(failing),
@@ -132,7 +132,7 @@ TEST(Page, SaysAtEachFigureHowToComputeItAgainAndWhereItComesFrom) {
 }
 
 TEST(Page, ManyRunsOfASceneAreGivenByTheirKeysAndValues) {
-  Record record = example();
+  Record record = judged();
   record.scenes[0].overrides.clear();
   for (int n = 1; n <= 20; ++n) record.scenes[0].overrides.push_back({"time.functions=" + std::to_string(n)});
   EXPECT_TRUE(holds(page(record), "# 20 runs of this scene, with --set of\n  time.functions = 1, 2, 3"));
@@ -148,13 +148,13 @@ TEST(Page, ShowsThePictureAndItsCurvesAndLinksThePaper) {
 
 TEST(Page, ALargeVectorPictureIsShownAsPixels) {
   const std::string text =
-      page_html({{some_paper(), {example()}, {{"fig01_example.svg", 2'000'000}}}}, Origin{});
+      page_html({{some_paper(), {judged()}, {{"fig01_example.svg", 2'000'000}}}}, Origin{});
   EXPECT_EQ(attributes(text, "src").count("some_paper/fig01_example.png"), 1u);
   EXPECT_TRUE(attributes(text, "data-curves").empty());
 }
 
 TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOneAndNotJudged) {
-  Record record = example();
+  Record record = judged();
   record.statements.clear();
   const std::string own =
       page_html({{{"own", "Further", "Further", "", "", false, {}}, {record}, {}}}, Origin{});
@@ -165,7 +165,7 @@ TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOneAndNotJudged) {
 }
 
 TEST(Page, LinksToASectionWithItsOwnPageInPlaceOfShowingIt) {
-  const Section own_section{some_paper(true), {example()}, {}};
+  const Section own_section{some_paper(true), {judged()}, {}};
   const std::string index = page_html({own_section}, Origin{}), own = own_page_html(own_section, Origin{});
   EXPECT_TRUE(holds(index, "href=\"some_paper/index.html\""));
   EXPECT_FALSE(holds(index, "<td>3</td>"));

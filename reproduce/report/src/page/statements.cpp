@@ -34,7 +34,7 @@ std::string readings_html(const Statement& one) {
                     app::with_formulas(reading.measured), sign(reading.verdict), to_string(reading.verdict));
   }
   return fmt::format(
-      "<details class=\"readings\"{}><summary>{} readings: {}</summary>\n<div class=\"wide\" tabindex=\"0\"><table>"
+      "<details class=\"readings\"{}><summary>{} readings: {}</summary>\n<div class=\"wide\"><table>"
       "<thead><tr><th>Reading</th><th>Found</th><th>Verdict</th></tr></thead>\n<tbody>{}</tbody></table></div></details>\n",
       one.readings.size() <= most_open_readings ? " open" : "", one.readings.size(), tally_text(tally), rows);
 }
@@ -79,7 +79,7 @@ std::string checks_html(const Record& record) {
   const auto failed =
       std::count_if(record.checks.begin(), record.checks.end(), [](const Check& c) { return !c.passes; });
   return fmt::format(
-      "<details class=\"checks\"{}><summary>{} of the code, not counted: {}</summary>\n<div class=\"wide\" tabindex=\"0\">"
+      "<details class=\"checks\"{}><summary>{} of the code, not counted: {}</summary>\n<div class=\"wide\">"
       "<table>\n<thead><tr><th>Checked</th><th>Decided by</th><th>Found</th><th></th></tr></thead>\n<tbody>{}</tbody>"
       "</table></div></details>\n",
       failed ? " open" : "", count == 1 ? "One check" : fmt::format("{} checks", count),

@@ -184,8 +184,8 @@ std::string not_agreeing_html(const std::vector<Section>& sections) {
                         app::with_formulas(one.because), badge(one));
   }
   return fmt::format(
-      "<details><summary>All {} statements that do not simply agree, with reasons</summary>\n<div class=\"wide\" "
-      "tabindex=\"0\"><table>\n<thead><tr><th>Figure</th><th>The paper says</th><th>Decided by</th><th>Found</th>"
+      "<details><summary>All {} statements that do not simply agree, with reasons</summary>\n<div class=\"wide\""
+      "><table>\n<thead><tr><th>Figure</th><th>The paper says</th><th>Decided by</th><th>Found</th>"
       "<th>Because</th><th>Verdict</th></tr></thead>\n<tbody>{}</tbody></table></div></details>\n",
       list.size(), rows);
 }
@@ -219,7 +219,7 @@ std::string rule_html(const std::vector<Section>& sections) {
              "<p>The rule was written down before the verdicts on this page were computed. Earlier versions "
              "judged each statement by a threshold of its own, some of which were changed after first results "
              "had been seen. For {} statements the criterion or the verdict was another one.</p>\n"
-             "<details><summary>Criteria and verdicts that have changed</summary>\n<div class=\"wide\" tabindex=\"0\">"
+             "<details><summary>Criteria and verdicts that have changed</summary>\n<div class=\"wide\">"
              "<table>\n<thead><tr><th>Figure</th><th>The paper says</th><th>Earlier</th><th>Now</th></tr></thead>\n"
              "<tbody>{}</tbody></table></div></details>\n</section>\n",
              changed.size(), rows);
