@@ -41,7 +41,7 @@ std::string bar_motion_script(const Scene& scene, const Record& record, const st
                 list_text(std::span(nodes.col(k).data(), static_cast<std::size_t>(nodes.rows())));
   }
   return fmt::format(
-      "(window.wavebalance ??= {{}}).motions ??= {{}};\n"
+      "(window.wavebalance ?\?= {{}}).motions ?\?= {{}};\n"
       "wavebalance.motions[\"{}\"] = {{\"gap\":{:.6g},\"frequency\":{:.6g},\"time\":{},\"pairs\":[],\n"
       "\"reference\":{{\"label\":\"this motion\",\"tip\":{},\"force\":{},\"nodes\":[{}]}}}};\n",
       name, scene.contact.gap, scene.forcing.frequency, list_text(times),
