@@ -6,104 +6,189 @@
 #include <cmath>
 #include <limits>
 
+#include "curve_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
+namespace {
+
+constexpr double not_found = std::numeric_limits<double>::quiet_NaN();
+
+std::string case_file(int case_number) { return "case" + std::to_string(case_number) + ".toml"; }
+
+Measures measures_of(const Case& study, const app::Response& response, int functions, bool energies) {
+  Measures m{not_found, not_found, not_found, not_found,         not_found,
+             not_found, not_found, not_found, response.converged};
+  if (!response.converged) return m;
+  const Eigen::VectorXd u = response.displacement(), exact = study.reference().displacement();
+  const Eigen::VectorXd middle = cell_midpoints(u, functions),
+                        exact_middle = cell_midpoints(exact, functions);
+  const double range = exact.maxCoeff() - exact.minCoeff();
+  m.rms = app::relative_rms_error(u, exact);
+  m.mean = relative_mean_error(u, exact);
+  m.largest = (u - exact).cwiseAbs().maxCoeff() / range;
+  m.midpoint_rms = app::relative_rms_error(middle, exact_middle);
+  m.midpoint_mean = relative_mean_error(middle, exact_middle);
+  m.midpoint_largest = (middle - exact_middle).cwiseAbs().maxCoeff() / range;
+  if (!energies) return m;
+  m.energy_ratio = app::energy_norm(study.scene(), response.structure) / app::rms(study.reference_energy());
+  m.energy_deviation = std::abs(m.energy_ratio - 1.0);
+  return m;
+}
+
+/// A history at uniform points of the period at those of a sampling: the value of the last point before.
+Eigen::VectorXd start_from(const Eigen::VectorXd& history, const Sampling& sampling) {
+  return Eigen::VectorXd::NullaryExpr(sampling.points, [&](Eigen::Index l) {
+    const double time = (double(l) + sampling.offset) / sampling.points;
+    return history[static_cast<Eigen::Index>(std::floor(time * double(history.size())))];
+  });
+}
+
+}  // namespace
 
 std::vector<int> sizes() { return {8, 16, 32, 64, 128}; }
 
-Convergence::Convergence(report::Artefact& artefact, std::string column, bool whole_structure,
-                         const Measure& measure)
-    : column_(std::move(column)), table_({"case", "trial", "weight", "functions", column_, "converged"}) {
+std::string Sampling::name() const {
+  return fmt::format("{} {}{}{}", points, offset == 0.0 ? "left ends" : "mid-points",
+                     exact ? ", exact products" : "", keeps_nyquist ? "" : ", Nyquist coefficient dropped");
+}
+
+std::vector<std::string> Sampling::overrides() const {
+  std::vector<std::string> all{"time.quadrature_points=" + std::to_string(points)};
+  if (offset != 0.0) all.push_back(fmt::format("time.sample_offset={}", offset));
+  if (exact) all.emplace_back("time.inner_products=exact");
+  if (!keeps_nyquist) all.emplace_back("time.nyquist=drop");
+  return all;
+}
+
+const std::vector<Sampling>& samplings() {
+  static const std::vector<Sampling> all{
+      {256, 0.0, false, true}, {256, 0.5, false, true},  {256, 0.0, true, true}, {256, 0.0, false, false},
+      {512, 0.0, false, true}, {1024, 0.0, false, true}, {1024, 0.5, true, true}};
+  return all;
+}
+
+Convergence::Convergence(report::Artefact& artefact, bool energies) : sampling_(samplings().front()) {
   for (const int number : {1, 2}) {
     Case study(artefact, number);
     for (const Pair& pair : pairs())
       for (const int functions : sizes()) {
-        const auto response = study.solve(pair, functions, whole_structure);
-        const double value =
-            response.converged ? measure(study, response) : std::numeric_limits<double>::quiet_NaN();
-        table_.append_row({std::int64_t{number}, pair.trial, pair.weight, std::int64_t{functions}, value,
-                           response.converged});
+        const auto response = study.solve(pair, functions, energies);
+        measures_[{number, pair.name(), functions}] = measures_of(study, response, functions, energies);
+        if (response.converged) displacements_[{number, pair.name(), functions}] = response.displacement();
       }
   }
 }
 
-double Convergence::at(int case_number, const Pair& pair, int functions) const {
-  const Table found = table_.where("case", std::to_string(case_number))
-                          .where("trial", pair.trial)
-                          .where("weight", pair.weight)
-                          .where("functions", std::to_string(functions));
-  return found.numbers(column_).at(0);
-}
-
-std::vector<double> Convergence::at(int case_number, const std::vector<Pair>& chosen, int functions) const {
-  std::vector<double> values;
-  for (const Pair& pair : chosen) values.push_back(at(case_number, pair, functions));
-  return values;
-}
-
-std::vector<double> Convergence::of(int case_number, const std::string& pair_name) const {
-  std::vector<double> values;
-  for (const int functions : sizes()) values.push_back(at(case_number, pair(pair_name), functions));
-  return values;
-}
-
-double Convergence::mean(int case_number, const std::vector<Pair>& chosen,
-                         const std::vector<int>& functions) const {
-  double sum = 0.0;
-  for (const int number : functions)
-    for (const double value : at(case_number, chosen, number)) sum += value;
-  return sum / static_cast<double>(chosen.size() * functions.size());
-}
-
-double Convergence::largest(int case_number, const std::vector<Pair>& chosen, int functions) const {
-  const auto values = at(case_number, chosen, functions);
-  return *std::max_element(values.begin(), values.end());
-}
-
-double Convergence::order(int case_number, const std::string& pair_name, int smallest) const {
-  std::vector<double> numbers, values;
-  for (const int functions : sizes()) {
-    if (functions < smallest) continue;
-    numbers.push_back(functions);
-    values.push_back(at(case_number, pair(pair_name), functions));
+Convergence::Convergence(report::Artefact& artefact, bool energies, const Sampling& sampling,
+                         const Convergence& first)
+    : sampling_(sampling) {
+  for (const int number : {1, 2}) {
+    const Case study(artefact, number);
+    artefact.scene(case_file(number), sampling.overrides());
+    for (const Pair& pair : pairs())
+      for (const int functions : sizes()) {
+        auto overrides = sampling.overrides();
+        overrides.insert(overrides.end(), {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
+                                           "time.functions=" + std::to_string(functions)});
+        const auto scene = app::load_scene(artefact.scenes() / case_file(number), overrides);
+        app::ResponseOptions options;
+        if (energies) options.structure_points = scene.analysis.output_points;
+        const auto start = first.displacements_.find({number, pair.name(), functions});
+        if (start != first.displacements_.end()) options.guess = start_from(start->second, sampling);
+        measures_[{number, pair.name(), functions}] =
+            measures_of(study, app::weighted_residual_response(scene, options), functions, energies);
+      }
   }
-  return app::observed_order(numbers, values);
 }
 
-std::string Convergence::text(int case_number, const std::string& pair_name) const {
+double Convergence::at(Measure measure, int case_number, const std::string& pair_name, int functions) const {
+  return measures_.at({case_number, pair_name, functions}).*measure;
+}
+
+std::vector<double> Convergence::of(Measure measure, int case_number, const std::string& pair_name,
+                                    const std::vector<int>& functions) const {
+  std::vector<double> values;
+  for (const int number : functions) values.push_back(at(measure, case_number, pair_name, number));
+  return values;
+}
+
+std::vector<double> Convergence::largest(Measure measure, int case_number,
+                                         const std::vector<std::string>& names,
+                                         const std::vector<int>& functions) const {
+  std::vector<double> values(functions.size(), -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < functions.size(); ++i)
+    for (const auto& name : names) {
+      const double value = at(measure, case_number, name, functions[i]);
+      values[i] = std::isnan(value) || std::isnan(values[i]) ? not_found : std::max(values[i], value);
+    }
+  return values;
+}
+
+std::vector<double> Convergence::smallest(Measure measure, int case_number,
+                                          const std::vector<std::string>& names,
+                                          const std::vector<int>& functions) const {
+  std::vector<double> values(functions.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < functions.size(); ++i)
+    for (const auto& name : names) {
+      const double value = at(measure, case_number, name, functions[i]);
+      values[i] = std::isnan(value) || std::isnan(values[i]) ? not_found : std::min(values[i], value);
+    }
+  return values;
+}
+
+std::string Convergence::text(Measure measure, int case_number, const std::string& pair_name,
+                              const std::vector<int>& functions) const {
   std::string text;
-  for (const int functions : sizes())
-    text += (text.empty() ? "" : ", ") + std::to_string(functions) + ": " +
-            report::percent(at(case_number, pair(pair_name), functions));
+  for (const int number : functions) {
+    const double value = at(measure, case_number, pair_name, number);
+    text += (text.empty() ? "" : ", ") + std::to_string(number) + ": " +
+            (std::isnan(value) ? "no solution found" : report::percent(value));
+  }
   return text;
 }
 
-Convergence Convergence::mapped(const std::function<double(double)>& change) const {
-  Convergence result = *this;
-  result.table_ = Table(table_.columns());
-  for (std::size_t i = 0; i < table_.rows(); ++i) {
-    auto row = table_.row(i);
-    row[4] = change(std::get<double>(row[4]));
-    result.table_.append_row(std::move(row));
-  }
-  return result;
+double Convergence::order(Measure measure, int case_number, const std::string& pair_name) const {
+  std::vector<double> numbers, values = of(measure, case_number, pair_name);
+  for (const int functions : sizes()) numbers.push_back(functions);
+  const bool known = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return known ? app::observed_order(numbers, values) : not_found;
 }
 
-using app::Legend;
+Table Convergence::table(Measure measure, const std::string& column) const {
+  Table table({"case", "trial", "weight", "functions", column, "converged"});
+  for (const int number : {1, 2})
+    for (const Pair& pair : pairs())
+      for (const int functions : sizes()) {
+        const Measures& m = measures_.at({number, pair.name(), functions});
+        table.append_row({std::int64_t{number}, pair.trial, pair.weight, std::int64_t{functions}, m.*measure,
+                          m.converged});
+      }
+  return table;
+}
 
-app::Figure Convergence::figure(const std::string& label, bool logarithmic) const {
-  app::Figure figure;
-  figure.columns = 2;
-  figure.panel_width = 560;
-  figure.panel_height = 400;
+std::vector<app::Panel> Convergence::panels(Measure measure, const std::string& label,
+                                            bool logarithmic) const {
+  constexpr double aside = 0.035;  // octaves between two curves, so that none hides another
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  std::vector<app::Panel> panels;
   for (const int number : {1, 2}) {
-    app::Panel& panel = figure.add_panel(number == 1 ? "150 Hz" : "1275 Hz");
-    const Table of_case = table_.where("case", std::to_string(number));
-    for (const Pair& pair : pairs()) {
-      const Table rows = of_case.where("trial", pair.trial).where("weight", pair.weight);
-      Series series(pair.label, rows, "functions", column_, app::SeriesStyle::line_points);
+    app::Panel& panel = panels.emplace_back();
+    panel.title = number == 1 ? "150 Hz" : "1275 Hz";
+    for (std::size_t i = 0; i < pairs().size(); ++i) {
+      const Pair& pair = pairs()[i];
+      const auto y = of(measure, number, pair.name());
+      std::vector<double> x;
+      for (const int functions : sizes())
+        x.push_back(functions * std::exp2(aside * (double(i) - 0.5 * double(pairs().size() - 1))));
+      for (const double value : y) {
+        if (!std::isfinite(value)) continue;
+        lower = std::min(lower, value);
+        upper = std::max(upper, value);
+      }
+      Series series(pair.label, x, y, app::SeriesStyle::line_points);
       series.colour = pair.colour;
       series.marker = pair.marker;
       panel.add(std::move(series));
@@ -112,11 +197,105 @@ app::Figure Convergence::figure(const std::string& label, bool logarithmic) cons
     panel.x.logarithmic = true;
     panel.x.ticks = {8, 16, 32, 64, 128};
     panel.x.tick_format = "%g";
-    panel.y.label = label;
-    panel.y.logarithmic = logarithmic;
-    panel.legend = number == 1 ? Legend::none : logarithmic ? Legend::bottom_left : Legend::top_right;
+    panel.legend = app::Legend::none;
   }
-  return figure;
+  for (app::Panel& panel : panels) {
+    const double margin = 0.05 * (upper - lower);
+    panel.y = logarithmic ? axis(label, std::pow(10.0, std::floor(std::log10(lower))),
+                                 std::pow(10.0, std::ceil(std::log10(upper))))
+                          : axis(label, lower - margin, upper + margin);
+    panel.y.logarithmic = logarithmic;
+  }
+  return panels;
+}
+
+std::vector<Convergence> under_all_samplings(report::Artefact& artefact, bool energies) {
+  std::vector<Convergence> all{Convergence(artefact, energies)};
+  all.reserve(samplings().size());  // each may start from another one
+  for (std::size_t i = 1; i < samplings().size(); ++i)
+    all.emplace_back(artefact, energies, samplings()[i], all[samplings()[i].points == 256 ? 0 : 1]);
+  return all;
+}
+
+void conclude(report::Artefact& artefact, report::Statement statement, std::vector<report::Reading> readings,
+              const std::string& because) {
+  statement.verdict = report::over(readings);
+  statement.measured = readings.front().measured;
+  if (statement.verdict != report::Verdict::agrees) statement.because = because;
+  if (statement.verdict == report::Verdict::depends) {
+    std::string others;
+    for (const auto& reading : readings)
+      if (reading.verdict != report::Verdict::agrees)
+        others +=
+            fmt::format("{}{} ({})", others.empty() ? "" : "; ", reading.name, to_string(reading.verdict));
+    statement.because +=
+        fmt::format("{}It holds under {} of {} readings, but not under: {}.", because.empty() ? "" : " ",
+                    report::agreeing(readings), readings.size(), others);
+  }
+  statement.readings = std::move(readings);
+  artefact.statement(std::move(statement));
+}
+
+void judge_under_all(report::Artefact& artefact, report::Statement statement,
+                     const std::vector<Convergence>& all,
+                     const std::function<Outcome(const Convergence&)>& judge, const std::string& because) {
+  std::vector<report::Reading> readings;
+  for (const Convergence& results : all) {
+    const Outcome outcome = judge(results);
+    readings.push_back({results.sampling().name(), outcome.verdict, outcome.measured});
+  }
+  conclude(artefact, std::move(statement), std::move(readings), because);
+}
+
+std::string range_over(const std::vector<Convergence>& all,
+                       const std::function<double(const Convergence&)>& figure, bool as_percent) {
+  const Convergence *least = nullptr, *most = nullptr;
+  for (const Convergence& results : all) {
+    if (!std::isfinite(figure(results))) continue;
+    if (!least || figure(results) < figure(*least)) least = &results;
+    if (!most || figure(results) > figure(*most)) most = &results;
+  }
+  if (!least) return "not known";
+  const auto text = [&](double value) { return as_percent ? report::percent(value) : report::number(value); };
+  return fmt::format("{} ({}) to {} ({})", text(figure(*least)), least->sampling().name(),
+                     text(figure(*most)), most->sampling().name());
+}
+
+std::string range_over(const std::vector<Convergence>& all, Measure measure, int case_number,
+                       const std::string& pair_name, int functions) {
+  return range_over(all,
+                    [&](const Convergence& one) { return one.at(measure, case_number, pair_name, functions); });
+}
+
+report::Verdict lower_where_known(const std::vector<double>& first, const std::vector<double>& second) {
+  std::vector<double> a, b;
+  for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
+    if (!std::isfinite(first[i]) || !std::isfinite(second[i])) continue;
+    a.push_back(first[i]);
+    b.push_back(second[i]);
+  }
+  return a.empty() ? report::Verdict::differs : report::lower(a, b);
+}
+
+report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    count += errors[i] <= report::similar_factor * others[i] ? 1 : 0;
+  return report::plain(2 * count > errors.size());
+}
+
+report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& part) {
+  return report::together({part(&Measures::rms), part(&Measures::mean)});
+}
+
+void note_samplings(report::Artefact& artefact) {
+  std::string names;
+  for (const Sampling& one : samplings()) names += (names.empty() ? "" : "; ") + one.name();
+  artefact.note(fmt::format(
+      "Readings of what the paper leaves open in “discrete inner products using 256 points”: {}. The first is "
+      "drawn; under the others each solution starts from that of the first. With exact products the force is "
+      "still summed over the points.",
+      names));
 }
 
 void note_nyquist_resonances(report::Artefact& artefact) {

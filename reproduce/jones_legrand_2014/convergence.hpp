@@ -1,47 +1,121 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "jl14.hpp"
+#include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {
 
 /// 8, 16, ..., 128 functions [JL14, Figs. 10 and 11].
 std::vector<int> sizes();
 
-/// One number for each case, pair and number of functions: what Figs. 10 and 11 draw.
-class Convergence {
- public:
-  using Measure = std::function<double(Case&, const app::Response&)>;
+/// One way to take the sums over the period. The paper says "discrete inner products using 256 points" and
+/// leaves open where these lie and what becomes of the Nyquist coefficient; whether 256 are enough, and what
+/// sums in place of integrals do, shows under the others.
+struct Sampling {
+  int points = 256;
+  double offset = 0.0;        ///< 0: left ends, 0.5: mid-points
+  bool exact = false;         ///< exact A_d; the force is summed over the points in any case
+  bool keeps_nyquist = true;  ///< the Nyquist coefficient
 
-  /// Solves all 60 combinations; a response that has not converged is missing and noted in the artefact.
-  Convergence(report::Artefact& artefact, std::string column, bool whole_structure, const Measure& measure);
-
-  /// Columns case, trial, weight, functions, `column`, converged.
-  const Table& table() const { return table_; }
-  double at(int case_number, const Pair& pair, int functions) const;
-  std::vector<double> at(int case_number, const std::vector<Pair>& chosen, int functions) const;
-  /// Over the sizes; also as text, "8: 2.58 %, 16: ...".
-  std::vector<double> of(int case_number, const std::string& pair_name) const;
-  std::string text(int case_number, const std::string& pair_name) const;
-  /// Mean over pairs and sizes, and the largest over pairs.
-  double mean(int case_number, const std::vector<Pair>& chosen, const std::vector<int>& functions) const;
-  double largest(int case_number, const std::vector<Pair>& chosen, int functions) const;
-  /// Observed order of errors from `smallest` functions on.
-  double order(int case_number, const std::string& pair_name, int smallest = 8) const;
-  /// The results with `change` applied to each.
-  Convergence mapped(const std::function<double(double)>& change) const;
-  /// Two panels, 150 Hz and 1275 Hz, one curve per pair.
-  app::Figure figure(const std::string& label, bool logarithmic) const;
-
- private:
-  std::string column_;
-  Table table_;
+  std::string name() const;  ///< "256 left ends, exact products"
+  std::vector<std::string> overrides() const;
 };
 
-/// Notes for each case which pair and number of functions has a resonance of its own Nyquist coefficient (see
-/// app::nyquist_resonances) nearest to the forcing frequency.
+/// The first is that of the scenes, and of the pictures.
+const std::vector<Sampling>& samplings();
+
+/// What one solution is measured by, NaN where it was not found. Errors of the displacement of the tip
+/// against time stepping: relative ones over the rms or the mean modulus of the reference, largest ones over
+/// its range.
+struct Measures {
+  double energy_ratio = 0.0;      ///< rms of the system energy, eq. (35), over that of time stepping
+  double energy_deviation = 0.0;  ///< |energy_ratio - 1|
+  double rms = 0.0, mean = 0.0, largest = 0.0;
+  double midpoint_rms = 0.0, midpoint_mean = 0.0, midpoint_largest = 0.0;  ///< at the middles of M cells
+  bool converged = false;
+};
+using Measure = double Measures::*;
+
+/// The measures of all 60 combinations of case, pair and number of functions: what Figs. 10 and 11 draw.
+class Convergence {
+ public:
+  /// Under the first of samplings(). A response that has not converged is noted in the artefact. Energies
+  /// are measured if wanted, which takes the motion of the whole structure.
+  Convergence(report::Artefact& artefact, bool energies);
+  /// Under another one, each solution from that of `first`.
+  Convergence(report::Artefact& artefact, bool energies, const Sampling& sampling, const Convergence& first);
+
+  const Sampling& sampling() const { return sampling_; }
+  double at(Measure measure, int case_number, const std::string& pair_name, int functions) const;
+  std::vector<double> of(Measure measure, int case_number, const std::string& pair_name,
+                         const std::vector<int>& functions = sizes()) const;
+  /// Largest or smallest over pairs, for each number of functions; NaN where one of them is missing.
+  std::vector<double> largest(Measure measure, int case_number, const std::vector<std::string>& names,
+                              const std::vector<int>& functions = sizes()) const;
+  std::vector<double> smallest(Measure measure, int case_number, const std::vector<std::string>& names,
+                               const std::vector<int>& functions = sizes()) const;
+  /// "8: 2.58 %, 16: ..."
+  std::string text(Measure measure, int case_number, const std::string& pair_name,
+                   const std::vector<int>& functions = sizes()) const;
+  /// Observed order over all sizes; NaN where one is missing.
+  double order(Measure measure, int case_number, const std::string& pair_name) const;
+  /// Columns case, trial, weight, functions, `column`, converged.
+  Table table(Measure measure, const std::string& column) const;
+  /// Panels for 150 Hz and 1275 Hz with common ordinates, one curve per pair, each displaced sideways.
+  std::vector<app::Panel> panels(Measure measure, const std::string& label, bool logarithmic) const;
+
+ private:
+  using Key = std::tuple<int, std::string, int>;
+
+  Sampling sampling_;
+  std::map<Key, Measures> measures_;
+  std::map<Key, Eigen::VectorXd> displacements_;  // for the starts of others
+};
+
+/// The drawn results and those under the other samplings.
+std::vector<Convergence> under_all_samplings(report::Artefact& artefact, bool energies);
+
+/// What a statement is found to be under one reading.
+struct Outcome {
+  report::Verdict verdict = report::Verdict::differs;
+  std::string measured;
+};
+
+/// Adds the statement as `judge` finds it under every sampling. `because` gives the reason where it does not
+/// agree under all; under which it holds is added to it.
+void judge_under_all(report::Artefact& artefact, report::Statement statement,
+                     const std::vector<Convergence>& all,
+                     const std::function<Outcome(const Convergence&)>& judge, const std::string& because);
+/// The same of readings that are judged already.
+void conclude(report::Artefact& artefact, report::Statement statement, std::vector<report::Reading> readings,
+              const std::string& because);
+
+/// What a figure is over all readings: "1.58 (256 left ends) to 89 (512 left ends)". Missing ones are left
+/// out.
+std::string range_over(const std::vector<Convergence>& all,
+                       const std::function<double(const Convergence&)>& figure, bool as_percent = true);
+
+std::string range_over(const std::vector<Convergence>& all, Measure measure, int case_number,
+                       const std::string& pair_name, int functions);
+
+/// report::lower() of the entries of which both are known; differs where none is.
+report::Verdict lower_where_known(const std::vector<double>& first, const std::vector<double>& second);
+/// Most entries of `errors` are at most report::similar_factor times those of `others`; unknown ones count as
+/// higher.
+report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others);
+/// Both measures of an error that the rule compares.
+inline constexpr Measure rms_and_mean[] = {&Measures::rms, &Measures::mean};
+/// `part` by rms and by mean, together.
+report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& part);
+
+/// Notes what the readings set, and for each case which pair and number of functions has a resonance of its
+/// own Nyquist coefficient (see app::nyquist_resonances) nearest to the forcing frequency.
+void note_samplings(report::Artefact& artefact);
 void note_nyquist_resonances(report::Artefact& artefact);
 
 }  // namespace wavebalance::jl14

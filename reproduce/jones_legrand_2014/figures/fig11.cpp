@@ -1,27 +1,30 @@
-#include "curve_measures.hpp"
+#include <algorithm>
+
 #include "fig11_claims.hpp"
 #include "figures.hpp"
-#include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
 
 void fig11(report::Artefact& artefact) {
-  const Convergence errors(
-      artefact, "rms_relative_error", false, [](Case& study, const app::Response& response) {
-        return app::relative_rms_error(response.displacement(), study.reference().displacement());
-      });
-  const Convergence midpoints(
-      artefact, "midpoint_error", false, [](Case& study, const app::Response& response) {
-        return app::relative_rms_error(cell_midpoints(response.displacement(), response.unknowns),
-                                       cell_midpoints(study.reference().displacement(), response.unknowns));
-      });
-  artefact.data(errors.table(), "ratio without unit",
+  const auto all = under_all_samplings(artefact, true);
+  const Convergence& drawn = all.front();
+  artefact.data(drawn.table(&Measures::rms, "rms_relative_error"), "ratio without unit",
                 {"rms_relative_error: rms over 1024 points of (u - u_ref) divided by the rms of u_ref"});
-  artefact.picture(errors.figure("Relative rms error (-)", true));
-  artefact.caption("rms of u − u_ref over a period divided by the rms of u_ref, tip.");
-  claim_errors(artefact, errors);
-  claim_midpoints(artefact, midpoints, errors);
-  claim_abstract(artefact, errors);
+  app::Figure figure;
+  figure.panel_width = 600;
+  figure.panel_height = 330;
+  figure.panels = drawn.panels(&Measures::rms, "Relative rms error (-)", true);
+  for (auto& panel : figure.panels) panel.legend = app::Legend::right_of_panel;
+  artefact.picture(figure);
+  artefact.caption(
+      "rms of u − u_ref over a period divided by the rms of u_ref, tip. Both panels have one ordinate. Curves "
+      "stand side by side about each number of functions, so that none hides another.");
+  state_errors(artefact, all);
+  state_haar_errors(artefact, all);
+  state_similar_trends(artefact, all);
+  state_abstract(artefact, all);
+  state_conclusions(artefact, all);
+  note_samplings(artefact);
   note_nyquist_resonances(artefact);
 }
 

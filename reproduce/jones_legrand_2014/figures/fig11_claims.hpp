@@ -1,14 +1,15 @@
 #pragma once
+#include <vector>
+
 #include "convergence.hpp"
 
-/// The statements of JL14 on Fig. 11, held against the relative errors of all pairs.
+/// The statements of JL14 on the errors of the tip displacement, section 5.5, and on their convergence.
 namespace wavebalance::jl14 {
 
-/// Section 5.5, in its order.
-void claim_errors(report::Artefact& artefact, const Convergence& errors);
-/// Section 5.5 on the middle of the Haar cells; `midpoints` are the errors there.
-void claim_midpoints(report::Artefact& artefact, const Convergence& midpoints, const Convergence& errors);
-/// The abstract on the Petrov-Galerkin pairs.
-void claim_abstract(report::Artefact& artefact, const Convergence& errors);
+void state_errors(report::Artefact& artefact, const std::vector<Convergence>& all);
+void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence>& all);
+void state_similar_trends(report::Artefact& artefact, const std::vector<Convergence>& all);
+void state_abstract(report::Artefact& artefact, const std::vector<Convergence>& all);
+void state_conclusions(report::Artefact& artefact, const std::vector<Convergence>& all);
 
 }  // namespace wavebalance::jl14
