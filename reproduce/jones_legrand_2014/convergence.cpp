@@ -38,10 +38,10 @@ Measures measures_of(const Case& study, const app::Response& response, int funct
   return m;
 }
 
-/// A history at uniform points of the period at those of a sampling: the value of the last point before.
-Eigen::VectorXd start_from(const Eigen::VectorXd& history, const Sampling& sampling) {
-  return Eigen::VectorXd::NullaryExpr(sampling.points, [&](Eigen::Index l) {
-    const double time = (double(l) + sampling.offset) / sampling.points;
+/// A history at uniform points of the period at the samples of sums: the value of the last point before.
+Eigen::VectorXd start_from(const Eigen::VectorXd& history, const Sums& sums) {
+  return Eigen::VectorXd::NullaryExpr(sums.samples, [&](Eigen::Index l) {
+    const double time = (double(l) + sums.offset) / sums.samples;
     return history[static_cast<Eigen::Index>(std::floor(time * double(history.size())))];
   });
 }
@@ -50,27 +50,14 @@ Eigen::VectorXd start_from(const Eigen::VectorXd& history, const Sampling& sampl
 
 std::vector<int> sizes() { return {8, 16, 32, 64, 128}; }
 
-std::string Sampling::name() const {
-  return fmt::format("{} {}{}{}", points, offset == 0.0 ? "left ends" : "mid-points",
-                     exact ? ", exact products" : "", keeps_nyquist ? "" : ", Nyquist coefficient dropped");
-}
-
-std::vector<std::string> Sampling::overrides() const {
-  std::vector<std::string> all{"time.quadrature_points=" + std::to_string(points)};
-  if (offset != 0.0) all.push_back(fmt::format("time.sample_offset={}", offset));
-  if (exact) all.emplace_back("time.inner_products=exact");
-  if (!keeps_nyquist) all.emplace_back("time.nyquist=drop");
-  return all;
-}
-
-const std::vector<Sampling>& samplings() {
-  static const std::vector<Sampling> all{
+const std::vector<Sums>& convergence_sums() {
+  static const std::vector<Sums> all{
       {256, 0.0, false, true}, {256, 0.5, false, true},  {256, 0.0, true, true}, {256, 0.0, false, false},
       {512, 0.0, false, true}, {1024, 0.0, false, true}, {1024, 0.5, true, true}};
   return all;
 }
 
-Convergence::Convergence(report::Artefact& artefact, bool energies) : sampling_(samplings().front()) {
+Convergence::Convergence(report::Artefact& artefact, bool energies) : sums_(convergence_sums().front()) {
   for (const int number : {1, 2}) {
     Case study(artefact, number);
     for (const Pair& pair : pairs())
@@ -82,22 +69,22 @@ Convergence::Convergence(report::Artefact& artefact, bool energies) : sampling_(
   }
 }
 
-Convergence::Convergence(report::Artefact& artefact, bool energies, const Sampling& sampling,
+Convergence::Convergence(report::Artefact& artefact, bool energies, const Sums& sums,
                          const Convergence& first)
-    : sampling_(sampling) {
+    : sums_(sums) {
   for (const int number : {1, 2}) {
     const Case study(artefact, number);
-    artefact.scene(case_file(number), sampling.overrides());
+    artefact.scene(case_file(number), sums.overrides(pairs().front()));
     for (const Pair& pair : pairs())
       for (const int functions : sizes()) {
-        auto overrides = sampling.overrides();
+        auto overrides = sums.overrides(pair);
         overrides.insert(overrides.end(), {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
                                            "time.functions=" + std::to_string(functions)});
         const auto scene = app::load_scene(artefact.scenes() / case_file(number), overrides);
         app::ResponseOptions options;
         if (energies) options.structure_points = scene.analysis.output_points;
         const auto start = first.displacements_.find({number, pair.name(), functions});
-        if (start != first.displacements_.end()) options.guess = start_from(start->second, sampling);
+        if (start != first.displacements_.end()) options.guess = start_from(start->second, sums);
         measures_[{number, pair.name(), functions}] =
             measures_of(study, app::weighted_residual_response(scene, options), functions, energies);
       }
@@ -209,11 +196,12 @@ std::vector<app::Panel> Convergence::panels(Measure measure, const std::string& 
   return panels;
 }
 
-std::vector<Convergence> under_all_samplings(report::Artefact& artefact, bool energies) {
+std::vector<Convergence> under_all_sums(report::Artefact& artefact, bool energies) {
   std::vector<Convergence> all{Convergence(artefact, energies)};
-  all.reserve(samplings().size());  // each may start from another one
-  for (std::size_t i = 1; i < samplings().size(); ++i)
-    all.emplace_back(artefact, energies, samplings()[i], all[samplings()[i].points == 256 ? 0 : 1]);
+  all.reserve(convergence_sums().size());  // each may start from another one
+  for (std::size_t i = 1; i < convergence_sums().size(); ++i)
+    all.emplace_back(artefact, energies, convergence_sums()[i],
+                     all[convergence_sums()[i].samples == 256 ? 0 : 1]);
   return all;
 }
 
@@ -238,11 +226,11 @@ void conclude(report::Artefact& artefact, report::Statement statement, std::vect
 
 void judge_under_all(report::Artefact& artefact, report::Statement statement,
                      const std::vector<Convergence>& all,
-                     const std::function<Outcome(const Convergence&)>& judge, const std::string& because) {
+                     const std::function<Finding(const Convergence&)>& judge, const std::string& because) {
   std::vector<report::Reading> readings;
   for (const Convergence& results : all) {
-    const Outcome outcome = judge(results);
-    readings.push_back({results.sampling().name(), outcome.verdict, outcome.measured});
+    const Finding outcome = judge(results);
+    readings.push_back({results.sums().name(), outcome.verdict, outcome.measured});
   }
   conclude(artefact, std::move(statement), std::move(readings), because);
 }
@@ -257,14 +245,14 @@ std::string range_over(const std::vector<Convergence>& all,
   }
   if (!least) return "not known";
   const auto text = [&](double value) { return as_percent ? report::percent(value) : report::number(value); };
-  return fmt::format("{} ({}) to {} ({})", text(figure(*least)), least->sampling().name(),
-                     text(figure(*most)), most->sampling().name());
+  return fmt::format("{} ({}) to {} ({})", text(figure(*least)), least->sums().name(), text(figure(*most)),
+                     most->sums().name());
 }
 
 std::string range_over(const std::vector<Convergence>& all, Measure measure, int case_number,
                        const std::string& pair_name, int functions) {
-  return range_over(all,
-                    [&](const Convergence& one) { return one.at(measure, case_number, pair_name, functions); });
+  return range_over(
+      all, [&](const Convergence& one) { return one.at(measure, case_number, pair_name, functions); });
 }
 
 report::Verdict lower_where_known(const std::vector<double>& first, const std::vector<double>& second) {
@@ -288,9 +276,9 @@ report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& p
   return report::together({part(&Measures::rms), part(&Measures::mean)});
 }
 
-void note_samplings(report::Artefact& artefact) {
+void note_convergence_sums(report::Artefact& artefact) {
   std::string names;
-  for (const Sampling& one : samplings()) names += (names.empty() ? "" : "; ") + one.name();
+  for (const Sums& one : convergence_sums()) names += (names.empty() ? "" : "; ") + one.name();
   artefact.note(fmt::format(
       "Readings of what the paper leaves open in “discrete inner products using 256 points”: {}. The first is "
       "drawn; under the others each solution starts from that of the first. With exact products the force is "

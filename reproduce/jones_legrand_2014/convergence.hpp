@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "jl14.hpp"
+#include "readings.hpp"
 #include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {
@@ -13,21 +13,9 @@ namespace wavebalance::jl14 {
 /// 8, 16, ..., 128 functions [JL14, Figs. 10 and 11].
 std::vector<int> sizes();
 
-/// One way to take the sums over the period. The paper says "discrete inner products using 256 points" and
-/// leaves open where these lie and what becomes of the Nyquist coefficient; whether 256 are enough, and what
-/// sums in place of integrals do, shows under the others.
-struct Sampling {
-  int points = 256;
-  double offset = 0.0;        ///< 0: left ends, 0.5: mid-points
-  bool exact = false;         ///< exact A_d; the force is summed over the points in any case
-  bool keeps_nyquist = true;  ///< the Nyquist coefficient
-
-  std::string name() const;  ///< "256 left ends, exact products"
-  std::vector<std::string> overrides() const;
-};
-
-/// The first is that of the scenes, and of the pictures.
-const std::vector<Sampling>& samplings();
+/// Those of all_sums() under which Figs. 10 and 11 are judged, one of the details changed at a time and all
+/// of them. The first is that of the scenes, and of the pictures.
+const std::vector<Sums>& convergence_sums();
 
 /// What one solution is measured by, NaN where it was not found. Errors of the displacement of the tip
 /// against time stepping: relative ones over the rms or the mean modulus of the reference, largest ones over
@@ -44,13 +32,13 @@ using Measure = double Measures::*;
 /// The measures of all 60 combinations of case, pair and number of functions: what Figs. 10 and 11 draw.
 class Convergence {
  public:
-  /// Under the first of samplings(). A response that has not converged is noted in the artefact. Energies
-  /// are measured if wanted, which takes the motion of the whole structure.
+  /// Under the first of convergence_sums(). A response that has not converged is noted in the artefact.
+  /// Energies are measured if wanted, which takes the motion of the whole structure.
   Convergence(report::Artefact& artefact, bool energies);
   /// Under another one, each solution from that of `first`.
-  Convergence(report::Artefact& artefact, bool energies, const Sampling& sampling, const Convergence& first);
+  Convergence(report::Artefact& artefact, bool energies, const Sums& sums, const Convergence& first);
 
-  const Sampling& sampling() const { return sampling_; }
+  const Sums& sums() const { return sums_; }
   double at(Measure measure, int case_number, const std::string& pair_name, int functions) const;
   std::vector<double> of(Measure measure, int case_number, const std::string& pair_name,
                          const std::vector<int>& functions = sizes()) const;
@@ -72,25 +60,19 @@ class Convergence {
  private:
   using Key = std::tuple<int, std::string, int>;
 
-  Sampling sampling_;
+  Sums sums_;
   std::map<Key, Measures> measures_;
   std::map<Key, Eigen::VectorXd> displacements_;  // for the starts of others
 };
 
-/// The drawn results and those under the other samplings.
-std::vector<Convergence> under_all_samplings(report::Artefact& artefact, bool energies);
+/// The drawn results and those under the others.
+std::vector<Convergence> under_all_sums(report::Artefact& artefact, bool energies);
 
-/// What a statement is found to be under one reading.
-struct Outcome {
-  report::Verdict verdict = report::Verdict::differs;
-  std::string measured;
-};
-
-/// Adds the statement as `judge` finds it under every sampling. `because` gives the reason where it does not
-/// agree under all; under which it holds is added to it.
+/// Adds the statement as `judge` finds it under each of convergence_sums(). `because` gives the reason where
+/// it does not agree under all; under which it holds is added to it.
 void judge_under_all(report::Artefact& artefact, report::Statement statement,
                      const std::vector<Convergence>& all,
-                     const std::function<Outcome(const Convergence&)>& judge, const std::string& because);
+                     const std::function<Finding(const Convergence&)>& judge, const std::string& because);
 /// The same of readings that are judged already.
 void conclude(report::Artefact& artefact, report::Statement statement, std::vector<report::Reading> readings,
               const std::string& because);
@@ -115,7 +97,7 @@ report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& p
 
 /// Notes what the readings set, and for each case which pair and number of functions has a resonance of its
 /// own Nyquist coefficient (see app::nyquist_resonances) nearest to the forcing frequency.
-void note_samplings(report::Artefact& artefact);
+void note_convergence_sums(report::Artefact& artefact);
 void note_nyquist_resonances(report::Artefact& artefact);
 
 }  // namespace wavebalance::jl14

@@ -42,10 +42,13 @@ app::Sweep stable_sweep(const app::Scene& scene) {
 
 }  // namespace
 
-Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs) {
+Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs,
+                const std::vector<std::string>& overrides) {
   Resonance resonance{pairs, {}, {}, 0.0};
   for (const auto& pair : pairs) {
-    const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
+    std::vector<std::string> all{"time.trial=" + pair.trial, "time.weight=" + pair.weight};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const auto scene = artefact.scene(file, all);
     resonance.sweeps.push_back(resonance.sweeps.empty() ? stable_sweep(scene) : app::frequency_sweep(scene));
     resonance.gap = scene.contact.gap;
     const auto& sweep = resonance.sweeps.back();
@@ -91,7 +94,8 @@ void add_stable_sweep(app::Panel& panel, Series style, const app::Sweep& sweep) 
   app::draw_by_stability(panel, style, sweep.stability.points, placed(sweep.stability.special_points));
 }
 
-void note_nyquist_resonances(report::Artefact& artefact, const std::string& file, const app::Sweep& full) {
+void note_nyquist_resonances(report::Artefact& artefact, const std::string& file) {
+  const app::Scene full = artefact.scene(file, {"time.functions=63"});
   std::string text;
   for (const auto& pair : pairs()) {
     const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
@@ -103,10 +107,12 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
   }
   artefact.note(fmt::format(
       "An even number of functions leaves the coefficient of the Nyquist function without damping in every "
-      "pair; the contact force excites it near frequencies that mean nothing to the bar: {}. A kink of a "
-      "curve near one of them is such a resonance; steps of a few Hz pass them, steps of 1 Hz may follow "
-      "them away. Fourier:Fourier with 63 functions (31 full harmonics) has none: turning points {}.",
-      text, turning_points_text(full)));
+      "pair. The contact force excites it near frequencies that mean nothing to the bar: {}. Fourier:Fourier with "
+      "63 functions (31 full harmonics) has {}.",
+      text.empty() ? "none in the interval" : text,
+      app::nyquist_resonances(full, full.analysis.frequency_from, full.analysis.frequency_to).empty()
+          ? "none"
+          : "some too"));
 }
 
 solvers::SweepPoint peak(const app::Sweep& sweep) {
@@ -123,15 +129,13 @@ std::string turning_points_text(const app::Sweep& sweep) {
   return text.empty() ? "none" : text;
 }
 
-double turning_points_spread(const std::vector<app::Sweep>& sweeps) {
+double turning_points_distance(const app::Sweep& sweep, const app::Sweep& other) {
+  const auto &turns = sweep.curve.turning_points, &others = other.curve.turning_points;
+  if (turns.size() != others.size() || !sweep.converged() || !other.converged())
+    return std::numeric_limits<double>::quiet_NaN();
   double largest = 0.0;
-  const auto& first = sweeps.at(0).curve.turning_points;
-  for (const auto& sweep : sweeps) {
-    const auto& turns = sweep.curve.turning_points;
-    if (turns.size() != first.size()) return std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t k = 0; k < turns.size(); ++k)
-      largest = std::max(largest, std::abs(turns[k].frequency - first[k].frequency));
-  }
+  for (std::size_t k = 0; k < turns.size(); ++k)
+    largest = std::max(largest, std::abs(turns[k].frequency - others[k].frequency));
   return largest;
 }
 
@@ -162,30 +166,88 @@ std::string unstable_text(const app::Sweep& sweep) {
   return text;
 }
 
+Series displacement_curve(const std::string& label, const app::Sweep& sweep) {
+  return curve(label, sweep.curve.points);
+}
+
+Series modulus_curve(const std::string& label, const app::Sweep& sweep) {
+  Series series = curve(label, sweep.curve.points);
+  for (std::size_t i = 0; i < series.y.size(); ++i)
+    series.y[i] = millimetres * sweep.curve.points[i].max_abs_displacement;
+  return series;
+}
+
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
   app::Panel panel;
   panel.title = title;
   Series free = curve("without contact", resonance.free.curve.points);
   free.colour = app::Colour::grey;
-  free.dash = app::Dash::dashed;
+  free.width = 4.0;  // seen where another curve lies on it
   panel.add(std::move(free));
-  for (std::size_t i = 0; i < resonance.pairs.size(); ++i) {
-    Series series = curve(resonance.pairs[i].label, resonance.sweeps[i].curve.points);
-    series.colour = resonance.pairs[i].colour;
-    if (i == 0) {
-      add_stable_sweep(panel, std::move(series), resonance.sweeps[i]);
-      continue;
-    }
-    series.dash = app::Dash::dotted;
-    series.width = 2.4;
-    panel.add(std::move(series));
-  }
-  app::draw_special_points(panel, placed(resonance.sweeps[0].stability.special_points));
   panel.mark_y(millimetres * resonance.gap);
   panel.x.label = "Forcing frequency (Hz)";
-  panel.y.label = "Largest tip displacement (mm)";
+  panel.y.label = "Largest displacement (mm)";
   panel.y.lower = 0.0;
+  panel.legend = app::Legend::right_of_panel;
   return panel;
+}
+
+void add_points(app::Panel& panel, const Pair& pair, const std::string& label, const app::Sweep& sweep,
+                int first, int every) {
+  const Series all = curve(label, sweep.curve.points);
+  Series series;
+  series.label = label;
+  for (std::size_t i = static_cast<std::size_t>(first); i < all.x.size();
+       i += static_cast<std::size_t>(every)) {
+    series.x.push_back(all.x[i]);
+    series.y.push_back(all.y[i]);
+  }
+  series.style = app::SeriesStyle::points;
+  series.colour = pair.colour;
+  series.marker = pair.marker;
+  panel.add(std::move(series));
+}
+
+void add_special_points(app::Panel& panel, const app::Sweep& sweep) {
+  app::draw_special_points(panel, placed(sweep.stability.special_points));
+}
+
+std::string SweepReading::name() const {
+  return fmt::format("steps up to {} Hz, Nyquist coefficient {}", report::number(largest_step),
+                     keeps_nyquist ? "kept" : "dropped");
+}
+
+std::vector<SweepReading> sweep_readings(const app::Scene& scene) {
+  const double usual = scene.analysis.largest_step;
+  std::vector<SweepReading> readings{{usual, true}};
+  for (const double step : {1.0, 2.0, 3.0, 5.0, 10.0}) readings.push_back({step, true});
+  for (const double step : {usual, 1.0}) readings.push_back({step, false});
+  return readings;
+}
+
+std::vector<app::Sweep> swept_under(report::Artefact& artefact, const std::string& file,
+                                    const SweepReading& reading) {
+  std::vector<std::string> overrides{
+      fmt::format("analysis.largest_step={}", reading.largest_step),
+      fmt::format("analysis.first_step={}", std::min(0.5, reading.largest_step)),
+      std::string("time.nyquist=") + (reading.keeps_nyquist ? "keep" : "drop")};
+  // With short steps a curve that passes the interval takes fewer points than this; the others end thousands
+  // of points later, unbounded.
+  constexpr double short_step = 2.0;
+  if (reading.largest_step <= short_step) overrides.emplace_back("analysis.max_points=900");
+  artefact.scene(file, overrides);
+  std::vector<app::Sweep> sweeps;
+  for (const Pair& pair : pairs()) {
+    auto all = overrides;
+    all.insert(all.end(), {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
+    sweeps.push_back(app::frequency_sweep(app::load_scene(artefact.scenes() / file, all)));
+  }
+  return sweeps;
+}
+
+std::string end_text(const app::Sweep& sweep) {
+  if (sweep.converged()) return turning_points_text(sweep);
+  return fmt::format("ends early, last at {} Hz", report::number(sweep.curve.points.back().frequency, 5));
 }
 
 Table sweeps_table(const Resonance& resonance) {

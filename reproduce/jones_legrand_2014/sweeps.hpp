@@ -16,12 +16,27 @@ struct Resonance {
 };
 
 /// Follows the response of the scene `file`; a curve that ends early is noted in the artefact.
-Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs);
+Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs,
+                const std::vector<std::string>& overrides = {});
 /// Fourier:Fourier with 63 functions, 31 full harmonics, and steps of 1 Hz at most.
 app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file);
-/// Notes where the scene's sweep meets resonances of the discretisation itself (see nyquist_resonances()),
-/// which `full` does not have.
-void note_nyquist_resonances(report::Artefact& artefact, const std::string& file, const app::Sweep& full);
+/// What the paper leaves open of its continuation.
+struct SweepReading {
+  double largest_step = 0.0;  ///< Hz
+  bool keeps_nyquist = true;
+
+  std::string name() const;  ///< "steps up to 2 Hz, Nyquist coefficient kept"
+};
+/// The first is that of the scene.
+std::vector<SweepReading> sweep_readings(const app::Scene& scene);
+/// The scene's curves of all pairs under a reading, without stability.
+std::vector<app::Sweep> swept_under(report::Artefact& artefact, const std::string& file,
+                                    const SweepReading& reading);
+/// turning_points_text() of a curve that passes the interval; else where it was left.
+std::string end_text(const app::Sweep& sweep);
+
+/// Notes where the scene's sweep meets resonances of the discretisation itself (see nyquist_resonances()).
+void note_nyquist_resonances(report::Artefact& artefact, const std::string& file);
 /// All turning points of the scene's curve with a pair, those of small returns included, as "6 at 1315.034 to
 /// 1338.035 Hz" and the status if the curve ends early. Every grazing point is solved for.
 std::string all_turning_points_text(report::Artefact& artefact, const std::string& file, const Pair& pair);
@@ -32,16 +47,24 @@ void add_stable_sweep(app::Panel& panel, Series style, const app::Sweep& sweep);
 solvers::SweepPoint peak(const app::Sweep& sweep);
 /// "1337.73 Hz and 1315.01 Hz"
 std::string turning_points_text(const app::Sweep& sweep);
-/// Largest distance of a turning point from that of the first sweep, Hz; NaN where their numbers differ.
-double turning_points_spread(const std::vector<app::Sweep>& sweeps);
+/// Largest distance of a turning point from that of another curve, Hz; NaN where their numbers differ or one
+/// ends early.
+double turning_points_distance(const app::Sweep& sweep, const app::Sweep& other);
 
 /// Where the motions of a sweep are unstable, "from the fold at 1337.7 Hz to the fold at 1315 Hz"; "nowhere";
 /// or "not known".
 std::string unstable_text(const app::Sweep& sweep);
 
-/// One panel: the pairs' curves, that of the first pair dashed where it is unstable and with its special
-/// points, the response without contact, the gap.
+/// A panel with the response without contact, broad, and the gap; its legend stands beside it.
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance);
+/// max u and max |u| over the frequency, mm over Hz.
+Series displacement_curve(const std::string& label, const app::Sweep& sweep);
+Series modulus_curve(const std::string& label, const app::Sweep& sweep);
+/// Every `every`-th point of a pair's curve from `first` on, in the colour and with the symbol of the pair.
+void add_points(app::Panel& panel, const Pair& pair, const std::string& label, const app::Sweep& sweep,
+                int first, int every);
+/// The special points of a sweep with its stability.
+void add_special_points(app::Panel& panel, const app::Sweep& sweep);
 
 /// Columns trial, weight, frequency_Hz, max_displacement_m, rms_displacement_m of all pairs.
 Table sweeps_table(const Resonance& resonance);

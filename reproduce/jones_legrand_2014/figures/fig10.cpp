@@ -62,7 +62,7 @@ void state_convergence(report::Artefact& artefact, const std::vector<Convergence
        .earlier = "within 5 % of 1"},
       all,
       [&](const Convergence& results) {
-        return Outcome{ratios.sees_nothing_of(at_128(results)),
+        return Finding{ratios.sees_nothing_of(at_128(results)),
                        "largest distance " + percent(at_128(results))};
       },
       "The largest distance is " + percent(at_128(all.front())) + ".");
@@ -83,7 +83,7 @@ void state_speed(report::Artefact& artefact, const std::vector<Convergence>& all
       larger += high[i] > (1.0 + report::tie_share) * low[i] ? 1 : 0;
       known += std::isfinite(low[i] + high[i]) ? 1 : 0;
     }
-    return Outcome{lower_where_known(low, high),
+    return Finding{lower_where_known(low, high),
                    fmt::format("farther from 1 at 1275 Hz in {} of {}", larger, known)};
   };
   judge_under_all(
@@ -136,7 +136,7 @@ void state_smooth_pairs(report::Artefact& artefact, const std::vector<Convergenc
          .earlier = "within 5 % of 1 with 8 and with 16 functions"},
         all,
         [&](const Convergence& results) {
-          return Outcome{ratios.sees_nothing_of(farthest(results)), text(results)};
+          return Finding{ratios.sees_nothing_of(farthest(results)), text(results)};
         },
         "Drawn: " + text(all.front()) + ".");
   };
@@ -161,7 +161,7 @@ void state_haar(report::Artefact& artefact, const std::vector<Convergence>& all)
         text += fmt::format("{}{} with {} functions {}", text.empty() ? "" : ", ", pair(name).label,
                             functions, number(ratio, 4));
       }
-    return Outcome{report::plain(above), text};
+    return Finding{report::plain(above), text};
   };
   judge_under_all(
       artefact,
@@ -221,7 +221,7 @@ void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>
        .earlier = "the mean of 8, 16 and 32 functions is lower"},
       all,
       [](const Convergence& results) {
-        return Outcome{lower_where_known(results.of(deviation, 1, "daubechies6_fourier"),
+        return Finding{lower_where_known(results.of(deviation, 1, "daubechies6_fourier"),
                                          results.of(deviation, 1, "daubechies6_daubechies6")),
                        fmt::format("lower for {} of {} numbers; {}", nearer(results, 1, sizes()),
                                    sizes().size(), distances(results, 1))};
@@ -236,7 +236,7 @@ void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>
   const std::vector<int> few{8, 16, 32};
   const auto judge = [&](const Convergence& results) {
     const int low = nearer(results, 1, few), high = nearer(results, 2, few);
-    return Outcome{
+    return Finding{
         report::plain(high < low),
         fmt::format("DB6:Fourier is nearer to 1 for {} of {} numbers at 1275 Hz, for {} at 150 Hz; "
                     "at 1275 Hz {}",
@@ -278,7 +278,7 @@ app::Figure drawn_figure(const Convergence& drawn) {
 }  // namespace
 
 void fig10(report::Artefact& artefact) {
-  const auto all = under_all_samplings(artefact, true);
+  const auto all = under_all_sums(artefact, true);
   const Convergence& drawn = all.front();
   const RatioAxis ratios(drawn);
   artefact.data(drawn.table(&Measures::energy_ratio, "energy_norm_ratio"), "ratio without unit",
@@ -296,7 +296,7 @@ void fig10(report::Artefact& artefact) {
   state_haar(artefact, all);
   state_daubechies(artefact, all);
   state_speed(artefact, all);
-  note_samplings(artefact);
+  note_convergence_sums(artefact);
 }
 
 }  // namespace wavebalance::jl14

@@ -6,7 +6,7 @@
 namespace wavebalance::jl14 {
 
 void fig11(report::Artefact& artefact) {
-  const auto all = under_all_samplings(artefact, true);
+  const auto all = under_all_sums(artefact, false);
   const Convergence& drawn = all.front();
   artefact.data(drawn.table(&Measures::rms, "rms_relative_error"), "ratio without unit",
                 {"rms_relative_error: rms over 1024 points of (u - u_ref) divided by the rms of u_ref"});
@@ -24,7 +24,7 @@ void fig11(report::Artefact& artefact) {
   state_similar_trends(artefact, all);
   state_abstract(artefact, all);
   state_conclusions(artefact, all);
-  note_samplings(artefact);
+  note_convergence_sums(artefact);
   note_nyquist_resonances(artefact);
 }
 

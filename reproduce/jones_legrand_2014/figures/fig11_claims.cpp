@@ -85,7 +85,7 @@ void state_smooth_errors(report::Artefact& artefact, const std::vector<Convergen
        .panel = "(a)"},
       all,
       [&](const Convergence& results) {
-        return Outcome{lowest_with_8(results, 1), text_of(results, 1, names, {8})};
+        return Finding{lowest_with_8(results, 1), text_of(results, 1, names, {8})};
       },
       "Drawn: " + text_of(all.front(), 1, names, {8}) + ".");
   judge_under_all(
@@ -100,7 +100,7 @@ void state_smooth_errors(report::Artefact& artefact, const std::vector<Convergen
        .earlier = "differed: for all of them, which 128 functions on 256 points are not"},
       all,
       [&](const Convergence& results) {
-        return Outcome{spline_above_hbm(results, 1), text_of(results, 1, {spline, hbm})};
+        return Finding{spline_above_hbm(results, 1), text_of(results, 1, {spline, hbm})};
       },
       "Drawn: " + text_of(all.front(), 1, {spline, hbm}) + ".");
 }
@@ -114,7 +114,7 @@ double growth(const Convergence& results, const std::string& name) {
   return known ? *most / *least : std::nan("");
 }
 
-Outcome constant(const Convergence& results) {
+Finding constant(const Convergence& results) {
   const double factor = growth(results, spline);
   return {std::isfinite(factor) ? report::similar({factor}, {1.0}) : Verdict::differs,
           fmt::format("{}, a factor of {}; Fourier:Fourier a factor of {}",
@@ -154,7 +154,7 @@ void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>
        .earlier = "above 20 % with 16 functions; within half a decade of Fourier:Fourier with more"},
       all,
       [](const Convergence& results) {
-        return Outcome{report::together({poor_with_16(results, 1), improves(results, 1)}),
+        return Finding{report::together({poor_with_16(results, 1), improves(results, 1)}),
                        text_of(results, 1, {galerkin, hbm})};
       },
       fmt::format("The error of DB6:DB6 with 16 functions is {}, that of Haar:Fourier {}.",
@@ -163,7 +163,7 @@ void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>
 }
 
 /// How many cells' middles are nearer than all points, and the largest distances there.
-Outcome midpoints(const Convergence& results) {
+Finding midpoints(const Convergence& results) {
   std::vector<Verdict> parts;
   for (const auto& name : haar_pairs) {
     parts.push_back(report::together(
@@ -184,7 +184,7 @@ Outcome midpoints(const Convergence& results) {
 }
 
 /// With few functions, the middles of the cells on the axes of Figs. 6 and 7.
-Outcome low_resolution(const Convergence& results) {
+Finding low_resolution(const Convergence& results) {
   const std::vector<int> few{8, 16, 32};
   std::size_t unseen = 0, count = 0;
   std::string text;
@@ -226,7 +226,7 @@ void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence
        .earlier = "for every number and both cases, DB6:DB6 with 16 functions left out"},
       all,
       [&](const Convergence& results) {
-        return Outcome{haar_highest(results, 1), text_of(results, 1, highest)};
+        return Finding{haar_highest(results, 1), text_of(results, 1, highest)};
       },
       "Drawn: " + text_of(drawn, 1, highest) + ".");
   judge_under_all(
@@ -284,7 +284,7 @@ void state_similar_trends(report::Artefact& artefact, const std::vector<Converge
       parts.push_back(trend.holds(results, 2));
       text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", trend.name, to_string(parts.back()));
     }
-    return Outcome{report::together(parts), text};
+    return Finding{report::together(parts), text};
   };
   judge_under_all(
       artefact,

@@ -44,7 +44,7 @@ std::string order_text(const Convergence& results, const std::string& name) {
 }
 
 /// The orders of the Petrov-Galerkin pairs against HBM's.
-Outcome similar_orders(const Convergence& results) {
+Finding similar_orders(const Convergence& results) {
   std::vector<double> orders, references;
   std::string text;
   for (const int number_of_case : {1, 2}) {
@@ -84,53 +84,11 @@ std::string labels_where(const std::function<bool(const std::string&)>& holds) {
   return labels.empty() ? "none" : labels;
 }
 
-/// In how many of the measures, cases and numbers of functions the lower of `names` is below HBM.
-std::string times_lower(const Convergence& results, const std::vector<std::string>& names, bool* some) {
-  std::size_t count = 0, all = 0;
-  for (const Measure measure : {&Measures::rms, &Measures::mean, &Measures::energy_deviation})
-    for (const int number_of_case : {1, 2}) {
-      const auto hbm = results.of(measure, number_of_case, hbm_pair),
-                 lowest = results.smallest(measure, number_of_case, names);
-      for (std::size_t i = 0; i < hbm.size(); ++i) {
-        count += hbm[i] > (1.0 + report::tie_share) * lowest[i] ? 1 : 0;
-        ++all;
-      }
-    }
-  if (some) *some = count > 0;
-  return fmt::format("{} of {}", count, all);
-}
-
-Outcome attractive(const Convergence& results) {
-  bool haar_wins = false, daubechies_wins = false;
-  const std::string haar = times_lower(results, {"haar_fourier", "haar_bspline"}, &haar_wins),
-                    daubechies = times_lower(results, {"daubechies6_daubechies6", "daubechies6_fourier"},
-                                             &daubechies_wins);
-  const double fourier = std::max(results.at(&Measures::largest, 1, hbm_pair, 64),
-                                  results.at(&Measures::largest, 2, hbm_pair, 64));
-  const auto best_of = [&](const std::vector<std::string>& names) {
-    return by_rms_and_mean([&](Measure measure) {
-      std::vector<double> lowest, reference = everywhere(results, measure, hbm_pair);
-      for (const int number_of_case : {1, 2})
-        for (const double value : results.smallest(measure, number_of_case, names)) lowest.push_back(value);
-      return within_twice(lowest, reference);
-    });
-  };
-  const Verdict haar_comparable = best_of({"haar_fourier", "haar_bspline"}),
-                daubechies_comparable = best_of({"daubechies6_daubechies6", "daubechies6_fourier"});
-  return {
-      report::together({std::isfinite(fourier) ? report::invisible(fourier, 1.0) : Verdict::differs,
-                        haar_comparable, daubechies_comparable, report::plain(haar_wins || daubechies_wins)}),
-      fmt::format("largest distance of Fourier:Fourier with 64 functions {} of the range; displacement "
-                  "comparable: Haar {}, DB6 {}; the better pair below Fourier:Fourier: Haar {}, DB6 {}",
-                  percent(fourier), to_string(haar_comparable), to_string(daubechies_comparable), haar,
-                  daubechies)};
-}
-
 }  // namespace
 
 void state_abstract(report::Artefact& artefact, const std::vector<Convergence>& all) {
   const auto judge = [](const Convergence& results) {
-    const Outcome orders = similar_orders(results);
+    const Finding orders = similar_orders(results);
     std::vector<Verdict> parts;
     std::string text;
     for (const auto& name : petrov_galerkin) {
@@ -138,7 +96,7 @@ void state_abstract(report::Artefact& artefact, const std::vector<Convergence>& 
       text += (text.empty() ? "" : ", ") + often_comparable(results, name);
     }
     parts.push_back(orders.verdict);
-    return Outcome{report::together(parts),
+    return Finding{report::together(parts),
                    fmt::format("at most {:g} times the error of Fourier:Fourier: {}; {}",
                                report::similar_factor, text, orders.measured)};
   };
@@ -171,7 +129,7 @@ void state_conclusions(report::Artefact& artefact, const std::vector<Convergence
         labels_where([&](const std::string& name) { return accurate_and_rapid(results, name); });
     int count = 0;
     for (const Pair& one : pairs()) count += accurate_and_rapid(results, one.name()) ? 1 : 0;
-    return Outcome{report::plain(count >= 2), fmt::format("{}: {}", count, labels)};
+    return Finding{report::plain(count >= 2), fmt::format("{}: {}", count, labels)};
   };
   judge_under_all(
       artefact,
@@ -185,27 +143,6 @@ void state_conclusions(report::Artefact& artefact, const std::vector<Convergence
                                 percent(report::visible_share)),
        .earlier = "was not judged"},
       all, rapid, "Drawn: " + rapid(all.front()).measured + ".");
-  judge_under_all(
-      artefact,
-      {.place = "section 6",
-       .quote =
-           "As expected, Fourier functions perform well as a trial basis, though nonsmooth functions such "
-           "as Haar and Daubechies scaling functions are also attractive since they provide comparable "
-           "prediction accuracy and even out perform the Fourier functions in some measures.",
-       .criterion = fmt::format(
-           "four parts: with 64 functions Fourier:Fourier is within {} of the range at every time in both "
-           "cases; the better Haar pair and the better DB6 pair have at most {:g} times its tip error, mostly; "
-           "and one of them is below it in the rms or the mean of the tip error or in the energy norm for some "
-           "case and number of functions",
-           percent(report::visible_share), report::similar_factor),
-       .earlier = "was not judged"},
-      all, attractive,
-      fmt::format(
-          "The better Haar pair is below Fourier:Fourier in {}, the better DB6 pair in {} of these "
-          "comparisons; the tip error of Haar:Fourier is at most {:g} times that of Fourier:Fourier for {}.",
-          times_lower(all.front(), {"haar_fourier", "haar_bspline"}, nullptr),
-          times_lower(all.front(), {"daubechies6_daubechies6", "daubechies6_fourier"}, nullptr),
-          report::similar_factor, often_comparable(all.front(), "haar_fourier", false)));
 }
 
 }  // namespace wavebalance::jl14

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "convergence.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "paper_results.hpp"
@@ -248,6 +249,64 @@ TEST(Jl14Paper, EnergyNormsMeetAnIndependentImplementation) {
         entry(table, listed.case_number, "daubechies6_daubechies6", listed.functions, "energy_norm_ratio"),
         listed.ratio, listed.tolerance)
         << "case " << listed.case_number << ", " << listed.functions;
+}
+
+TEST(Jl14Paper, StatementsOnConvergenceAndResonanceHaveTheirVerdicts) {
+  using report::Verdict;
+  results().need({"reference_case1", "reference_case2", "fig10", "fig11", "fig12"});
+  const std::vector<std::tuple<std::string, std::string, Verdict>> expected{
+      {"fig10_energy_norm", "approximately unity", Verdict::agrees},
+      {"fig10_energy_norm", "relatively few basis functions", Verdict::agrees},
+      {"fig10_energy_norm", "again converge quickly", Verdict::agrees},
+      {"fig10_energy_norm", "over-predict the system energy", Verdict::agrees},
+      {"fig10_energy_norm", "better approximated", Verdict::depends},
+      {"fig10_energy_norm", "less obvious", Verdict::differs},
+      {"fig10_energy_norm", "more slowly", Verdict::depends},
+      {"fig10_energy_norm", "larger difference", Verdict::depends},
+      {"fig11_tip_error", "only 8 basis functions", Verdict::agrees},
+      {"fig11_tip_error", "does not perform as well", Verdict::agrees},
+      {"fig11_tip_error", "performs poorly using 16", Verdict::depends},
+      {"fig11_tip_error", "reasonably constant", Verdict::depends},
+      {"fig11_tip_error", "is highest out of", Verdict::agrees},
+      {"fig11_tip_error", "mid-points of the Haar", Verdict::partly},
+      {"fig11_tip_error", "low resolution", Verdict::depends},
+      {"fig11_tip_error", "similar trends", Verdict::partly},
+      {"fig11_tip_error", "consistent or better", Verdict::partly},
+      {"fig11_tip_error", "rapidly converge", Verdict::agrees},
+      {"fig12_frequency_response", "increase in frequency", Verdict::agrees},
+      {"fig12_frequency_response", "captured by both", Verdict::depends},
+      {"fig12_frequency_response", "other combinations", Verdict::depends},
+      {"fig12_frequency_response", "all the basis combinations", Verdict::depends},
+      {"fig12_frequency_response", "second fundamental frequency", Verdict::misprint}};
+  for (const auto& [stem, words, verdict] : expected)
+    EXPECT_EQ(report::to_string(results().verdict(stem, words)), report::to_string(verdict)) << stem << words;
+}
+
+TEST(Jl14Paper, CurvesWithoutTheNyquistCoefficientPassWithEveryStep) {
+  results().need({"fig12"});
+  for (const char* words : {"captured by both", "other combinations", "all the basis combinations"}) {
+    const auto statement = results().statement("fig12_frequency_response", words);
+    int dropped = 0, kept = 0;
+    for (const auto& reading : statement.readings) {
+      const bool without = reading.name.find("dropped") != std::string::npos;
+      (without ? dropped : kept) += 1;
+      const bool shortest = reading.name.find("up to 1 Hz") != std::string::npos;
+      if (without || shortest) {
+        EXPECT_EQ(reading.verdict, report::plain(without)) << reading.name << ": " << reading.measured;
+      }
+    }
+    EXPECT_EQ(dropped, 2);
+    EXPECT_EQ(kept, 6);
+  }
+}
+
+// The energies and errors of [JL14, Figs. 10 and 11] under the sums that are read from the paper's words.
+TEST(Jl14Paper, ConvergenceIsJudgedUnderReadingsOfAllSums) {
+  std::vector<std::string> names;
+  for (const Sums& one : all_sums()) names.push_back(one.name());
+  for (const Sums& one : convergence_sums())
+    EXPECT_EQ(std::count(names.begin(), names.end(), one.name()), 1) << one.name();
+  EXPECT_EQ(convergence_sums().front().name(), all_sums().front().name());
 }
 
 TEST(Jl14Paper, FrequencyResponseTurnsWhereItShould) {
