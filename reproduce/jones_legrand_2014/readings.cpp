@@ -164,10 +164,15 @@ std::string share_where(const std::vector<report::Reading>& readings,
 
 report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings) {
   statement.verdict = report::over(readings);
-  statement.measured = fmt::format(
-      "{}; of {} readings it agrees under {} and is partly right under {}; of those to the letter it agrees under {}",
-      readings.front().measured, readings.size(), report::agreeing(readings), partly_right(readings),
-      share_where(readings, [](const Sums& sums) { return sums.literal(); }));
+  const auto count = static_cast<int>(readings.size());
+  statement.measured = readings.front().measured;
+  if (report::agreeing(readings) == count)
+    statement.measured += fmt::format("; it agrees under all {} readings", count);
+  else
+    statement.measured += fmt::format(
+        "; of {} readings it agrees under {} and is partly right under {}; of those to the letter it agrees under {}",
+        count, report::agreeing(readings), partly_right(readings),
+        share_where(readings, [](const Sums& sums) { return sums.literal(); }));
   statement.readings = std::move(readings);
   return reasoned(std::move(statement));
 }

@@ -108,7 +108,6 @@ void state_penetration(report::Artefact& artefact) {
       "with a spring 10 and 100 times as stiff time stepping penetrates less, each time by more than 10 %",
       text, lower({found[1], found[2]}, {found[0], found[1]})};
   statement.because = "The penetration does not fall with a stiffer spring: " + text + ".";
-  statement.earlier = "Not judged until now.";
   artefact.statement(reasoned(statement));
 }
 

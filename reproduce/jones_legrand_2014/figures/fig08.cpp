@@ -266,7 +266,6 @@ void state_sparse(report::Artefact& artefact, const Case& study) {
       "Haar wavelets need fewer coefficients than Fourier functions in {} of {}, DB6 in {}. Wavelets gain where a "
       "signal is zero or constant for a while, not where it is smooth throughout.",
       fewer(haar), fourier.size(), fewer(daubechies));
-  statement.earlier = "Not judged until now.";
   artefact.statement(reasoned(statement));
 }
 

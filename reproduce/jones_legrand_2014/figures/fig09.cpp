@@ -219,7 +219,6 @@ void state_conclusions(report::Artefact& artefact, const Case& study, const Read
           "the error of Fourier:Fourier, and in some a lower one",
           report::similar_factor)};
   statement.because = fmt::format("With the first sums: {}. {}.", found.front().measured, spread(found));
-  statement.earlier = "Not judged until now.";
   artefact.statement(concluded(statement, found));
 }
 

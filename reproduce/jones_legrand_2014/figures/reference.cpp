@@ -45,7 +45,6 @@ void state_transient(report::Artefact& artefact) {
           report::percent(share), longer),
       text, report::together(parts)};
   statement.because = "The transient ends with less damping too. " + statement.measured + ".";
-  statement.earlier = "Not judged until now.";
   artefact.statement(reasoned(statement));
 }
 

@@ -200,7 +200,6 @@ void state_haar_rigid(report::Artefact& artefact, const std::vector<Study>& stud
       report::together({lower(rigid_rms, soft_rms), lower(rigid_mean, soft_mean)})};
   statement.because =
       "Beside Fourier:Fourier the Haar pairs do not gain everywhere. " + statement.measured + ".";
-  statement.earlier = "Not judged until now.";
   artefact.statement(reasoned(statement));
 }
 
@@ -259,7 +258,6 @@ void state_flat(report::Artefact& artefact, const std::vector<Study>& studies) {
   statement.because =
       "The discretisation decides how flat the plateau is, not the law alone: " + statement.measured + ".";
   statement.readings = std::move(readings);
-  statement.earlier = "Not judged until now.";
   artefact.statement(reasoned(statement));
 }
 
