@@ -46,7 +46,7 @@ std::string fourier_text(const app::Recommendation& found) {
 std::string cell_of(const app::Recommendation& found) {
   if (!found.choice) return "none";
   const Point& choice = *found.choice;
-  return app::label_of(choice.pair) + ", " + app::duration_text(choice.seconds) + "<br><small>" +
+  return app::label_of(choice.pair) + "<br>" + app::duration_text(choice.seconds) + "<br><small>" +
          std::to_string(choice.functions) + " functions, " + std::to_string(choice.points) +
          " points</small><br>" + fourier_text(found);
 }

@@ -45,6 +45,25 @@ Panel& add_error_panel(Figure& figure, const std::string& abscissa) {
   return panel;
 }
 
+/// How fast the curves of each pair come to the finest one.
+void add_distances(Figure& figure, const SweepComparison& comparison) {
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Functions";
+  panel.y.label = "Distance from the finest curve";
+  panel.x.logarithmic = panel.y.logarithmic = true;
+  panel.legend = Legend::none;
+  std::map<std::string, Series> pairs;
+  for (const ComparedCurve& curve : comparison.curves) {
+    if (!(curve.distance > 0.0)) continue;
+    const Series empty("", std::vector<double>(), std::vector<double>(), SeriesStyle::line_points);
+    Series& series = pairs.try_emplace(name_of(curve.pair), styled(empty, curve.pair)).first->second;
+    series.x.push_back(curve.functions);
+    series.y.push_back(curve.distance);
+  }
+  for (auto& [name, series] : pairs) panel.add(std::move(series));
+  if (pairs.empty()) figure.panels.pop_back();
+}
+
 /// Only where errors come near it.
 void mark_reference(Panel& panel, const Comparison& comparison) {
   double least = std::numeric_limits<double>::infinity();
@@ -124,6 +143,7 @@ Figure curves_figure(const SweepComparison& comparison) {
                       millimetres, SeriesStyle::line},
                      curve->pair));
   }
+  add_distances(figure, comparison);
   return figure;
 }
 

@@ -23,7 +23,7 @@ Summary heading(const ComparisonRecord& record, const Scene& scene, double wall_
 }
 
 std::string number_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("");
+  return std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("");
 }
 
 /// A line of a Markdown table; a vertical bar in a cell would end it.
@@ -233,7 +233,8 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
     record.text += fmt::format(
         "The finest is {} with {} functions: its peak is {:.6g} m at {:.6g} Hz, and it turns {} times.\n",
         label_of(finest.pair), finest.functions, finest.peak, finest.peak_frequency, finest.turning_points);
-    record.pictures.push_back({"sweeps", curves_figure(comparison), "the finest curve of each pair"});
+    record.pictures.push_back(
+        {"sweeps", curves_figure(comparison), "the finest curve of each pair, and distances over functions"});
   }
   const std::vector<std::string> shown{"trial",
                                        "weight",

@@ -22,7 +22,8 @@ std::vector<BasisPair> leading_pairs(std::vector<BasisPair> pairs, const std::ve
 Figure error_over_time(const Comparison& comparison);
 Figure error_over_functions(const Comparison& comparison);
 
-/// The curve of most functions of each pair that reached its end, largest displacements over frequencies.
+/// The curve of most functions of each pair that reached its end, largest displacements over frequencies, and
+/// the distances from the finest curve over functions.
 Figure curves_figure(const SweepComparison& comparison);
 
 }  // namespace wavebalance::app
