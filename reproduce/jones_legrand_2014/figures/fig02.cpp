@@ -6,7 +6,7 @@
 namespace wavebalance::jl14 {
 namespace {
 
-const std::vector<std::string> names{"1", "cos 2πt", "sin 2πt", "cos 4πt", "sin 4πt", "cos 6πt"};
+const std::vector<std::string> basis_names{"1", "cos 2πt", "sin 2πt", "cos 4πt", "sin 4πt", "cos 6πt"};
 
 // Samples of function i of the basis, whose spectrum has one entry.
 Eigen::VectorXd samples(std::size_t i, int points) {
@@ -24,7 +24,7 @@ Table functions_table() {
   constexpr int points = 1024;
   Table table;
   table.add_column("time_fraction", app::time_fractions(points));
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t i = 0; i < basis_names.size(); ++i)
     table.add_column("function_" + std::to_string(i + 1), samples(i, points));
   return table;
 }
@@ -34,9 +34,9 @@ app::Figure functions_figure(const Table& table) {
   figure.columns = 2;
   figure.panel_width = 400;
   figure.panel_height = 200;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < basis_names.size(); ++i) {
     const auto values = table.numbers("function_" + std::to_string(i + 1));
-    auto& panel = figure.add_panel(names[i]);
+    auto& panel = figure.add_panel(basis_names[i]);
     panel.add(periodic_series("", Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())));
     panel.x = axis(i >= 4 ? time_label : "", 0.0, 1.0);
     panel.y = axis(i % 2 == 0 ? "Amplitude (-)" : "", -1.2, 1.2);

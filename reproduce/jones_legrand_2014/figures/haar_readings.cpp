@@ -18,7 +18,7 @@ namespace {
 
 constexpr int haar_functions = 64;
 
-const std::vector<Pair>& haar_pairs() {
+const std::vector<Pair>& read_pairs() {
   static const auto chosen = pairs_named({"haar_fourier", "haar_bspline"});
   return chosen;
 }
@@ -43,7 +43,7 @@ Errors errors_of(const Case& study, const app::Response& response) {
 
 struct Row {
   Sums sums;
-  std::vector<Errors> one;  ///< in case 1, of haar_pairs()
+  std::vector<Errors> one;  ///< in case 1, of read_pairs()
   std::vector<double> two;  ///< error of the displacement in case 2
 };
 
@@ -58,12 +58,12 @@ Table data_table(const std::vector<Row>& rows) {
                "case1_rms_error", "case1_midpoint_error", "case1_plateau_difference", "case1_velocity_error",
                "case1_force_error", "case2_rms_error"});
   for (const Row& row : rows)
-    for (std::size_t i = 0; i < haar_pairs().size(); ++i) {
+    for (std::size_t i = 0; i < read_pairs().size(); ++i) {
       const Errors& one = row.one[i];
       table.append_row({std::int64_t{row.sums.samples}, row.sums.offset,
                         std::string(row.sums.exact ? "exact" : "quadrature"),
-                        std::string(row.sums.keeps_nyquist ? "keep" : "drop"), haar_pairs()[i].trial,
-                        haar_pairs()[i].weight, std::isfinite(one.force), one.displacement, one.midpoints,
+                        std::string(row.sums.keeps_nyquist ? "keep" : "drop"), read_pairs()[i].trial,
+                        read_pairs()[i].weight, std::isfinite(one.force), one.displacement, one.midpoints,
                         one.plateau, one.velocity, one.force, row.two[i]});
     }
   return table;
@@ -157,14 +157,14 @@ void explain(report::Artefact& artefact, const std::vector<Row>& rows) {
 void haar_readings(report::Artefact& artefact) {
   Case one(artefact, 1), two(artefact, 2);
   std::vector<Row> rows;
-  std::vector<Eigen::VectorXd> found(haar_pairs().size());  // the last solution, from which the next starts
+  std::vector<Eigen::VectorXd> found(read_pairs().size());  // the last solution, from which the next starts
   Table cells;
   cells.add_column("time_fraction", app::time_fractions(haar_functions));
   for (const Sums& sums : all_sums()) {
     Row& row = rows.emplace_back();
     row.sums = sums;
-    for (std::size_t i = 0; i < haar_pairs().size(); ++i) {
-      const Pair& pair = haar_pairs()[i];
+    for (std::size_t i = 0; i < read_pairs().size(); ++i) {
+      const Pair& pair = read_pairs()[i];
       const auto first = solved(artefact, one, pair, sums, found[i]);
       if (first.converged) found[i] = cell_values(first, haar_functions);
       const auto second =
