@@ -9,7 +9,7 @@
 namespace wavebalance::fem {
 namespace {
 
-DofMap read(const std::string& text) {
+DofMap dof_map(const std::string& text) {
   std::istringstream input(text);
   return read_dof_map(input, "plate.dof");
 }
@@ -20,7 +20,7 @@ TEST(DofMap, NamesTheRowsInTheOrderOfTheLines) {
         "# of a plate\nNode; Direction\n7; UX\n7; UZ\n1042; uy\n\n9; ROTZ\n",
         "direction\tnode\r\nX\t7\r\nZ\t7\r\nY\t1042\r\nRZ\t9\r\n",
         "row node direction\n3 1042 y\n4 9 rz\n2 7 z\n1 7 x\n"}) {
-    const DofMap map = read(text);
+    const DofMap map = dof_map(text);
     ASSERT_EQ(map.rows(), 4) << text;
     EXPECT_EQ(map.name(0), "node 7 x");
     EXPECT_EQ(map.name(3), "node 9 rz");
@@ -53,7 +53,7 @@ TEST(DofMap, NamesWhatIsWrongAndWhere) {
       {"row node direction\n0 7 x\n", "the row is 0; it must be in 1.."},
       {"-7 x\n", "the node is -7; it must not be negative"},
   };
-  for (const auto& [text, expected] : cases) expect_error([&, given = text] { read(given); }, expected);
+  for (const auto& [text, expected] : cases) expect_error([&, given = text] { dof_map(given); }, expected);
   expect_error([] { DofMap({{1, 2}, {1, 2}}); }, "node 1 y is there twice");
   expect_error([] { DofMap({{1, 7}}); }, "a direction is 7; it must be in 1..6");
 }

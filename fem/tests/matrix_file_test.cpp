@@ -64,12 +64,12 @@ std::string right_aligned(int number, std::size_t width) {
 }
 
 /// The matrix as a Fortran program writes it: the lower triangle of a symmetric one, or all of it.
-std::string harwell_boeing_text(const Sparse& matrix, bool symmetric, char letter, bool loaded) {
+std::string harwell_boeing_text(const Sparse& matrix, bool triangle, char letter, bool loaded) {
   std::vector<std::string> pointers, rows, values;
   for (int column = 0; column < matrix.outerSize(); ++column) {
     pointers.push_back(right_aligned(static_cast<int>(values.size()) + 1, 10));
     for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (symmetric && entry.row() < column) continue;
+      if (triangle && entry.row() < column) continue;
       rows.push_back(right_aligned(static_cast<int>(entry.row()) + 1, 3));
       values.push_back(fortran_text(entry.value(), letter));
     }
@@ -79,7 +79,7 @@ std::string harwell_boeing_text(const Sparse& matrix, bool symmetric, char lette
   std::string text = "a title of 72 characters                                                key\n";
   text += right_aligned(99, 14) + right_aligned(1, 14) + right_aligned(1, 14) + right_aligned(9, 14) +
           right_aligned(loaded ? 3 : 0, 14) + "\n";
-  text += (symmetric ? "RSA           " : "RUA           ") + sizes + sizes +
+  text += (triangle ? "RSA           " : "RUA           ") + sizes + sizes +
           right_aligned(static_cast<int>(values.size()), 14) + right_aligned(0, 14) + "\n";
   text += "(4I10)          (20I3)          (3" + std::string(1, letter) + "26.18)           (1E20.12)\n";
   if (loaded) text += "F                          1             0\n";
@@ -90,12 +90,12 @@ std::string harwell_boeing_text(const Sparse& matrix, bool symmetric, char lette
 
 TEST(HarwellBoeing, GivesBackTheMatrixThatAFortranProgramWrote) {
   const Sparse matrix = sample_matrix();
-  for (const bool symmetric : {true, false})
+  for (const bool triangle : {true, false})
     for (const char letter : {'E', 'D'})
       for (const bool loaded : {true, false})
-        EXPECT_EQ(Eigen::MatrixXd(harwell_boeing(harwell_boeing_text(matrix, symmetric, letter, loaded))),
+        EXPECT_EQ(Eigen::MatrixXd(harwell_boeing(harwell_boeing_text(matrix, triangle, letter, loaded))),
                   Eigen::MatrixXd(matrix))
-            << symmetric << letter << loaded;
+            << triangle << letter << loaded;
 }
 
 TEST(HarwellBoeing, ReadsFieldsThatTouchEachOtherAndOneNumberPerLine) {
