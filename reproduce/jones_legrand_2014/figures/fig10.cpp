@@ -14,8 +14,8 @@ using report::percent;
 using report::Verdict;
 
 constexpr Measure deviation = &Measures::energy_deviation;
-const std::vector<std::string> haar{"haar_fourier", "haar_bspline"};
-const std::vector<std::string> smooth{"fourier_fourier", "bspline_bspline"};
+const std::vector<std::string> with_haar{"haar_fourier", "haar_bspline"};
+const std::vector<std::string> smooth_pairs{"fourier_fourier", "bspline_bspline"};
 
 std::vector<std::string> all_names() {
   std::vector<std::string> names;
@@ -44,8 +44,8 @@ struct RatioAxis {
   }
 };
 
-void state_convergence(report::Artefact& artefact, const std::vector<Convergence>& all,
-                       const RatioAxis& ratios) {
+void state_energy_convergence(report::Artefact& artefact, const std::vector<Convergence>& all,
+                              const RatioAxis& ratios) {
   const auto at_128 = [](const Convergence& results) {
     return std::max(results.largest(deviation, 1, all_names(), {128})[0],
                     results.largest(deviation, 2, all_names(), {128})[0]);
@@ -107,10 +107,10 @@ void state_speed(report::Artefact& artefact, const std::vector<Convergence>& all
            "|ratio − 1| of the two Haar pairs is larger than at 150 Hz for most numbers of functions",
        .panel = "(c), (d)",
        .earlier = "the mean over both pairs and all numbers of functions is larger"},
-      all, [&](const Convergence& results) { return compared(results, haar); },
+      all, [&](const Convergence& results) { return compared(results, with_haar); },
       fmt::format("Drawn, with 8 and 16 functions they are {}, with 32, 64 and 128 {}.",
-                  compared(all.front(), haar, {8, 16}).measured,
-                  compared(all.front(), haar, {32, 64, 128}).measured));
+                  compared(all.front(), with_haar, {8, 16}).measured,
+                  compared(all.front(), with_haar, {32, 64, 128}).measured));
 }
 
 void state_smooth_pairs(report::Artefact& artefact, const std::vector<Convergence>& all,
@@ -118,14 +118,14 @@ void state_smooth_pairs(report::Artefact& artefact, const std::vector<Convergenc
   const auto state = [&](int number, const std::string& quote, const std::vector<int>& functions,
                          const std::string& which) {
     const auto farthest = [=](const Convergence& results) {
-      const auto values = results.largest(deviation, number, smooth, functions);
+      const auto values = results.largest(deviation, number, smooth_pairs, functions);
       const bool known = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
       return known ? *std::max_element(values.begin(), values.end()) : std::nan("");
     };
     const auto text = [=](const Convergence& results) {
       return fmt::format("distance from 1: Fourier:Fourier {}; B-spline:B-spline {}",
-                         results.text(deviation, number, smooth[0], functions),
-                         results.text(deviation, number, smooth[1], functions));
+                         results.text(deviation, number, smooth_pairs[0], functions),
+                         results.text(deviation, number, smooth_pairs[1], functions));
     };
     judge_under_all(
         artefact,
@@ -150,11 +150,11 @@ void state_smooth_pairs(report::Artefact& artefact, const std::vector<Convergenc
         {16, 32, 64, 128}, "from the second number of functions on");
 }
 
-void state_haar(report::Artefact& artefact, const std::vector<Convergence>& all) {
+void state_haar_energy(report::Artefact& artefact, const std::vector<Convergence>& all) {
   const auto judge = [](const Convergence& results) {
     std::string text;
     bool above = true;
-    for (const auto& name : haar)
+    for (const auto& name : with_haar)
       for (const int functions : {8, 16}) {
         const double ratio = results.at(&Measures::energy_ratio, 1, name, functions);
         above = above && ratio > 1.0;
@@ -209,7 +209,7 @@ std::string distances(const Convergence& results, int case_number) {
                      results.text(deviation, case_number, "daubechies6_daubechies6"));
 }
 
-void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>& all) {
+void state_daubechies_energy(report::Artefact& artefact, const std::vector<Convergence>& all) {
   judge_under_all(
       artefact,
       {.place = "section 5.4",
@@ -291,10 +291,10 @@ void fig10(report::Artefact& artefact) {
       "with {} functions are within {} of 1. Kinetic, elastic and contact energy of all 25 degrees of freedom; "
       "the contact energy is the potential of the exponential spring.",
       farthest.label, farthest.functions, percent(farthest.of_others)));
-  state_convergence(artefact, all, ratios);
+  state_energy_convergence(artefact, all, ratios);
   state_smooth_pairs(artefact, all, ratios);
-  state_haar(artefact, all);
-  state_daubechies(artefact, all);
+  state_haar_energy(artefact, all);
+  state_daubechies_energy(artefact, all);
   state_speed(artefact, all);
   note_convergence_sums(artefact);
 }

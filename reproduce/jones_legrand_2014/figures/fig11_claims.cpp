@@ -13,15 +13,14 @@ using report::Verdict;
 
 const std::string hbm = "fourier_fourier", spline = "bspline_bspline", galerkin = "daubechies6_daubechies6",
                   mixed = "daubechies6_fourier";
-const std::vector<std::string> haar_pairs{"haar_fourier", "haar_bspline"};
+const std::vector<std::string> haar_names{"haar_fourier", "haar_bspline"};
 const std::vector<std::string> other_pairs{hbm, spline, galerkin, mixed};
-const std::vector<std::string> mixed_pairs{"haar_fourier", mixed, "haar_bspline"};
 const char* rms_names = "by the rms and by the mean of the error";
 
-std::string text_of(const Convergence& results, int number, const std::vector<std::string>& names,
+std::string text_of(const Convergence& results, int number, const std::vector<std::string>& chosen,
                     const std::vector<int>& functions = sizes()) {
   std::string text;
-  for (const auto& name : names)
+  for (const auto& name : chosen)
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", pair(name).label,
                         results.text(&Measures::rms, number, name, functions));
   return text;
@@ -32,7 +31,7 @@ Verdict lowest_with_8(const Convergence& results, int number) {
   return by_rms_and_mean([&](Measure measure) {
     return lower_where_known(
         results.largest(measure, number, {hbm, spline}, {8}),
-        results.smallest(measure, number, {galerkin, mixed, haar_pairs[0], haar_pairs[1]}, {8}));
+        results.smallest(measure, number, {galerkin, mixed, haar_names[0], haar_names[1]}, {8}));
   });
 }
 
@@ -48,7 +47,7 @@ Verdict spline_above_hbm(const Convergence& results, int number) {
 Verdict poor_with_16(const Convergence& results, int number) {
   return by_rms_and_mean([&](Measure measure) {
     return lower_where_known(
-        results.largest(measure, number, {hbm, spline, mixed, haar_pairs[0], haar_pairs[1]}, {16}),
+        results.largest(measure, number, {hbm, spline, mixed, haar_names[0], haar_names[1]}, {16}),
         results.of(measure, number, galerkin, {16}));
   });
 }
@@ -68,12 +67,12 @@ Verdict improves(const Convergence& results, int number) {
 Verdict haar_highest(const Convergence& results, int number) {
   return by_rms_and_mean([&](Measure measure) {
     return lower_where_known(results.largest(measure, number, other_pairs),
-                             results.smallest(measure, number, haar_pairs));
+                             results.smallest(measure, number, haar_names));
   });
 }
 
 void state_smooth_errors(report::Artefact& artefact, const std::vector<Convergence>& all) {
-  std::vector<std::string> names{hbm, spline, galerkin, mixed, haar_pairs[0], haar_pairs[1]};
+  std::vector<std::string> six{hbm, spline, galerkin, mixed, haar_names[0], haar_names[1]};
   judge_under_all(
       artefact,
       {.place = "section 5.5",
@@ -85,9 +84,9 @@ void state_smooth_errors(report::Artefact& artefact, const std::vector<Convergen
        .panel = "(a)"},
       all,
       [&](const Convergence& results) {
-        return Finding{lowest_with_8(results, 1), text_of(results, 1, names, {8})};
+        return Finding{lowest_with_8(results, 1), text_of(results, 1, six, {8})};
       },
-      "Drawn: " + text_of(all.front(), 1, names, {8}) + ".");
+      "Drawn: " + text_of(all.front(), 1, six, {8}) + ".");
   judge_under_all(
       artefact,
       {.place = "section 5.5",
@@ -122,7 +121,7 @@ Finding constant(const Convergence& results) {
                       report::number(growth(results, hbm)))};
 }
 
-void state_constant(report::Artefact& artefact, const std::vector<Convergence>& all) {
+void state_constant_error(report::Artefact& artefact, const std::vector<Convergence>& all) {
   judge_under_all(
       artefact,
       {.place = "section 5.5",
@@ -140,7 +139,7 @@ void state_constant(report::Artefact& artefact, const std::vector<Convergence>& 
                   range_over(all, &Measures::rms, 2, spline, 128)));
 }
 
-void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>& all) {
+void state_daubechies_errors(report::Artefact& artefact, const std::vector<Convergence>& all) {
   judge_under_all(
       artefact,
       {.place = "section 5.5",
@@ -159,13 +158,13 @@ void state_daubechies(report::Artefact& artefact, const std::vector<Convergence>
       },
       fmt::format("The error of DB6:DB6 with 16 functions is {}, that of Haar:Fourier {}.",
                   range_over(all, &Measures::rms, 1, galerkin, 16),
-                  range_over(all, &Measures::rms, 1, haar_pairs[0], 16)));
+                  range_over(all, &Measures::rms, 1, haar_names[0], 16)));
 }
 
 /// How many cells' middles are nearer than all points, and the largest distances there.
 Finding midpoints(const Convergence& results) {
   std::vector<Verdict> parts;
-  for (const auto& name : haar_pairs) {
+  for (const auto& name : haar_names) {
     parts.push_back(report::together(
         {lower_where_known(results.of(&Measures::midpoint_rms, 1, name), results.of(&Measures::rms, 1, name)),
          lower_where_known(results.of(&Measures::midpoint_mean, 1, name),
@@ -177,10 +176,10 @@ Finding midpoints(const Convergence& results) {
       report::together(parts),
       fmt::format("rms at the mid-points: Haar:Fourier {}; Haar:B-spline {}; largest distance there with 64 "
                   "functions, of the range: Haar:Fourier {}; Haar:B-spline {}",
-                  results.text(&Measures::midpoint_rms, 1, haar_pairs[0]),
-                  results.text(&Measures::midpoint_rms, 1, haar_pairs[1]),
-                  results.text(&Measures::midpoint_largest, 1, haar_pairs[0], {64}),
-                  results.text(&Measures::midpoint_largest, 1, haar_pairs[1], {64}))};
+                  results.text(&Measures::midpoint_rms, 1, haar_names[0]),
+                  results.text(&Measures::midpoint_rms, 1, haar_names[1]),
+                  results.text(&Measures::midpoint_largest, 1, haar_names[0], {64}),
+                  results.text(&Measures::midpoint_largest, 1, haar_names[1], {64}))};
 }
 
 /// With few functions, the middles of the cells on the axes of Figs. 6 and 7.
@@ -189,7 +188,7 @@ Finding low_resolution(const Convergence& results) {
   std::size_t unseen = 0, count = 0;
   std::string text;
   for (const int number : {1, 2})
-    for (const auto& name : haar_pairs) {
+    for (const auto& name : haar_names) {
       for (const int functions : few) {
         const double largest = results.at(&Measures::midpoint_largest, number, name, functions);
         unseen += largest <= report::visible_share ? 1 : 0;
@@ -206,13 +205,13 @@ Finding low_resolution(const Convergence& results) {
 
 void state_errors(report::Artefact& artefact, const std::vector<Convergence>& all) {
   state_smooth_errors(artefact, all);
-  state_daubechies(artefact, all);
-  state_constant(artefact, all);
+  state_daubechies_errors(artefact, all);
+  state_constant_error(artefact, all);
 }
 
 void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence>& all) {
   const Convergence& drawn = all.front();
-  std::vector<std::string> highest = haar_pairs;
+  std::vector<std::string> highest = haar_names;
   highest.push_back(galerkin);
   judge_under_all(
       artefact,
@@ -245,8 +244,8 @@ void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence
       fmt::format(
           "With 64 functions the largest distance at a middle is, of the range, {} for Haar:Fourier and "
           "{} for Haar:B-spline; {} can be seen.",
-          range_over(all, &Measures::midpoint_largest, 1, haar_pairs[0], 64),
-          range_over(all, &Measures::midpoint_largest, 1, haar_pairs[1], 64),
+          range_over(all, &Measures::midpoint_largest, 1, haar_names[0], 64),
+          range_over(all, &Measures::midpoint_largest, 1, haar_names[1], 64),
           percent(report::visible_share)));
   judge_under_all(
       artefact,
@@ -262,10 +261,10 @@ void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence
       fmt::format(
           "The largest distance of Haar:Fourier with 8 functions is {} at 150 Hz and {} at 1275 Hz; with "
           "32 functions {} and {}.",
-          range_over(all, &Measures::midpoint_largest, 1, haar_pairs[0], 8),
-          range_over(all, &Measures::midpoint_largest, 2, haar_pairs[0], 8),
-          range_over(all, &Measures::midpoint_largest, 1, haar_pairs[0], 32),
-          range_over(all, &Measures::midpoint_largest, 2, haar_pairs[0], 32)));
+          range_over(all, &Measures::midpoint_largest, 1, haar_names[0], 8),
+          range_over(all, &Measures::midpoint_largest, 2, haar_names[0], 8),
+          range_over(all, &Measures::midpoint_largest, 1, haar_names[0], 32),
+          range_over(all, &Measures::midpoint_largest, 2, haar_names[0], 32)));
 }
 
 void state_similar_trends(report::Artefact& artefact, const std::vector<Convergence>& all) {
@@ -297,8 +296,8 @@ void state_similar_trends(report::Artefact& artefact, const std::vector<Converge
       all, judge,
       fmt::format("{}. At 1275 Hz with 16 functions DB6:DB6 has {}, the Haar pairs {} and {}.",
                   judge(all.front()).measured, percent(all.front().at(&Measures::rms, 2, galerkin, 16)),
-                  percent(all.front().at(&Measures::rms, 2, haar_pairs[0], 16)),
-                  percent(all.front().at(&Measures::rms, 2, haar_pairs[1], 16))));
+                  percent(all.front().at(&Measures::rms, 2, haar_names[0], 16)),
+                  percent(all.front().at(&Measures::rms, 2, haar_names[1], 16))));
 }
 
 }  // namespace wavebalance::jl14
