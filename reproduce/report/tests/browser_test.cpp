@@ -191,7 +191,7 @@ TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
   for (const Path& page : pages) EXPECT_EQ(broken_links(page), std::set<std::string>{}) << page;
   std::string log;
   const auto found = probed(pages, folder.path(), log);
-  ASSERT_EQ(found.size(), 6u);
+  ASSERT_EQ(found.size(), 6u) << found.back();
   expect_sound(found, log);
 
   const auto& whole = found[2];
@@ -233,7 +233,7 @@ TEST_F(Browser, TheResultsOfTheRunAreSound) {
   const TemporaryFolder folder;
   std::string log;
   const auto found = probed(pages, folder.path(), log);
-  EXPECT_EQ(found.size(), 3 * pages.size());
+  ASSERT_EQ(found.size(), 3 * pages.size()) << found.back();
   expect_sound(found, log);
   const auto& tips = found.at(2)["tips"];
   ASSERT_TRUE(tips.is_object()) << tips;

@@ -37,7 +37,7 @@ async function unfold(page) {
   const figures = [...page.querySelectorAll("figure[data-curves]")];
   for (const figure of figures) {
     figure.querySelector(".tools button")?.click();
-    await until(() => figure.querySelector("svg .curve, svg path"));
+    await until(() => figure.querySelector(".plot .curve, .plot path"));
   }
   return figures.length;
 }
@@ -84,7 +84,7 @@ async function tips(page) {
 async function curves(page) {
   const figure = page.querySelector("figure[data-curves]");
   if (!figure || !page.defaultView.d3) return null;
-  const view = page.defaultView, svg = figure.querySelector("svg"), box = svg.getBoundingClientRect();
+  const view = page.defaultView, svg = figure.querySelector(".plot svg"), box = svg.getBoundingClientRect();
   const name = figure.dataset.curves.replace(/^.*\//, "").replace(".figure.js", "");
   const data = view.wavebalance.figures[name].panels[0], series = data.series[0];
   const path = svg.querySelector(".curve").getAttribute("d"), middle = Math.floor(series.x.length / 2);
@@ -93,7 +93,7 @@ async function curves(page) {
   svg.dispatchEvent(new view.PointerEvent("pointermove",
     { clientX: box.left + place[0] + points[middle][0], clientY: box.top + place[1] + points[middle][1] }));
   const values = figure.querySelector(".values").textContent;
-  const count = () => figure.querySelectorAll("svg .curve").length, before = count();
+  const count = () => figure.querySelectorAll(".plot .curve").length, before = count();
   const entry = figure.querySelector(".legend button");
   entry?.click();
   const hidden = count();

@@ -63,6 +63,10 @@
     }
   }
 
+  const mark = (parent, series, x, y) => parent.append("path").attr("transform", `translate(${x},${y})`)
+    .attr("d", d3.symbol().size(36).type(symbols()[series.marker % 8])())
+    .attr("fill", series.marker % 8 > 4 ? "white" : series.colour).attr("stroke", series.colour);
+
   const finite = (scale, value) => value !== null && Number.isFinite(scale(value));
 
   function scaleOf(axis, values, range, round) {
@@ -198,11 +202,7 @@
           .attr("stroke-width", series.width).attr("stroke-dasharray", series.dash || null);
       }
       if (series.style !== "points" && series.style !== "line_points") return;
-      const open = series.marker % 8 > 4;
-      const symbol = d3.symbol().size(36).type(symbols()[series.marker % 8])();
-      at.filter((point, i) => i % series.every === 0 && there(point)).forEach(([u, v]) =>
-        this.plot.append("path").attr("d", symbol).attr("transform", `translate(${u},${v})`)
-          .attr("fill", open ? "white" : series.colour).attr("stroke", series.colour));
+      at.filter((point, i) => i % series.every === 0 && there(point)).forEach(([u, v]) => mark(this.plot, series, u, v));
     }
 
     // The point of a series next to the pixel (u, v), on the lines between its points where it is drawn as a line.
@@ -260,9 +260,12 @@
       for (const series of panel.series)
         if (series.label && series.x.length) entries.set(key(series), series);
     return element("div", { class: "legend" }, ...[...entries].map(([name, series]) => {
-      const swatch = element("span", { class: "swatch" });
-      swatch.style.borderTop = `3px ${series.style === "points" ? "dotted" : series.dash ? "dashed" : "solid"} ${series.colour}`;
-      const button = element("button", { type: "button", "aria-pressed": "true" }, swatch, ...html(series.label));
+      const swatch = d3.create("svg").attr("class", "swatch").attr("width", 28).attr("height", 12).attr("aria-hidden", "true");
+      if (series.style !== "points")
+        swatch.append("line").attr("x2", 28).attr("y1", 6).attr("y2", 6).attr("stroke", series.colour).attr("stroke-width", 2.5)
+          .attr("stroke-dasharray", series.dash || null);
+      if (series.style.endsWith("points")) mark(swatch, series, 14, 6);
+      const button = element("button", { type: "button", "aria-pressed": "true" }, swatch.node(), ...html(series.label));
       button.addEventListener("click", () => {
         if (!hidden.delete(name)) hidden.add(name);
         button.setAttribute("aria-pressed", String(!hidden.has(name)));
