@@ -225,6 +225,10 @@ TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
 TEST_F(Browser, TheResultsOfTheRunAreSound) {
   const Path results = WAVEBALANCE_RESULTS;
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";
+  for (const char* name : {"page.css", "page.js", "curves.js", "motion.js", "blade.js"})
+    if (!std::filesystem::exists(results / "assets" / name) ||
+        app::read_file(results / "assets" / name) != app::asset(name))
+      GTEST_SKIP() << "the results are those of another build: make reproduce";
   std::vector<Path> pages{results / "index.html"};
   for (const Paper& paper : papers())
     if (paper.own_page && std::filesystem::exists(results / paper.folder / "index.html"))
