@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "files/number_text.hpp"
 #include "plot/plot_surface.hpp"
@@ -81,20 +82,45 @@ std::string data_block(const Series& series, const std::string& name) {
 
 std::string map_name(std::size_t panel) { return "$panel" + std::to_string(panel) + "_map"; }
 
+/// Bounds of the cell of entry `i`. All but the last reach over the next cell, which is
+/// drawn later: cells that only touch leave pale seams where edges are smoothed.
+std::pair<double, double> cell(const std::vector<double>& places, std::size_t i) {
+  const double half = 0.5 * (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+  return {places[i] - half, places[i] + (i + 1 < places.size() ? 2.0 : 1.0) * half};
+}
+
 std::string map_block(const HeatMap& map, const std::string& name) {
   std::string text = name + " << END\n";
   for (std::size_t row = 0; row < map.y.size(); ++row)
-    for (std::size_t column = 0; column < map.x.size(); ++column)
-      text += coordinate(map.x[column]) + " " + coordinate(map.y[row]) + " " +
-              coordinate(map.values[row * map.x.size() + column]) + "\n";
+    for (std::size_t column = 0; column < map.x.size(); ++column) {
+      const double value = map.values[row * map.x.size() + column];
+      if (std::isnan(value)) continue;
+      const auto [left, right] = cell(map.x, column);
+      const auto [bottom, top] = cell(map.y, row);
+      for (const double one : {map.x[column], map.y[row], left, right, bottom, top})
+        text += coordinate(one) + " ";
+      text += coordinate(value) + "\n";
+    }
   return text + "END\n";
 }
 
+/// The ends of the bar say so where values lie beyond them.
 std::string map_text(const HeatMap& map) {
   const std::string end = number_text(map.largest);
-  return "set palette defined (-1 '#0072B2', -0.5 '#7FB8D8', 0 '#FFFFFF', 0.5 '#EAAE7F', 1 '#D55E00')\n"
-         "set cbrange [-" +
-         end + ":" + end + "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics scale 0.4\n";
+  std::string text =
+      map.from_zero ? "set palette defined (0 '#FFFFFF', 0.25 '#ADD8F0', 0.5 '#56B4E9', 0.75 '#0072B2', 1 "
+                      "'#062A4E')\nset cbrange [0:"
+                    : "set palette defined (-1 '#0072B2', -0.5 '#7FB8D8', 0 '#FFFFFF', 0.5 '#EAAE7F', 1 "
+                      "'#D55E00')\nset cbrange [-" +
+                          end + ":";
+  text += end + "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics autofreq scale 0.4\n";
+  const auto beyond = [&](double sign) {
+    return std::any_of(map.values.begin(), map.values.end(),
+                       [&](double value) { return sign * value > map.largest * (1.0 + 1e-9); });
+  };
+  if (beyond(1.0)) text += "set cbtics add ('≥ " + end + "' " + end + ")\n";
+  if (!map.from_zero && beyond(-1.0)) text += "set cbtics add ('≤ -" + end + "' -" + end + ")\n";
+  return text;
 }
 
 /// `empty` is true if no point fixes the range. gnuplot then cannot choose one.
@@ -200,10 +226,10 @@ std::string plot_command(const Panel& panel, std::size_t panel_index, const Surf
   const std::string command = panel.z ? "splot " : "plot ";
   std::string text;
   for (const std::string& item : surface.items) text += (text.empty() ? command : ", ") + item;
-  // Pixels are drawn one by one: the same in every terminal, and sharp.
+  // Cells are drawn one by one: the same in every terminal, and sharp.
   if (panel.heat_map)
-    text +=
-        (text.empty() ? command : ", ") + map_name(panel_index) + " using 1:2:3 with image pixels notitle";
+    text += (text.empty() ? command : ", ") + map_name(panel_index) +
+            " using 1:2:3:4:5:6:7 with boxxyerror lc palette fs solid noborder notitle";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
     // A curve without points is kept in the legend.
@@ -221,13 +247,13 @@ std::string panel_text(const Panel& panel, std::size_t index, const std::string&
   const bool framed = panel.frame && !panel.surface;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
-  std::string text = "unset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
+  std::string text = "unset bmargin\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
                      frame_text(framed, aligned, labelled);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +
-            "set view 60,325,1,1.2\nset xyplane relative 0\nset border 4095\nset zlabel rotate\n"
-            "set lmargin 2\nset rmargin 2\nset xlabel offset 0,-0.6\nset ylabel offset 0,-0.6\n";
+            "set view 60,325,1,1.2\nset xyplane relative 0\nset border 895\nset zlabel rotate\n"
+            "set lmargin 7\nset rmargin 2\nset bmargin 6\nset xlabel offset 3,0.4\nset ylabel offset 0,0.2\n";
   if (panel.heat_map) text += map_text(*panel.heat_map) + "unset grid\n";
   if (!framed) text += "unset xtics\nunset ytics\n";
   text += legend_text(panel) + heading_text(letter, title, panel.z.has_value());

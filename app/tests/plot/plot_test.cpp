@@ -109,7 +109,8 @@ TEST(Render, HeatMapsDrawEveryValueOnce) {
   Panel& panel = figure.add_panel("map");
   panel.heat_map = HeatMap{{0.0, 1.0, 2.0}, {0.0, 1.0}, {0.25, -0.5, 1.0, 0.125, 0.0, -1.0}, 1.0, "u / g_0"};
   const std::string script = gnuplot_script(figure);
-  for (const char* line : {"0 0 0.25\n", "2 0 1\n", "0 1 0.125\n", "2 1 -1\n", "cbrange [-1:1]"})
+  for (const char* line :
+       {"0 0 -0.5 1 -0.5 1 0.25\n", "2 0 1.5 2.5 -0.5 1 1\n", "2 1 1.5 2.5 0.5 1.5 -1\n", "cbrange [-1:1]"})
     EXPECT_NE(script.find(line), std::string::npos) << line;
   EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
   panel.heat_map->values.pop_back();
@@ -117,6 +118,21 @@ TEST(Render, HeatMapsDrawEveryValueOnce) {
   panel.heat_map->values.push_back(0.0);
   panel.heat_map->largest = 0.0;
   EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
+}
+
+TEST(Render, ColourBarsSayWhereValuesLieBeyondTheirEnds) {
+  Figure figure;
+  Panel& panel = figure.add_panel("map");
+  panel.heat_map = HeatMap{{0.0, 1.0}, {0.0, 1.0}, {0.0, 0.5, 2.0, -0.5}, 2.0, "N"};
+  EXPECT_EQ(gnuplot_script(figure).find("cbtics add"), std::string::npos);
+  panel.heat_map->largest = 1.0;
+  EXPECT_NE(gnuplot_script(figure).find("cbtics add ('≥ 1' 1)"), std::string::npos);
+  EXPECT_EQ(gnuplot_script(figure).find("≤"), std::string::npos);
+  panel.heat_map->largest = 0.25;
+  EXPECT_NE(gnuplot_script(figure).find("cbtics add ('≤ -0.25' -0.25)"), std::string::npos);
+  panel.heat_map->from_zero = true;
+  EXPECT_NE(gnuplot_script(figure).find("cbrange [0:0.25]"), std::string::npos);
+  EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
 }
 
 TEST(Render, CurvesInThreeDimensionsNeedTheirHeights) {

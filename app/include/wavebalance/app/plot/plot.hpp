@@ -66,13 +66,15 @@ struct Axis {
   std::string tick_format;    ///< a format of gnuplot, "%.1f"; empty for its default
 };
 
-/// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest.
+/// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest. Values
+/// beyond the ends of the colours take the last one, and the bar says so.
 struct HeatMap {
   std::vector<double> x;       ///< columns, uniform
   std::vector<double> y;       ///< rows, uniform
   std::vector<double> values;  ///< one row of x values per y; NaN is left out
   double largest = 1.0;        ///< > 0: colours end at -largest and largest
   std::string label;           ///< what the colours show
+  bool from_zero = false;      ///< for values >= 0: white for zero, dark blue for the largest
 };
 
 /// Where the legend of a panel stands.
