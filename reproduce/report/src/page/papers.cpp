@@ -21,7 +21,7 @@ const std::vector<Paper>& papers() {
        "https://hal.science/hal-00492775",
        "the right of quotation",
        false,
-       {}},
+       {"fig01", "fig02", "fig03", "algorithms"}},
       {"blade", "The blade further", "The blade further: beyond the papers", "", "", false, {}},
       {"cases_of_others",
        "Cases of others",
