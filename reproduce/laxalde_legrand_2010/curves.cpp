@@ -33,6 +33,18 @@ void add_row(Table& table, const std::string& formulation, double energy, double
   table.append_row({formulation, energy, frequency, rayleigh});
 }
 
+/// The linear branch and the accepted points.
+void add_backbone(Table& table, const std::string& formulation, const app::ModeStudy& study,
+                  const app::Backbone& curve) {
+  const double linear = study.mode().linear_omega();
+  add_row(table, formulation, 0.0, 1.0, 1.0);
+  add_row(table, formulation, 1.0, 1.0, 1.0);
+  for (const auto& point : curve.points)
+    if (point.accepted())
+      add_row(table, formulation, point.energy_ratio, point.omega / linear,
+              std::sqrt(point.rayleigh) / linear);
+}
+
 }  // namespace
 
 Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,
@@ -64,29 +76,22 @@ Distance exact_distance(const app::ModeStudy& study, const app::Backbone& curve)
   return {errors[errors.size() / 2], errors.back(), static_cast<int>(errors.size())};
 }
 
-Table backbones_table(const app::ModeStudy& study, const app::Backbone& curve,
-                      const std::vector<LagrangianPoint>& published) {
-  const double linear = study.mode().linear_omega();
+Table backbones_table(const RodCurves& curves) {
   Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
-  for (const auto* name : {"published", "consistent"}) {
-    add_row(table, name, 0.0, 1.0, 1.0);
-    if (name == std::string("published"))
-      for (const auto& point : published) {
-        const double root = std::sqrt(point.rayleigh) / linear;
-        if (point.accepted()) add_row(table, name, point.prescribed_ratio, root, root);
-      }
-    else
-      for (const auto& point : curve.points)
-        if (point.accepted())
-          add_row(table, name, point.energy_ratio, point.omega / linear, std::sqrt(point.rayleigh) / linear);
+  add_row(table, "published", 0.0, 1.0, 1.0);
+  for (const auto& point : curves.published) {
+    const double root = std::sqrt(point.rayleigh) / curves.study.mode().linear_omega();
+    if (point.accepted()) add_row(table, "published", point.prescribed_ratio, root, root);
   }
+  add_backbone(table, "consistent", curves.study, curves.backbone);
+  add_backbone(table, "consistent_half_lumped", curves.remedy, curves.remedy_backbone);
   add_row(table, "exact", 0.0, 1.0, 1.0);
   add_row(table, "exact", 1.0, 1.0, 1.0);
   const double onset = contact::ExactBarMode::onset_energy(1, contact::EnergyMeasure::modal);
   constexpr int points = 200;
   for (int i = 1; i <= points; ++i) {
     const double energy = onset * std::pow(10.0 / onset, static_cast<double>(i) / points);
-    const auto mode = exact_mode(study.scene(), energy);
+    const auto mode = exact_mode(curves.study.scene(), energy);
     add_row(table, "exact", energy, mode.frequency_ratio(), mode.rayleigh_frequency_ratio());
   }
   return table;

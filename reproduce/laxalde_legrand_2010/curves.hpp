@@ -24,9 +24,18 @@ struct Distance {
 };
 Distance exact_distance(const app::ModeStudy& study, const app::Backbone& curve);
 
+/// The rod's mode with the mass matrix of eq. (28), with a half-lumped one, and as published.
+struct RodCurves {
+  const app::ModeStudy& study;
+  app::Backbone backbone;
+  const app::ModeStudy& remedy;
+  app::Backbone remedy_backbone;
+  std::vector<solvers::LagrangianPoint> published;
+};
+
 /// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
-/// root of r), consistent (accepted points) and exact, the linear branch below contact included.
-Table backbones_table(const app::ModeStudy& study, const app::Backbone& curve,
-                      const std::vector<solvers::LagrangianPoint>& published);
+/// root of r), consistent and consistent_half_lumped (accepted points) and exact, the linear branch below
+/// contact included.
+Table backbones_table(const RodCurves& curves);
 
 }  // namespace wavebalance::ll10

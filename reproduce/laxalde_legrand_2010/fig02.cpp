@@ -1,19 +1,13 @@
 #include <fmt/format.h>
 
-#include <array>
-
 #include "figures.hpp"
 #include "ll10.hpp"
+#include "sketch.hpp"
 
 namespace wavebalance::ll10 {
 using app::Colour;
 
 namespace {
-
-struct Polyline {
-  std::string part;
-  std::vector<std::array<double, 2>> points;
-};
 
 /// The sketch in units of the rod's length.
 std::vector<Polyline> outline() {
@@ -46,39 +40,14 @@ void annotate(app::Panel& panel) {
   text(0.72, 0.16, "{/:Italic u}({/:Italic L}, {/:Italic t}) ≤ {/:Italic g}_0");
 }
 
-app::Figure drawn(const std::vector<Polyline>& lines) {
-  app::Figure figure;
-  figure.panel_width = 700;
-  figure.panel_height = 250;
-  auto& panel = figure.add_panel();
-  panel.frame = false;
-  panel.x = axis("", -0.08, 1.2);
-  panel.y = axis("", -0.23, 0.24);
-  panel.legend = app::Legend::none;
-  for (const auto& line : lines) {
-    std::vector<double> x, y;
-    for (const auto& point : line.points) {
-      x.push_back(point[0]);
-      y.push_back(point[1]);
-    }
-    Series series("", x, y);
-    series.colour = Colour::black;
-    series.width = line.part == "hatching" ? 0.8 : 1.6;
-    panel.add(std::move(series));
-  }
-  annotate(panel);
-  return figure;
-}
-
 }  // namespace
 
 void fig02(report::Artefact& artefact) {
   const auto lines = outline();
-  Table table({"line", "part", "x", "y"});
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].part, x, y});
-  artefact.data(table, "units of the rod's length");
-  artefact.picture(drawn(lines));
+  artefact.data(polylines_table(lines), "units of the rod's length");
+  auto figure = sketch(lines, axis("", -0.08, 1.2), axis("", -0.23, 0.24), 700, 250);
+  annotate(figure.panels.front());
+  artefact.picture(figure);
   const auto& rod = artefact.scene("rod.toml").structure;
   artefact.caption(fmt::format(
       "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = {} Pa, density {} "

@@ -6,6 +6,7 @@ namespace wavebalance::ll10 {
 
 const std::vector<report::Step>& figures() {
   static const std::vector<report::Step> all{
+      {"fig01", identity("Fig. 1", "Notations", "fig01_notations"), fig01},
       {"fig02", identity("Fig. 2", "Thin rod in contact against a rigid foundation", "fig02_rod_sketch"),
        fig02},
       {"fig03", identity("Fig. 3", "Frequency over energy of the first nonlinear mode", "fig03_backbone"),
@@ -13,6 +14,11 @@ const std::vector<report::Step>& figures() {
       {"fig03_convergence",
        identity("Fig. 3, convergence", "Distance of the backbone from the exact one", "fig03_convergence"),
        fig03_convergence},
+      {"fig03_sampling",
+       identity("Section 4, N and m", "Frequency, force and contact over the number of samples",
+                "fig03_sampling"),
+       fig03_sampling},
+      {"algorithms", identity("Algorithms 1 to 3", "Ways to the modes", "algorithms"), algorithms},
       {"fig04", identity("Fig. 4", "Periodic motions projected into phase space", "fig04_phase_space"),
        fig04},
       {"fig05", identity("Fig. 5", "Displacement and velocity over space and time", "fig05_space_time"),

@@ -6,9 +6,12 @@
 /// The figures of LL10, each a function that makes it.
 namespace wavebalance::ll10 {
 
+void fig01(report::Artefact& artefact);
 void fig02(report::Artefact& artefact);
 void fig03(report::Artefact& artefact);
 void fig03_convergence(report::Artefact& artefact);
+void fig03_sampling(report::Artefact& artefact);
+void algorithms(report::Artefact& artefact);
 void fig04(report::Artefact& artefact);
 void fig05(report::Artefact& artefact);
 void fig06(report::Artefact& artefact);

@@ -25,6 +25,17 @@ Eigen::MatrixXd centred(const Eigen::MatrixXd& values) {
   return result;
 }
 
+/// Times of the samples that bear a force, with t = 0 in the middle of the axis.
+std::vector<double> contact_times(const Eigen::MatrixXd& force) {
+  std::vector<double> times;
+  for (Eigen::Index k = 0; k < force.cols(); ++k)
+    if (force.col(k).maxCoeff() > 0.0) {
+      const double time = static_cast<double>(k) / static_cast<double>(force.cols());
+      times.push_back(time < 0.5 ? time + 0.5 : time - 0.5);
+    }
+  return times;
+}
+
 double linear_omega(const app::Scene& scene) {
   return 2.0 * std::numbers::pi * ExactBarMode::linear_frequency(exact_bar(scene), 1);
 }
@@ -65,15 +76,18 @@ Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int tim
         fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
   const auto motion = study.structure_motion(point, times);
   const double gap = scene.contact.gap;
-  return {node_positions(scene.structure.elements), times_of(times), centred(motion.displacement) / gap,
-          centred(motion.velocity) / (gap * linear_omega(scene))};
+  return {node_positions(scene.structure.elements), times_of(times),
+          centred(motion.displacement) / gap,       centred(motion.velocity) / (gap * linear_omega(scene)),
+          point.omega / linear_omega(scene),        contact_times(point.force)};
 }
 
 Motion exact_motion(const app::Scene& scene, double energy_ratio, int times) {
-  Motion motion{node_positions(scene.structure.elements), times_of(times), {}, {}};
+  Motion motion{node_positions(scene.structure.elements), times_of(times), {}, {}, 1.0, {}};
   if (energy_ratio <= 1.0) return linear_motion(energy_ratio, std::move(motion));
   const auto mode = exact_mode(scene, energy_ratio);
-  const double gap = scene.contact.gap;
+  const double gap = scene.contact.gap, half = 0.5 * mode.contact_duration() / mode.period();
+  motion.frequency_ratio = mode.frequency_ratio();
+  motion.contact = {0.5 - half, 0.5 + half};
   motion.displacement.resize(motion.position.size(), motion.time.size());
   motion.velocity.resizeLike(motion.displacement);
   for (Eigen::Index i = 0; i < motion.position.size(); ++i)
@@ -89,6 +103,11 @@ Motion exact_motion(const app::Scene& scene, double energy_ratio, int times) {
 std::string discretisation(const app::Scene& scene) {
   return fmt::format("{} harmonics, {} samples, {} elements", scene.analysis.harmonics,
                      scene.analysis.samples, scene.structure.elements);
+}
+
+void judge(report::Artefact& artefact, report::Statement statement, const std::string& because) {
+  if (statement.verdict != report::Verdict::agrees) statement.because = because;
+  artefact.statement(std::move(statement));
 }
 
 app::Axis axis(const std::string& label, double lower, double upper) {

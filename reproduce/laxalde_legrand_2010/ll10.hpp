@@ -29,6 +29,8 @@ struct Motion {
   Eigen::VectorXd time;          ///< t/T
   Eigen::MatrixXd displacement;  ///< nodes x times
   Eigen::MatrixXd velocity;      ///< nodes x times
+  double frequency_ratio = 1.0;  ///< over the linear frequency of the continuous rod
+  std::vector<double> contact;   ///< t/T of the samples in contact; of the exact motion its begin and end
 };
 
 /// The point of the scene's mode at an energy ratio, with contact in the middle of the time axis. Throws
@@ -39,6 +41,9 @@ Motion exact_motion(const app::Scene& scene, double energy_ratio, int times);
 
 /// "10 harmonics, 20 samples, 20 elements"
 std::string discretisation(const app::Scene& scene);
+
+/// Adds the statement, with the reason unless it agrees.
+void judge(report::Artefact& artefact, report::Statement statement, const std::string& because);
 
 /// An axis with its limits.
 app::Axis axis(const std::string& label, double lower, double upper);
