@@ -17,8 +17,8 @@ namespace {
 
 constexpr double energies[] = {1.0, 2.0, 4.0, 7.0, 10.4};
 constexpr double largest_rpm = 12000.0;
-constexpr int speeds = 6;
-constexpr double lowest = 500.0, highest = 850.0;  // Hz, of the picture
+constexpr int speeds = 11;
+constexpr double lowest = 500.0, highest = 900.0;  // Hz, of the picture
 constexpr int claimed_order = 5;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -27,7 +27,20 @@ double rad_per_s(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 std::string column(double energy) { return "energy_" + report::number(energy); }
 
 /// Hz over rotation speed for each energy; missing where the branch was not found.
-app::Table campbell(const RotatingBlade& blade, const app::Scene& scene, std::string& interruptions) {
+struct Diagram {
+  app::Table table;
+  std::string interruptions;  ///< of the branches, by speed
+  std::string ends;           ///< why points are missing
+};
+
+std::string reason(const app::Interruption& gap) {
+  if (!gap.resonances.empty()) return "internal resonance " + gap.resonances.front();
+  return gap.status;
+}
+
+Diagram campbell(const RotatingBlade& blade, const app::Scene& scene) {
+  Diagram diagram;
+  std::string& interruptions = diagram.interruptions;
   std::vector<std::string> columns{"rotation_rpm", "linear_Hz"};
   for (const double energy : energies) columns.push_back(column(energy));
   app::Table table(columns);
@@ -42,17 +55,32 @@ app::Table campbell(const RotatingBlade& blade, const app::Scene& scene, std::st
     std::vector<app::Cell> row{rpm, study.linear_frequency()};
     for (const double energy : energies) {
       const auto point = study.at_energy(curve, energy);
+      if (!point.accepted())
+        diagram.ends += fmt::format("{}energy {} at {} 1/min ({})", diagram.ends.empty() ? "" : ", ",
+                                    report::number(energy), report::number(rpm, 5),
+                                    curve.early_end.empty() && !curve.interruptions.empty()
+                                        ? reason(curve.interruptions.back())
+                                        : curve.status());
       row.emplace_back(point.accepted() ? point.omega / (2.0 * std::numbers::pi) : missing);
     }
     table.append_row(row);
   }
-  return table;
+  diagram.table = table;
+  return diagram;
+}
+
+/// The last point of a curve that ends within the picture is marked by words.
+void mark_end(app::Panel& panel, const app::Table& table, double energy) {
+  const auto rpm = table.numbers("rotation_rpm"), hz = table.numbers(column(energy));
+  for (std::size_t i = 0; i + 1 < hz.size(); ++i)
+    if (!std::isnan(hz[i]) && std::isnan(hz[i + 1]))
+      panel.texts.push_back({rpm[i] + 200.0, hz[i] + 20.0, "not found beyond", app::TextMark::Align::right});
 }
 
 app::Figure drawn(const app::Table& table) {
   app::Figure figure;
-  figure.panel_width = 760;
-  figure.panel_height = 480;
+  figure.panel_width = 620;
+  figure.panel_height = 520;
   auto& panel = figure.add_panel("first mode of the blade");
   panel.x.label = "Rotation speed (1/min)";
   panel.x.lower = 0.0;
@@ -60,20 +88,23 @@ app::Figure drawn(const app::Table& table) {
   panel.y.label = "Frequency (Hz)";
   panel.y.lower = lowest;
   panel.y.upper = highest;
-  panel.legend = app::Legend::right_of_panel;
+  panel.legend = app::Legend::below_panel;
   for (const double energy : energies) {
     app::Series series("energy " + report::number(energy) + (energy == 1.0 ? " (linear)" : ""), table,
                        "rotation_rpm", column(energy), app::SeriesStyle::line_points);
     series.marker = 1;
     panel.add(series);
+    mark_end(panel, table, energy);
   }
-  for (const int order : {4, 5, 6, 8}) {
+  // Every order whose line crosses the picture, up to one that only the slowest blade meets.
+  const int first_order = static_cast<int>(std::ceil(60.0 * lowest / largest_rpm)), last_order = 10;
+  for (int order = first_order; order <= last_order; ++order) {
     const double per_rpm = order / 60.0, to = std::min(highest / per_rpm, largest_rpm);
     panel.segments.push_back(
         {lowest / per_rpm, lowest, to, to * per_rpm, false, app::Dash::dashed, Colour::grey, 1.0});
     const double label = lowest + 0.08 * (highest - lowest);
     panel.texts.push_back(
-        {label / per_rpm - 100.0, label, "EO " + std::to_string(order), app::TextMark::Align::right});
+        {label / per_rpm - 60.0, label, std::to_string(order), app::TextMark::Align::right});
   }
   return figure;
 }
@@ -132,15 +163,16 @@ void claims(report::Artefact& artefact, const app::Table& table) {
 void campbell_diagram(report::Artefact& artefact) {
   const auto scene = artefact.scene("campbell.toml");
   const RotatingBlade blade(scene);
-  std::string interruptions;
-  const auto table = campbell(blade, scene, interruptions);
+  const auto diagram = campbell(blade, scene);
+  const auto& table = diagram.table;
   artefact.data(table, "rotation_rpm in 1/min, frequencies in Hz; missing where the branch was not found",
                 {"energies over that of the linear mode that just touches at the same speed"});
   artefact.picture(drawn(table));
   artefact.caption(
       "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the open "
       "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
-      "that just touches at the same speed; EO are engine orders. Stability is not drawn: "
+      "that just touches at the same speed. Dashed are engine orders, by their numbers; straight lines join the speeds "
+      "computed. Stability is not drawn: "
       "where contacts have mass, no motion beside that of a rigid obstacle is determined without a law of impact.");
   artefact.note(fmt::format(
       "The gap is that of the turning blade. Its static displacement, up to {} mm at the largest speed, "
@@ -148,11 +180,13 @@ void campbell_diagram(report::Artefact& artefact) {
       "the reduction at rest ({} s).",
       report::number(1e3 * blade.static_displacement(rad_per_s(largest_rpm)), 2),
       report::number(blade.at_rest().reduction_seconds, 2)));
-  if (!interruptions.empty())
+  if (!diagram.ends.empty())
+    artefact.note("Points that were not found, and are not drawn: " + diagram.ends + ".");
+  if (!diagram.interruptions.empty())
     artefact.note(fmt::format(
         "Branches interrupted by internal resonances (harmonic : linear mode) or unsolved, at frequencies "
         "over the linear one: {}.",
-        interruptions));
+        diagram.interruptions));
   claims(artefact, table);
 }
 

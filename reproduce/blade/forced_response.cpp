@@ -43,6 +43,8 @@ struct Study {
   double frequency() const { return scene.forcing.frequency; }
 };
 
+const std::vector<double> frequency_ticks{550.0, 600.0, 650.0, 700.0};
+
 /// Thinner from one pair to the next, so that all show where they agree.
 double width(std::size_t pair) { return 2.8 - 0.9 * static_cast<double>(pair); }
 
@@ -78,7 +80,7 @@ void add_traced(app::Panel& panel, const Study& study) {
     x.push_back(point.frequency);
     y.push_back(point.max_displacement / study.gap());
   }
-  app::Series traced("by arc length", x, y);
+  app::Series traced("curve", x, y);
   traced.colour = Colour::black;
   traced.width = 1.2;
   std::vector<app::PlacedPoint> folds;
@@ -93,57 +95,110 @@ void add_curves(app::Figure& figure, const Study& study) {
   panel.x.label = "Frequency (Hz)";
   panel.x.lower = study.linear.front().frequency;
   panel.x.upper = study.linear.back().frequency;
-  panel.y.label = "Largest u_z at the tip over the gap";
+  panel.y.label = "Largest u_z over the gap";
+  panel.x.ticks = frequency_ticks;
   panel.y.lower = 0.0;
-  panel.y.upper = 10.0;  // space for the legend
-  panel.legend = app::Legend::top_right;
+  panel.y.upper = 9.0;
+  panel.legend = app::Legend::none;  // it would hide the peak
+  using enum app::TextMark::Align;
+  panel.texts = {{582.0, 7.5, "without contact", left}, {650.0, 3.0, "steps up", centre}};
   app::Series straight("without contact", frequencies(study.linear),
                        over_gap(largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
   straight.dash = app::Dash::dashed;
   panel.add(straight);
   add_traced(panel, study);
-  for (std::size_t i = 0; i < study.curves.size(); ++i)
-    panel.add(points_of(pairs[i].label + std::string(", upwards"), study.curves[i], study.gap(),
-                        pairs[i].colour, static_cast<int>(i) + 1));
-  panel.add(points_of("Fourier, downwards", study.down, study.gap(), Colour::sky_blue, 4))
+  panel.add(points_of("steps up", study.curves[0], study.gap(), pairs[0].colour, 1));
+  panel.add(points_of("steps down", study.down, study.gap(), Colour::sky_blue, 4))
       .mark_y(1.0)
       .mark_x(study.frequency());
 }
 
+/// The other pairs against Fourier, whose points they would hide in the panel of the curves.
+void add_differences(app::Figure& figure, const Study& study) {
+  auto& panel = figure.add_panel("other pairs less Fourier, upwards");
+  panel.x.label = "Frequency (Hz)";
+  panel.x.lower = study.linear.front().frequency;
+  panel.x.upper = study.linear.back().frequency;
+  panel.x.ticks = frequency_ticks;
+  panel.y.label = "Difference over the gap";
+  panel.legend = app::Legend::top_left;
+  const auto fourier = largest_displacements(study.curves[0]);
+  for (std::size_t i = 1; i < study.curves.size(); ++i) {
+    auto values = largest_displacements(study.curves[i]);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] -= fourier[k];
+    app::Series series(pairs[i].label, frequencies(study.curves[i]), over_gap(values, study.gap()),
+                       app::SeriesStyle::line_points);
+    series.colour = pairs[i].colour;
+    series.marker = static_cast<int>(i) + 1;
+    panel.add(series);
+  }
+  panel.mark_y(0.0);
+}
+
+/// t/T of the samples, and 1.
+std::vector<double> closed_times(Eigen::Index samples) {
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(samples + 1, 0.0, 1.0);
+  return {times.begin(), times.end()};
+}
+
 /// Contact force over time and chord, mean of the two faces.
-void add_map(app::Figure& figure, const BladeResponse& response) {
-  auto& panel = figure.add_panel("contact force, Fourier, " + report::number(response.frequency, 4) + " Hz");
+void add_map(app::Figure& figure, const std::string& pair, const BladeResponse& response, double largest) {
+  auto& panel = figure.add_panel("contact force, " + pair);
   panel.x.label = "Time (fraction of a period)";
-  panel.y.label = "Chord (leading to trailing edge)";
+  panel.y.label = "Chord, leading to trailing";
+  panel.x.lower = 0.0;
+  panel.x.upper = 1.0;
   auto& map = panel.heat_map.emplace();
-  const auto times = app::time_fractions(static_cast<int>(response.force.cols()));
-  map.x.assign(times.begin(), times.end());
+  const Eigen::Index samples = response.force.cols();
+  map.x = closed_times(samples);
   const Eigen::Index stations = response.force.rows() / 2;
   for (Eigen::Index station = 0; station < stations; ++station) {
     map.y.push_back(static_cast<double>(station) / static_cast<double>(stations - 1));
-    for (Eigen::Index k = 0; k < response.force.cols(); ++k)
-      map.values.push_back(0.5 * (response.force(2 * station, k) + response.force(2 * station + 1, k)));
+    for (Eigen::Index k = 0; k <= samples; ++k)
+      map.values.push_back(
+          0.5 * (response.force(2 * station, k % samples) + response.force(2 * station + 1, k % samples)));
   }
-  map.largest = response.force.maxCoeff();
+  map.largest = largest;
+  map.from_zero = true;
   map.label = "N";
   panel.legend = app::Legend::none;
 }
 
+/// Common limits of the histories of both edges in all pairs, rounded outwards.
+std::pair<double, double> history_limits(const std::vector<Responses>& curves, double gap, double frequency,
+                                         bool force) {
+  double lower = 0.0, upper = 0.0;
+  for (const auto& curve : curves) {
+    const auto& response = at(curve, frequency);
+    const Eigen::MatrixXd samples = force ? response.force : Eigen::MatrixXd(response.displacement / gap);
+    for (const Eigen::Index row : {Eigen::Index{0}, samples.rows() - 1}) {
+      lower = std::min(lower, samples.row(row).minCoeff());
+      upper = std::max(upper, samples.row(row).maxCoeff());
+    }
+  }
+  const double step = force ? 50.0 : 0.5;
+  return {std::floor(lower / step) * step, std::ceil(upper / step) * step};
+}
+
 void add_history(app::Figure& figure, const std::vector<Responses>& curves, double gap, double frequency,
                  bool force, bool leading) {
-  auto& panel = figure.add_panel(fmt::format("{} edge, {} Hz", std::string(leading ? "leading" : "trailing"),
-                                             report::number(frequency, 4)));
+  const auto limits = history_limits(curves, gap, frequency, force);
+  auto& panel = figure.add_panel(std::string(leading ? "leading" : "trailing") + " edge");
   panel.x.label = "Time (fraction of a period)";
   panel.x.lower = 0.0;
   panel.x.upper = 1.0;
   panel.y.label = force ? "Contact force (N)" : "u_z over the gap";
-  panel.legend = app::Legend::none;
+  panel.y.lower = limits.first;
+  panel.y.upper = limits.second;
+  panel.legend = force && leading ? app::Legend::top_centre : app::Legend::none;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& response = at(curves[i], frequency);
     const Eigen::MatrixXd& samples = force ? response.force : response.displacement;
     const Eigen::VectorXd row = samples.row(leading ? 0 : samples.rows() - 1) / (force ? 1.0 : gap);
-    app::Series series(pairs[i].label, app::time_fractions(static_cast<int>(row.size())), row);
+    std::vector<double> closed(row.begin(), row.end());
+    closed.push_back(row[0]);
+    app::Series series(pairs[i].label, closed_times(row.size()), closed);
     series.colour = pairs[i].colour;
     series.width = width(i);
     panel.add(series);
@@ -281,10 +336,15 @@ void write_data(report::Artefact& artefact, const Study& study) {
 app::Figure drawn(const Study& study) {
   app::Figure figure;
   figure.columns = 2;
-  figure.panel_width = 520;
-  figure.panel_height = 370;
+  figure.panel_width = 350;
+  figure.panel_height = 300;
   add_curves(figure, study);
-  add_map(figure, at(study.curves[0], study.frequency()));
+  add_differences(figure, study);
+  double largest = 0.0;
+  for (const std::size_t pair : {std::size_t{0}, study.curves.size() - 1})
+    largest = std::max(largest, at(study.curves[pair], study.frequency()).force.maxCoeff());
+  for (const std::size_t pair : {std::size_t{0}, study.curves.size() - 1})
+    add_map(figure, pairs[pair].label, at(study.curves[pair], study.frequency()), largest);
   for (const bool force : {false, true})
     for (const bool leading : {true, false})
       add_history(figure, study.curves, study.gap(), study.frequency(), force, leading);
@@ -301,9 +361,12 @@ void forced_response(report::Artefact& artefact) {
       "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
       "functions and 64 points, and each pair in steps of the frequency with {} functions and {} points a "
       "period: what JL14 names as its next step. Steps go up, each response from the one before, and down "
-      "again; dotted lines mark the gap and the frequency of the histories, whose colours are those of (a). "
+      "again; dotted lines mark the gap and the frequency of the histories. (b) is the largest displacement of the other pairs "
+      "less that of Fourier. (c) and (d) show the force over the chord, mean of both faces, and (e) to (h) histories at {} Hz, "
+      "each kind on one scale, in the colours of (g). In (a) curve and steps are those of Fourier: black the curve with "
+      "its folds, dark blue the steps up, light blue those down. "
       "The curve is dashed where it is unstable, by counts at two points of each of its three parts.",
-      study.scene.time.functions, study.scene.time.quadrature_points));
+      study.scene.time.functions, study.scene.time.quadrature_points, report::number(study.frequency(), 4)));
   claims(artefact, study);
   notes(artefact, study);
   note_stability(artefact, study.parts);

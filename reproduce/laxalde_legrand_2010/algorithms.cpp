@@ -7,7 +7,6 @@
 #include "curves.hpp"
 #include "figures.hpp"
 #include "multiplier_strategies.hpp"
-#include "wavebalance/contact/multipliers.hpp"
 #include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::ll10 {
@@ -19,8 +18,7 @@ using solvers::LagrangianMode;
 using solvers::LagrangianPoint;
 using solvers::ModeFormulation;
 
-constexpr double penalty = 300.0;  // in units omega_1 = gap = 1
-constexpr double largest_energy = 10.0;
+constexpr double branch_energy = 10.0;
 constexpr int energy_steps = 37;
 
 /// One algorithm from grazing to the largest energy.
@@ -39,29 +37,16 @@ struct Branch {
   }
 };
 
-solvers::LagrangianModeOptions options_of(const app::Scene& scene, int harmonics) {
-  solvers::LagrangianModeOptions options;
-  options.mode = scene.analysis.mode;
-  options.harmonics = harmonics;
-  options.samples = scene.analysis.samples;
-  return options;
-}
-
-contact::MultiplierUpdate algorithm_3(const LagrangianMode& mode) {
-  return contact::MultiplierUpdate(std::vector<double>(static_cast<std::size_t>(mode.constraints()), penalty),
-                                   {penalty});
-}
-
 Branch branch(const app::ModeStudy& study, ModeFormulation formulation, EigenvalueUpdate eigenvalue,
               int harmonics) {
-  auto options = options_of(study.scene(), harmonics);
+  auto options = lagrangian_options(study.scene(), harmonics);
   options.formulation = formulation;
   options.eigenvalue = eigenvalue;
   const LagrangianMode mode(study.mode().model(), options);
-  const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(energy_steps, 1.0, largest_energy);
+  const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(energy_steps, 1.0, branch_energy);
   return {formulation, eigenvalue, harmonics,
           mode.branch(std::span(energies.data(), static_cast<std::size_t>(energies.size())),
-                      algorithm_3(mode), mode.linear_start(1.0)),
+                      lagrangian_strategy(mode), mode.linear_start(1.0)),
           mode.linear_omega()};
 }
 
@@ -116,7 +101,7 @@ void claim_similar(report::Artefact& artefact, const std::vector<Branch>& branch
                        energy_steps, report::percent(report::visible_share)),
        .measured =
            fmt::format("by {} of the linear frequency at most, over {} pairs of branches up to energy {}",
-                       number(largest, 2), pairs.size(), number(largest_energy)),
+                       number(largest, 2), pairs.size(), number(branch_energy)),
        .verdict = report::invisible(largest, range),
        .earlier = "Not judged."},
       "The frequencies of the two algorithms can be told apart on the axis.");
@@ -162,16 +147,16 @@ std::vector<Attempt> attempts(report::Artefact& artefact) {
           artefact.scene("rod.toml", {"analysis.harmonics=" + std::to_string(harmonics)}));
       const auto near = study.at_energy(0.95 * energy);
       if (!near.accepted()) throw report::NotConverged("start of an attempt");
-      auto options = options_of(study.scene(), harmonics);
+      auto options = lagrangian_options(study.scene(), harmonics);
       options.max_outer_iterations = 200;
       const LagrangianMode mode(study.mode().model(), options);
       const auto add = [&](const std::string& name, auto strategy) {
         all.push_back({name, harmonics, energy, mode.solve(energy, strategy, {near.amplitudes, near.force})});
       };
-      add("augmented Lagrangian", algorithm_3(mode));
+      add("augmented Lagrangian", lagrangian_strategy(mode));
       for (const double step : {0.1, 1.0, 10.0, 100.0})
         add("multipliers only, step " + number(step), MultipliersOnly(mode.constraints(), step));
-      add("penalties only", PenaltiesOnly(mode.constraints(), penalty));
+      add("penalties only", PenaltiesOnly(mode.constraints(), first_penalty));
     }
   return all;
 }
@@ -227,7 +212,7 @@ void algorithms(report::Artefact& artefact) {
       "The rod's mode by the augmented Lagrangian with eq. (28) and {} samples, from grazing to energy {} in {} "
       "steps, each from the steps before. With r free (simultaneous, Algorithm 1) or frozen at its prediction "
       "(sequential, Algorithm 2); by the equations as printed and by the corrected ones.",
-      study.scene().analysis.samples, number(largest_energy), energy_steps));
+      study.scene().analysis.samples, number(branch_energy), energy_steps));
   int most = 0;
   for (const Branch& one : branches)
     if (one.complete()) most = std::max(most, one.harmonics);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "curves.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::ll10 {
@@ -15,6 +16,23 @@ solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone&
     throw report::NotConverged(
         fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
   return point;
+}
+
+std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const app::Backbone& curve,
+                                             const std::vector<double>& energies) {
+  auto options = lagrangian_options(study.scene(), study.scene().analysis.harmonics);
+  options.cosine_only =
+      true;  // the motions are even in time, and half the unknowns take an eighth of the time
+  const solvers::LagrangianMode mode(study.mode().model(), options);
+  std::vector<SecondSolution> solutions;
+  for (const double energy : energies) {
+    const auto start = accepted_at(study, curve, energy);
+    auto multipliers = lagrangian_strategy(mode);
+    const auto point = mode.solve(energy, multipliers, {start.amplitudes, start.force});
+    const double linear = study.mode().linear_omega();
+    if (point.accepted()) solutions.push_back({energy, start.omega / linear, point.omega / linear});
+  }
+  return solutions;
 }
 
 Table blade_backbones(const app::ModeStudy& study, const app::Backbone& curve,

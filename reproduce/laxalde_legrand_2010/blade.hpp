@@ -11,11 +11,16 @@ namespace wavebalance::ll10 {
 /// The energies of the paper's mode shapes [LL10, Fig. 8].
 inline constexpr double shape_energies[] = {0.8, 4.7, 10.4};
 
-/// A point of the backbone that an independent program found for this blade (N = 5, m = 20).
-struct ListedPoint {
-  double energy_ratio, frequency_ratio;
+/// A motion of the blade by the augmented Lagrangian of the consistent equations (Algorithm 1), started from
+/// the condensed solution: a second solver for the same equations, on all coordinates.
+struct SecondSolution {
+  double energy_ratio = 0.0;
+  double condensed = 0.0;   ///< frequency over the linear one
+  double lagrangian = 0.0;  ///< the same by the second solver
 };
-inline constexpr ListedPoint listed_points[] = {{1.2, 1.0069}, {2.0, 1.0377}, {3.0, 1.0808}, {7.0, 1.1931}};
+/// Those of `energies` that both reach. Throws report::NotConverged where the curve has no such energy.
+std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const app::Backbone& curve,
+                                             const std::vector<double>& energies);
 
 /// The point of a backbone at an energy ratio. Throws report::NotConverged when there is none.
 solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio);

@@ -3,31 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wavebalance/contact/multipliers.hpp"
-
 namespace wavebalance::ll10 {
 namespace {
 
 using solvers::LagrangianMode;
 using solvers::LagrangianModeOptions;
 using solvers::LagrangianPoint;
-
-// In units omega_1 = gap = 1, where the inner Newton iterations are well scaled.
-constexpr double penalty = 300.0;
-
-contact::MultiplierUpdate strategy(const LagrangianMode& mode) {
-  return contact::MultiplierUpdate(std::vector<double>(static_cast<std::size_t>(mode.constraints()), penalty),
-                                   {penalty});
-}
-
-LagrangianModeOptions options_of(const app::Scene& scene, int harmonics) {
-  LagrangianModeOptions options;
-  options.mode = scene.analysis.mode;
-  options.harmonics = harmonics;
-  options.samples = scene.analysis.samples;
-  options.cosine_only = scene.analysis.cosine_only;
-  return options;
-}
 
 void add_row(Table& table, const std::string& formulation, double energy, double frequency, double rayleigh) {
   table.append_row({formulation, energy, frequency, rayleigh});
@@ -47,15 +28,29 @@ void add_backbone(Table& table, const std::string& formulation, const app::ModeS
 
 }  // namespace
 
+LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics) {
+  LagrangianModeOptions options;
+  options.mode = scene.analysis.mode;
+  options.harmonics = harmonics;
+  options.samples = scene.analysis.samples;
+  options.cosine_only = scene.analysis.cosine_only;
+  return options;
+}
+
+contact::MultiplierUpdate lagrangian_strategy(const LagrangianMode& mode) {
+  return contact::MultiplierUpdate(
+      std::vector<double>(static_cast<std::size_t>(mode.constraints()), first_penalty), {first_penalty});
+}
+
 Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,
                                const std::vector<double>& energies) {
   const LagrangianMode mode(study.mode().model(),
-                            options_of(study.scene(), study.scene().analysis.harmonics));
+                            lagrangian_options(study.scene(), study.scene().analysis.harmonics));
   Agreement result;
   for (const double energy : energies) {
     const auto condensed = study.at_energy(curve, energy);
     if (!condensed.accepted()) continue;
-    auto outer = strategy(mode);
+    auto outer = lagrangian_strategy(mode);
     const auto point = mode.solve(energy, outer, {condensed.amplitudes, condensed.force});
     if (!point.accepted()) continue;
     result.largest = std::max(result.largest, std::abs(point.omega / condensed.omega - 1.0));

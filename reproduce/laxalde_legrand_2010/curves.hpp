@@ -3,9 +3,16 @@
 #include <vector>
 
 #include "ll10.hpp"
+#include "wavebalance/contact/multipliers.hpp"
 #include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 
 namespace wavebalance::ll10 {
+
+/// In units omega_1 = gap = 1, where the inner Newton iterations are well scaled.
+inline constexpr double first_penalty = 300.0;
+/// The scene's mode with this many harmonics, and the outer iteration of Algorithm 3 from first_penalty.
+solvers::LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics);
+contact::MultiplierUpdate lagrangian_strategy(const solvers::LagrangianMode& mode);
 
 /// Largest relative difference of omega between the condensed solver and the consistent augmented Lagrangian
 /// (Algorithm 1) started from it, over those of `energies` that both reach.

@@ -11,8 +11,8 @@ using app::Colour;
 
 namespace {
 
-constexpr double gap = 0.16;
-constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double body_gap = 0.16;
+constexpr double full_turn = 2.0 * std::numbers::pi;
 /// Shares of the boundary at which its parts begin: Neumann, Dirichlet, Neumann, contact.
 constexpr double dirichlet_from = 0.42, dirichlet_to = 0.60, contact_from = 0.66, contact_to = 0.86;
 
@@ -20,7 +20,7 @@ using Point = std::array<double, 2>;
 
 /// The boundary over the share s of its parameter, anticlockwise.
 Point boundary(double s) {
-  const double angle = turn * s,
+  const double angle = full_turn * s,
                radius = 1.0 + 0.10 * std::cos(2.0 * angle + 0.6) + 0.05 * std::cos(3.0 * angle);
   return {1.5 * radius * std::cos(angle), radius * std::sin(angle)};
 }
@@ -52,17 +52,17 @@ Polyline thinned(const Polyline& line) {
   return result;
 }
 
-std::vector<Polyline> outline() {
+std::vector<Polyline> body_outline() {
   std::vector<Polyline> lines{
       part_of("Gamma_F", contact_to - 1.0, dirichlet_from), part_of("Gamma_D", dirichlet_from, dirichlet_to),
       part_of("Gamma_F", dirichlet_to, contact_from), part_of("Gamma_C", contact_from, contact_to),
-      part_of("obstacle", contact_from, contact_to, gap)};
+      part_of("obstacle", contact_from, contact_to, body_gap)};
   for (const std::size_t held : {std::size_t{1}, std::size_t{4}})
     for (auto& stroke : hatching(thinned(lines[held]), 0.10)) lines.push_back(std::move(stroke));
   return lines;
 }
 
-void annotate(app::Panel& panel) {
+void annotate_body(app::Panel& panel) {
   const auto text = [&](const Point& at, const char* words) { panel.texts.push_back({at[0], at[1], words}); };
   const auto arrow = [&](const Point& from, const Point& to, Colour colour) {
     panel.segments.push_back({from[0], from[1], to[0], to[1], true, app::Dash::solid, colour, 1.6});
@@ -78,8 +78,8 @@ void annotate(app::Panel& panel) {
   constexpr double at_normal = 0.80, at_gap = 0.71;
   arrow(boundary(at_normal), off(at_normal, 0.5), Colour::black);
   text(off(at_normal + 0.012, 0.52), "{/:Bold n}");
-  arrow(boundary(at_gap), off(at_gap, gap), Colour::black);
-  arrow(off(at_gap, gap), boundary(at_gap), Colour::black);
+  arrow(boundary(at_gap), off(at_gap, body_gap), Colour::black);
+  arrow(off(at_gap, body_gap), boundary(at_gap), Colour::black);
   text(off(at_gap + 0.02, 0.085), "{/:Italic g}_0");
   text(off(0.845, 0.36), "rigid obstacle");
 }
@@ -87,7 +87,7 @@ void annotate(app::Panel& panel) {
 }  // namespace
 
 void fig01(report::Artefact& artefact) {
-  const auto lines = outline();
+  const auto lines = body_outline();
   artefact.data(polylines_table(lines), "any unit of length",
                 {"Gamma_C, Gamma_D and Gamma_F are the three parts of the boundary, points anticlockwise",
                  "obstacle: the points of Gamma_C at the gap along their outward normals"});
@@ -96,7 +96,7 @@ void fig01(report::Artefact& artefact) {
   series[1].colour = Colour::blue;        // Gamma_D
   series[3].colour = Colour::vermillion;  // Gamma_C
   series[1].width = series[3].width = 3.0;
-  annotate(figure.panels.front());
+  annotate_body(figure.panels.front());
   artefact.picture(figure);
   artefact.caption(
       "The notations of section 2.1, drawn from their definitions on a body of our own: a flexible body Ω "

@@ -24,8 +24,8 @@ struct Row {
 };
 
 constexpr int finest_elements = 160;
-constexpr const char* rod = "rod.toml";
-constexpr const char* remedy = "rod_half_lumped.toml";
+constexpr const char* rod_file = "rod.toml";
+constexpr const char* remedy_file = "rod_half_lumped.toml";
 
 Row row_of(report::Artefact& artefact, const char* file, int harmonics, int elements) {
   const auto scene = artefact.scene(file, {"analysis.harmonics=" + std::to_string(harmonics),
@@ -118,7 +118,7 @@ void note_orders(report::Artefact& artefact, const std::string& name, const Rows
 void fig03_convergence(report::Artefact& artefact) {
   std::map<std::string, Rows> found;
   std::vector<Row> all;
-  for (const char* file : {rod, remedy}) {
+  for (const char* file : {rod_file, remedy_file}) {
     Rows& rows = found[file];
     // Nothing is gained beyond a quarter of the elements.
     for (const int n : {2, 3, 5, 8, 12, 18}) rows.over_harmonics.push_back(row_of(artefact, file, n, 80));
@@ -133,18 +133,18 @@ void fig03_convergence(report::Artefact& artefact) {
   figure.columns = 2;
   figure.panel_width = 350;
   figure.panel_height = 330;
-  add_panel(figure, "eq. (28)", found[rod].over_harmonics, false);
-  add_panel(figure, "eq. (28)", found[rod].over_elements, true);
-  add_panel(figure, "half-lumped", found[remedy].over_harmonics, false);
-  add_panel(figure, "half-lumped", found[remedy].over_elements, true);
+  add_panel(figure, "eq. (28)", found[rod_file].over_harmonics, false);
+  add_panel(figure, "eq. (28)", found[rod_file].over_elements, true);
+  add_panel(figure, "half-lumped", found[remedy_file].over_harmonics, false);
+  add_panel(figure, "half-lumped", found[remedy_file].over_elements, true);
   artefact.picture(figure);
   artefact.caption(fmt::format(
       "Errors of ω against the exact curve over the accepted points at energy ratios 1.2 to 10, of {} frequencies: "
       "their median and the largest. Finest mesh: ω at energy 1.8 against that with {} elements and the same N. "
       "Linear ω: the first linear frequency. m = 2N samples.",
-      artefact.scene(rod).analysis.points, finest_elements));
-  for (const char* file : {rod, remedy})
-    note_orders(artefact, file == rod ? "Eq. (28)" : "Half-lumped", found[file]);
+      artefact.scene(rod_file).analysis.points, finest_elements));
+  for (const char* file : {rod_file, remedy_file})
+    note_orders(artefact, file == rod_file ? "Eq. (28)" : "Half-lumped", found[file]);
 }
 
 }  // namespace wavebalance::ll10

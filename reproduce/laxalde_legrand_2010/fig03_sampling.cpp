@@ -16,25 +16,26 @@ using report::percent;
 using report::Reading;
 using report::Verdict;
 
-constexpr double energy = 1.8;  // [LL10, Fig. 5]
+constexpr double sampled_energy = 1.8;  // [LL10, Fig. 5]
 constexpr int harmonics_shown[] = {2, 3, 5, 8, 10};
 constexpr int samples_per_harmonic[] = {2, 4, 8, 16};
 constexpr int main_harmonics = 5;
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double absent_value = std::numeric_limits<double>::quiet_NaN();
 
-struct Row {
+struct Sampled {
   int harmonics, samples;
-  double frequency = missing, mean_force = missing, largest_force = missing, contact_fraction = missing;
+  double frequency = absent_value, mean_force = absent_value, largest_force = absent_value,
+         contact_fraction = absent_value;
   std::string status = {};
 
   bool found() const { return std::isfinite(frequency); }
 };
 
-Row row_of(report::Artefact& artefact, int harmonics, int samples) {
+Sampled sampled(report::Artefact& artefact, int harmonics, int samples) {
   const app::ModeStudy study(artefact.scene("rod.toml", {"analysis.harmonics=" + std::to_string(harmonics),
                                                          "analysis.samples=" + std::to_string(samples)}));
-  const auto point = study.at_energy(energy);
-  Row row{harmonics, samples};
+  const auto point = study.at_energy(sampled_energy);
+  Sampled row{harmonics, samples};
   row.status = std::string(to_string(point.status));
   if (!point.accepted()) return row;
   row.frequency = point.omega / study.mode().linear_omega();
@@ -44,34 +45,34 @@ Row row_of(report::Artefact& artefact, int harmonics, int samples) {
   return row;
 }
 
-struct Exact {
+struct ExactContact {
   double frequency, mean_force, largest_force, contact_fraction;
 };
 
-Exact exact_of(const app::Scene& scene) {
-  const auto mode = exact_mode(scene, energy);
+ExactContact exact_of(const app::Scene& scene) {
+  const auto mode = exact_mode(scene, sampled_energy);
   const double fraction = mode.contact_duration() / mode.period(), force = mode.contact_force(0.0);
   return {mode.frequency_ratio(), fraction * force, force, fraction};
 }
 
-const Row& at(const std::vector<Row>& rows, int harmonics, int per_harmonic) {
-  return *std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+const Sampled& sampled_at(const std::vector<Sampled>& rows, int harmonics, int per_harmonic) {
+  return *std::find_if(rows.begin(), rows.end(), [&](const Sampled& row) {
     return row.harmonics == harmonics && row.samples == per_harmonic * harmonics;
   });
 }
 
-Table table_of(const std::vector<Row>& rows) {
+Table sampled_table(const std::vector<Sampled>& rows) {
   Table table({"harmonics", "samples", "frequency_ratio", "mean_force_N", "largest_force_N",
                "contact_fraction", "status"});
-  for (const Row& row : rows)
+  for (const Sampled& row : rows)
     table.append_row({std::int64_t{row.harmonics}, std::int64_t{row.samples}, row.frequency, row.mean_force,
                       row.largest_force, row.contact_fraction, row.status});
   return table;
 }
 
 void add_panel(app::Figure& figure, const std::string& title, const std::string& label,
-               const std::vector<Row>& rows, double (*value)(const Row&, const Exact&), const Exact& exact,
-               app::Axis ordinate) {
+               const std::vector<Sampled>& rows, double (*value)(const Sampled&, const ExactContact&),
+               const ExactContact& exact, app::Axis ordinate) {
   auto& panel = figure.add_panel(title);
   panel.x = axis("Samples per harmonic, m/N", 1.7, 19.0);
   panel.x.logarithmic = true;
@@ -85,7 +86,7 @@ void add_panel(app::Figure& figure, const std::string& title, const std::string&
   for (const int harmonics : harmonics_shown) {
     std::vector<double> x, y;
     for (const int per_harmonic : samples_per_harmonic) {
-      const Row& row = at(rows, harmonics, per_harmonic);
+      const Sampled& row = sampled_at(rows, harmonics, per_harmonic);
       x.push_back(per_harmonic);
       y.push_back(value(row, exact));
     }
@@ -96,13 +97,17 @@ void add_panel(app::Figure& figure, const std::string& title, const std::string&
   }
 }
 
-double frequency_error(const Row& row, const Exact& exact) { return row.frequency / exact.frequency - 1.0; }
-double relative_force(const Row& row, const Exact& exact) { return row.largest_force / exact.largest_force; }
-double relative_contact(const Row& row, const Exact& exact) {
+double frequency_error(const Sampled& row, const ExactContact& exact) {
+  return row.frequency / exact.frequency - 1.0;
+}
+double relative_force(const Sampled& row, const ExactContact& exact) {
+  return row.largest_force / exact.largest_force;
+}
+double relative_contact(const Sampled& row, const ExactContact& exact) {
   return row.contact_fraction / exact.contact_fraction;
 }
 
-app::Figure drawn(const std::vector<Row>& rows, const Exact& exact) {
+app::Figure drawn(const std::vector<Sampled>& rows, const ExactContact& exact) {
   app::Figure figure;
   figure.panel_width = 560;
   figure.panel_height = 260;
@@ -127,12 +132,12 @@ app::Figure drawn(const std::vector<Row>& rows, const Exact& exact) {
 }
 
 /// Whether m = 4N and 8N are better than m = 2N for one N, by frequency, largest force and contact.
-Reading reading_of(const std::vector<Row>& rows, const Exact& exact, int harmonics) {
-  const Row& least = at(rows, harmonics, 2);
+Reading reading_of(const std::vector<Sampled>& rows, const ExactContact& exact, int harmonics) {
+  const Sampled& least = sampled_at(rows, harmonics, 2);
   std::vector<double> with_more, with_least;
   std::string measured;
   for (const int per_harmonic : {4, 8}) {
-    const Row& more = at(rows, harmonics, per_harmonic);
+    const Sampled& more = sampled_at(rows, harmonics, per_harmonic);
     if (!least.found() || !more.found()) throw report::NotConverged("sampling of the rod's mode");
     with_more.push_back(std::abs(frequency_error(more, exact)));
     with_least.push_back(std::abs(frequency_error(least, exact)));
@@ -141,33 +146,33 @@ Reading reading_of(const std::vector<Row>& rows, const Exact& exact, int harmoni
       with_least.push_back(std::abs(value(least, exact) - 1.0));
     }
   }
-  const auto row_text = [&](const Row& row) {
+  const auto row_text = [&](const Sampled& row) {
     return fmt::format("m = {}: error of ω {}, force {} and contact {} times the exact", row.samples,
                        percent(frequency_error(row, exact), 2), number(relative_force(row, exact), 3),
                        number(relative_contact(row, exact), 3));
   };
-  return {
-      fmt::format("N = {}", harmonics), report::lower(with_more, with_least),
-      row_text(least) + "; " + row_text(at(rows, harmonics, 4)) + "; " + row_text(at(rows, harmonics, 8))};
+  return {fmt::format("N = {}", harmonics), report::lower(with_more, with_least),
+          row_text(least) + "; " + row_text(sampled_at(rows, harmonics, 4)) + "; " +
+              row_text(sampled_at(rows, harmonics, 8))};
 }
 
 /// The rows of the main number of harmonics, "344 kN with m = 10".
-std::string forces_text(const std::vector<Row>& rows) {
+std::string forces_text(const std::vector<Sampled>& rows) {
   std::string text;
   for (const int per_harmonic : samples_per_harmonic) {
-    const Row& row = at(rows, main_harmonics, per_harmonic);
+    const Sampled& row = sampled_at(rows, main_harmonics, per_harmonic);
     text += fmt::format("{}{} kN and {} of the period with m = {}", text.empty() ? "" : ", ",
                         number(1e-3 * row.largest_force, 4), percent(row.contact_fraction), row.samples);
   }
   return text;
 }
 
-void claim(report::Artefact& artefact, const std::vector<Row>& rows, const Exact& exact) {
+void claim(report::Artefact& artefact, const std::vector<Sampled>& rows, const ExactContact& exact) {
   std::vector<Reading> readings;
   for (const int harmonics : harmonics_shown) readings.push_back(reading_of(rows, exact, harmonics));
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const int per_harmonic : samples_per_harmonic) {
-    const double frequency = at(rows, main_harmonics, per_harmonic).frequency;
+    const double frequency = sampled_at(rows, main_harmonics, per_harmonic).frequency;
     least = std::min(least, frequency);
     largest = std::max(largest, frequency);
   }
@@ -178,7 +183,7 @@ void claim(report::Artefact& artefact, const std::vector<Row>& rows, const Exact
        .criterion = fmt::format(
            "at energy {}, m = 4N and 8N have lower errors of frequency, largest force and contact "
            "duration than m = 2N, the fewest samples that N harmonics take",
-           number(energy)),
+           number(sampled_energy)),
        .measured = fmt::format(
            "it helps with {} of {} numbers of harmonics. With N = {} the frequency changes by "
            "{} for all m, and the largest force and the contact are {}; exact {} kN and {}",
@@ -194,12 +199,12 @@ void claim(report::Artefact& artefact, const std::vector<Row>& rows, const Exact
 }  // namespace
 
 void fig03_sampling(report::Artefact& artefact) {
-  std::vector<Row> rows;
+  std::vector<Sampled> rows;
   for (const int harmonics : harmonics_shown)
     for (const int per_harmonic : samples_per_harmonic)
-      rows.push_back(row_of(artefact, harmonics, per_harmonic * harmonics));
+      rows.push_back(sampled(artefact, harmonics, per_harmonic * harmonics));
   const auto exact = exact_of(artefact.scene("rod.toml"));
-  artefact.data(table_of(rows),
+  artefact.data(sampled_table(rows),
                 "frequency over the linear one; forces at the samples in N; share of the samples "
                 "in contact; missing where no motion was found");
   Table closed({"frequency_ratio", "mean_force_N", "largest_force_N", "contact_fraction"});
@@ -209,9 +214,9 @@ void fig03_sampling(report::Artefact& artefact) {
   artefact.caption(fmt::format(
       "The rod's motion of energy {} with N harmonics and m samples, eq. (28). The thick line is N = {}; curves "
       "that coincide in (a) from 2 samples per harmonic on do not depend on m.",
-      number(energy), main_harmonics));
+      number(sampled_energy), main_harmonics));
   std::string absent;
-  for (const Row& row : rows)
+  for (const Sampled& row : rows)
     if (!row.found())
       absent += fmt::format("{}N = {} and m = {} ({})", absent.empty() ? "" : ", ", row.harmonics,
                             row.samples, row.status);

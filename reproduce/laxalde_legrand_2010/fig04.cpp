@@ -14,7 +14,7 @@ using app::Dash;
 
 namespace {
 
-constexpr int times = 512;
+constexpr int orbit_times = 512;
 
 std::vector<double> row(const Eigen::MatrixXd& values, Eigen::Index index) {
   const Eigen::VectorXd one = values.row(index);
@@ -51,7 +51,7 @@ double beyond_ellipse(const std::vector<double>& history) {
 /// The largest change within 1/64 of a period, over the range.
 double steepest(const std::vector<double>& history) {
   const Eigen::Map<const Eigen::VectorXd> v(history.data(), static_cast<Eigen::Index>(history.size()));
-  const Eigen::Index steps = times / 64;
+  const Eigen::Index steps = orbit_times / 64;
   return (v.tail(v.size() - steps) - v.head(v.size() - steps)).cwiseAbs().maxCoeff() /
          (v.maxCoeff() - v.minCoeff());
 }
@@ -172,8 +172,9 @@ double rest(const Motion& exact) {
 
 void fig04(report::Artefact& artefact) {
   const app::ModeStudy study(artefact.scene("rod.toml")), remedy(artefact.scene("rod_half_lumped.toml"));
-  const Motions motions{computed_motion(study, 0.7, times), computed_motion(study, 1.8, times),
-                        computed_motion(remedy, 1.8, times), exact_motion(study.scene(), 1.8, times)};
+  const Motions motions{computed_motion(study, 0.7, orbit_times), computed_motion(study, 1.8, orbit_times),
+                        computed_motion(remedy, 1.8, orbit_times),
+                        exact_motion(study.scene(), 1.8, orbit_times)};
   artefact.picture(drawn(motions));
   artefact.data(
       motions_table(motions), "displacement over the gap, velocity over gap times linear frequency (rad/s)",

@@ -8,6 +8,8 @@
 namespace wavebalance::ll10 {
 namespace {
 
+constexpr double arrow_length = 15.0;  // mm
+
 Table contact_nodes(const fem::Blade& blade, double gap) {
   Table table({"contact", "node", "face", "x_m", "y_m", "z_m", "gap_m"});
   const auto& nodes = blade.contact_nodes;
@@ -26,30 +28,70 @@ std::vector<int> held_nodes(const fem::Blade& blade) {
   return nodes;
 }
 
-/// One panel: the blade from one side, limited to a window around the tip if `tip_only`.
-void add_view(app::Figure& figure, const fem::Blade& blade, double azimuth, double elevation, bool tip_only) {
-  auto& panel = figure.add_panel(tip_only ? "contact interface at the tip" : "model, arrows 15 mm");
+/// Limits of a panel that shows the vertices and `below` and `above` them, in shares of their width.
+void frame(app::Panel& panel, const app::SurfaceView& view, const std::vector<int>& vertices, double below,
+           double above) {
+  Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e300), upper = -lower;
+  for (const int vertex : vertices) {
+    const Eigen::Vector2d at = projected(view, view.surfaces[0].vertices.col(vertex));
+    lower = lower.cwiseMin(at);
+    upper = upper.cwiseMax(at);
+  }
+  const double width = upper.x() - lower.x();
+  panel.x = axis("", lower.x() - 0.1 * width, upper.x() + 0.1 * width);
+  panel.y = axis("", lower.y() - below * width, upper.y() + above * width);
+}
+
+app::Panel& add_view(app::Figure& figure, const std::string& title, const fem::Blade& blade, double azimuth,
+                     double elevation) {
+  auto& panel = figure.add_panel(title);
   auto& view = panel.surface.emplace();
   view.surfaces = {blade::surface(blade)};
-  auto& marks = view.surfaces[0].marks;
-  marks.push_back({"contact nodes", blade.contact_nodes, app::Colour::vermillion, 1});
-  if (!tip_only) marks.push_back({"clamped nodes", held_nodes(blade), app::Colour::blue, 3});
   view.azimuth = azimuth;
   view.elevation = elevation;
-  if (!tip_only) view.axes = 15.0;
-  if (!tip_only) return;
-  view.shading = 0.15;
-  const auto& tip = view.surfaces[0].vertices;
-  double lower = 1e300, upper = -1e300, top = -1e300;
-  for (const int node : blade.contact_nodes) {
-    const Eigen::Vector2d at = projected(view, tip.col(node));
-    lower = std::min(lower, at.x());
-    upper = std::max(upper, at.x());
-    top = std::max(top, at.y());
+  panel.legend = app::Legend::below_panel;
+  return panel;
+}
+
+void mark(app::Panel& panel, const std::string& label, const std::vector<int>& nodes, app::Colour colour,
+          int marker) {
+  panel.surface->surfaces[0].marks.push_back({label, nodes, colour, marker});
+}
+
+/// Arrows from the contact nodes in the direction in which they may touch, z.
+void add_contact_direction(app::Panel& panel, const std::vector<int>& nodes) {
+  constexpr double length = 7.0;  // mm
+  const app::SurfaceView& view = *panel.surface;
+  for (std::size_t i = 0; i < nodes.size(); i += 2) {
+    const Eigen::Vector3d node = view.surfaces[0].vertices.col(nodes[i]);
+    const Eigen::Vector2d from = projected(view, node),
+                          to = projected(view, node + Eigen::Vector3d(0, 0, length));
+    panel.segments.push_back(
+        {from.x(), from.y(), to.x(), to.y(), true, app::Dash::solid, app::Colour::vermillion, 1.0});
   }
-  const double width = upper - lower;
-  panel.x = axis("", lower - 0.1 * width, upper + 0.1 * width);
-  panel.y = axis("", top - 0.55 * width, top + 0.1 * width);
+}
+
+app::Figure drawn(const fem::Blade& blade) {
+  app::Figure figure;
+  figure.columns = 2;
+  figure.panel_width = 350;
+  figure.panel_height = 400;
+  const auto held = held_nodes(blade);
+  const std::string contacts = std::to_string(blade.contact_nodes.size()) + " contact nodes";
+  auto& whole = add_view(figure, "the mesh", blade, -55.0, 28.0);
+  whole.surface->axes = arrow_length;
+  mark(whole, "contact", blade.contact_nodes, app::Colour::vermillion, 1);
+  mark(whole, "clamped, in view", held, app::Colour::blue, 3);
+  auto& tip = add_view(figure, "the tip, from above", blade, -60.0, 50.0);
+  tip.surface->shading = 0.15;
+  mark(tip, contacts, blade.contact_nodes, app::Colour::vermillion, 1);
+  frame(tip, *tip.surface, blade.contact_nodes, 0.35, 0.20);
+  add_contact_direction(tip, blade.contact_nodes);
+  auto& root = add_view(figure, "the root, from below", blade, -55.0, -40.0);
+  root.surface->shading = 0.15;
+  mark(root, std::to_string(held.size()) + " clamped nodes", held, app::Colour::blue, 3);
+  frame(root, *root.surface, held, 0.1, 0.35);
+  return figure;
 }
 
 }  // namespace
@@ -57,22 +99,16 @@ void add_view(app::Figure& figure, const fem::Blade& blade, double azimuth, doub
 void fig06(report::Artefact& artefact) {
   const app::ModeStudy study(artefact.scene("blade_mode.toml"));
   const fem::Blade& blade = *study.model().blade;
-  app::Figure figure;
-  figure.columns = 2;
-  figure.panel_width = 470;
-  figure.panel_height = 500;
-  add_view(figure, blade, -55.0, 28.0, false);
-  add_view(figure, blade, -60.0, 62.0, true);
-  figure.panels[0].legend = figure.panels[1].legend = app::Legend::below_panel;
-  artefact.picture(figure);
+  artefact.picture(drawn(blade));
   artefact.data(contact_nodes(blade, study.scene().contact.gap),
                 "contact nodes from the leading to the trailing edge; metres",
                 {"node numbers of the mesh from 1; eta = -1 and 1 are the two faces of the blade"});
   const auto& mesh = blade.model.mesh;
   artefact.caption(fmt::format(
       "An open blade of titanium in place of the paper's proprietary one: {} hexahedra of 20 nodes, {} "
-      "unknowns, clamped at the root; contact in the radial direction z at the corner nodes of the tip.",
-      mesh.elements.cols(), study.model().unknowns));
+      "unknowns, clamped at the root. Contact is in the radial direction z (arrows in (b)) at the corner nodes of the "
+      "tip. In (a) nodes behind the blade are hidden and the arrows of the axes are {} mm long.",
+      mesh.elements.cols(), study.model().unknowns, report::number(arrow_length)));
   const double error = reduction_error(study);
   const auto coordinates = study.model().size();
   artefact.check(
