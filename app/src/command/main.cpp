@@ -68,9 +68,7 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
                   "pairs of bases, fourier:fourier,haar:fourier; without it every admissible one of "
                   "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
-  command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")
-      ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+  command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
 

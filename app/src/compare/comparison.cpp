@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -146,8 +148,8 @@ void check_scene_type(const Scene& scene) {
 
 void check_comparison(const Scene& scene, const ComparisonOptions& options) {
   check_scene_type(scene);
-  if (!(options.budget > 0.0))
-    throw std::invalid_argument("budget is " + std::to_string(options.budget) + "; expected seconds > 0");
+  if (!(options.budget > 0.0) || !std::isfinite(options.budget))
+    throw std::invalid_argument("--budget " + cell_text(options.budget) + ": expected seconds > 0");
   for (const BasisPair& pair : options.pairs) {
     const auto found = admissibility_of(pair, scene.time);
     if (!found.admissible)

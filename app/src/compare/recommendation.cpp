@@ -124,11 +124,14 @@ std::string without_choice(const std::vector<SolvePoint>& points, double error, 
            " within the budget. None of the solves has converged with a known error.";
   const std::string nearest = choice_text(*best) + " comes nearest, with " + error_text(best->error) +
                               " in " + duration_text(best->seconds) + ".";
+  const auto below = cheapest(points, reference_error);  // how far below is not known
   if (reference_error > known_share * error)
     return fmt::format(
         "Whether a pair reaches an error of {} is not known, as that of the reference is about {}; a larger "
         "budget refines it. {}",
-        which, error_text(reference_error), nearest);
+        which, error_text(reference_error),
+        below ? fmt::format("{} is below that in {}.", choice_text(*below), duration_text(below->seconds))
+              : nearest);
   return "No pair reaches an error of " + which + " within the budget. " + nearest;
 }
 
