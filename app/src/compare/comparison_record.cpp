@@ -92,9 +92,9 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
       });
   if (others > 0)
     warnings.push_back(
-        fmt::format("{} converged solves with {} functions or more differ from the reference by "
-                    "more than {}: there may be another motion",
-                    others, many_functions, far));
+        fmt::format("converged solves with {} functions or more that differ from the reference by "
+                    "more than {}: {}; there may be another motion",
+                    many_functions, far, others));
   for (const Recommendation& one : comparison.recommendations)
     if (one.stability == "unstable" && comparison.reference.stability.status != "unstable")
       warnings.push_back(fmt::format("the motion recommended for an error of {:.0e} is unstable", one.error));
