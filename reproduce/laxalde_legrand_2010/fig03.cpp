@@ -44,9 +44,10 @@ app::Series curve(const Look& look, const Table& table, const std::string& colum
              value = rows.numbers(column);
   std::vector<double> x, y;
   for (std::size_t i = 0; i < energy.size(); ++i) {
-    if (look.marker > 0 && i > 1 &&
-        (ratio[i] - ratio[i - 1] > largest_step ||
-         std::abs(energy[i] / energy[i - 1] - 1.0) > largest_jump)) {
+    const double change = i > 1 ? energy[i] / energy[i - 1] - 1.0 : 0.0;
+    const bool far =
+        look.marker > 0 && i > 1 && (ratio[i] - ratio[i - 1] > largest_step || change > largest_jump);
+    if (far || change < -largest_jump) {
       x.push_back(energy[i]);
       y.push_back(std::numeric_limits<double>::quiet_NaN());
     }
