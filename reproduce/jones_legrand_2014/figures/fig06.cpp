@@ -52,7 +52,7 @@ void state_hbm(report::Artefact& artefact, const Case& study, const Readings& re
   statement.because = spread(found) + ".";
   statement.panel = "(a)";
   statement.earlier =
-      "Until now a relative rms error below 1 % decided, once for each frequency; both agreed.";
+      "Formerly a relative rms error below 1 % decided, once for each frequency; both agreed.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -89,7 +89,7 @@ void state_gibbs(report::Artefact& artefact, const Case& study, const Readings& 
   statement.because = spread(found) + ".";
   statement.panel = "(a)";
   statement.earlier =
-      "Until now two statements; that on oscillations was decided by four changes of sign, which every pair "
+      "Formerly two statements; that on oscillations was decided by four changes of sign, which every pair "
       "has, with no amplitude. Both agreed.";
   artefact.statement(concluded(statement, found));
 }
@@ -149,7 +149,7 @@ void state_haar_plateau(report::Artefact& artefact, const Case& study, const Rea
       percent(lowest_share), percent(highest), spread(found));
   statement.panel = "(c)";
   statement.earlier =
-      "Until now the pair had to be within 2 % of the gap on 90 % of the plateau, numbers without a source, and "
+      "Formerly the pair had to be within 2 % of the gap on 90 % of the plateau, numbers without a source, and "
       "before that within an rms of 1 % of the gap; both differed, and agreed with exact products.";
   artefact.statement(concluded(statement, found));
 }
@@ -186,7 +186,7 @@ void state_localized_error(report::Artefact& artefact, const Case& study, const 
       number(end / middle), number(end / start), number(end / hbm), spread(found));
   statement.panel = "(d)";
   statement.earlier =
-      "Until now the last quarter was compared with the middle half alone, which leaves out the beginning, and "
+      "Formerly the last quarter was compared with the middle half alone, which leaves out the beginning, and "
       "agreed.";
   artefact.statement(concluded(statement, found));
 }

@@ -85,7 +85,7 @@ void state_suited(report::Artefact& artefact, const Case& here, const Readings& 
       percent(best(here).rms), percent(best(there).rms), spread(found));
   statement.panel = "(c), (e)";
   statement.earlier =
-      "Until now two statements. The first compared rms errors over the whole period, which measure the slope of "
+      "Formerly two statements. The first compared rms errors over the whole period, which measure the slope of "
       "the motion and not the plateau, and differed; that on the plateau agreed.";
   artefact.statement(concluded(statement, found));
 }

@@ -93,7 +93,7 @@ void state_jump(report::Artefact& artefact, const Case& study, const Readings& r
       "in most of the six pairs"};
   statement.because = spread(found) + ".";
   statement.earlier = fmt::format(
-      "Until now it was asked of time stepping alone, that its velocity change by a quarter of its maximum; it "
+      "Formerly it was asked of time stepping alone, that its velocity change by a quarter of its maximum; it "
       "changes by {} and agreed.",
       percent(largest_jump(study.reference().velocity())));
   artefact.statement(concluded(statement, found));
@@ -147,7 +147,7 @@ void state_bspline_ringing(report::Artefact& artefact, const Case& study, const 
       "are rms and mean of the error within the plateau, two cells away from its ends"};
   statement.because = fmt::format("The two measures part: {}. {}.", found.front().measured, spread(found));
   statement.panel = "(a), (d)";
-  statement.earlier = "Until now a higher excess variation alone decided, however little higher, and agreed.";
+  statement.earlier = "Formerly a higher excess variation alone decided, however little higher, and agreed.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -182,7 +182,7 @@ void state_daubechies_velocity(report::Artefact& artefact, const Case& study, co
       found.front().measured, paper_points, found[half].measured, spread(found));
   statement.panel = "(b), (f)";
   statement.earlier =
-      "Until now two statements, on the rms and on the mean of the differentiated functions; both differed.";
+      "Formerly two statements, on the rms and on the mean of the differentiated functions; both differed.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -212,7 +212,7 @@ void state_haar_velocity(report::Artefact& artefact, const Case& study, const Re
       spread(found) + ".";
   statement.panel = "(c), (e)";
   statement.earlier =
-      "Until now an rms error below 20 % over the whole period decided, a number without a source; it differed.";
+      "Formerly an rms error below 20 % over the whole period decided, a number without a source; it differed.";
   artefact.statement(concluded(statement, found));
 }
 

@@ -94,7 +94,7 @@ void state_haar_force(report::Artefact& artefact, const Case& study, const Readi
       percent(least), percent(most), spread(found));
   statement.panel = "(c), (e)";
   statement.earlier =
-      "Until now the limit was twice the rms error of Fourier:Fourier, and before that once; it differed, also "
+      "Formerly the limit was twice the rms error of Fourier:Fourier, and before that once; it differed, also "
       "with what was called exact inner products.";
   artefact.statement(concluded(statement, found));
 }
@@ -136,7 +136,7 @@ void state_daubechies_force(report::Artefact& artefact, const Case& study, const
       percent(spline.maxCoeff() / exact.maxCoeff(), 4), spread(found));
   statement.panel = "(b), (f)";
   statement.earlier =
-      "Until now two statements: the rms error differed by less than 1 %, the mean error agreed.";
+      "Formerly two statements: the rms error differed by less than 1 %, the mean error agreed.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -164,7 +164,7 @@ void state_abstract(report::Artefact& artefact, const Case& study, const Reading
       "{}.",
       better.empty() ? "none" : better, worse.empty() ? "none" : worse, spread(found));
   statement.panel = "(b), (c), (e)";
-  statement.earlier = "Until now all three had to have a lower rms error; it differed.";
+  statement.earlier = "Formerly all three had to have a lower rms error; it differed.";
   artefact.statement(concluded(statement, found));
 }
 

@@ -56,7 +56,7 @@ void tab01(report::Artefact& artefact) {
                               "the lowest natural frequency of the 25 elements, rounded to 1 Hz",
                               number(fundamental, 7) + " Hz", report::plain(reads(fundamental, 1273.0, 0))};
   frequency.because = "It is " + frequency.measured + ".";
-  frequency.earlier = "Until now a difference of 0.5 Hz was allowed, which is the same; it agreed.";
+  frequency.earlier = "Formerly a difference of 0.5 Hz was allowed, which is the same; it agreed.";
   artefact.statement(reasoned(frequency));
   report::Statement free{
       "section 4",
@@ -67,7 +67,7 @@ void tab01(report::Artefact& artefact) {
       report::together(
           {report::plain(reads(1e3 * free_one, 1.4, 1)), report::plain(reads(1e3 * free_two, 29.0, 0))})};
   free.because = "They are " + free.measured + ".";
-  free.earlier = "Until now two statements, one for each frequency; both agreed.";
+  free.earlier = "Formerly two statements, one for each frequency; both agreed.";
   artefact.statement(reasoned(free));
 }
 
