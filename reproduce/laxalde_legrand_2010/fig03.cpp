@@ -193,7 +193,7 @@ void notes(report::Artefact& artefact, const RodCurves& curves) {
     }
   artefact.check(
       {"", "Every motion drawn satisfies its equations.",
-       "accepted points of eq. (28): the equation of motion and ω² = r + <force> gap / m̂ are met to 1e-9, and "
+       "accepted points of eq. (28): the equation of motion and $\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ are met to 1e-9, and "
        "no force is negative",
        fmt::format("{} and {}; least force {} N; penetration between the samples up to {} of the gap",
                    report::number(residual, 2), report::number(identity, 2), report::number(force, 2),

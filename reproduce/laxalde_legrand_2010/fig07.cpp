@@ -166,7 +166,8 @@ void check_quotient(report::Artefact& artefact, const app::ModeStudy& study, con
       identity = std::max(identity, curve.points[i].virial_residual);
       residual = std::max(residual, curve.residuals[i]);
     }
-  artefact.check({"", "ω² is r + <force> gap / m̂ for the blade as for the rod.",
+  artefact.check({"",
+                  "$\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ holds for the blade as for the rod.",
                   "met to 1e-9 along the curve, as is the equation of motion",
                   fmt::format("{} and {}; at energy {} ω is {} and √r {} of the linear frequency",
                               number(identity, 2), number(residual, 2), number(shape_energies[2]),

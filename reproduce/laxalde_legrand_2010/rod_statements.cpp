@@ -147,15 +147,15 @@ QuotientError quotient_error(const RodCurves& curves) {
 void quotient(report::Artefact& artefact, const QuotientError& error) {
   Statement s{
       "section 3.1",
-      "Nonlinear eigenvectors û are defined as critical points of this Rayleigh quotient and the associated "
-      "eigenvalues are such that ω² = r(û).",
+      "Nonlinear eigenvectors $\\hat u$ are defined as critical points of this Rayleigh quotient and the associated "
+      "eigenvalues are such that $\\omega^2 = r(\\hat u)$.",
       fmt::format("√r is ω at the energies 1.2, 1.8, 3, 5, 10 to {} of the axis of ω",
                   percent(report::visible_share)),
       fmt::format("√r against ω: {}; exact motions differ by up to {}", error.text, number(error.exact, 3)),
       report::invisible(error.largest, frequency_axis)};
   const std::string because = fmt::format(
       "The obstacle stands at a gap, so the contact force enters the balance of energies. Stationarity gives "
-      "ω² = r + <force> gap / m̂, which these motions meet to {}.",
+      "$\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ with the mean force $\\langle f \\rangle$, which these motions meet to {}.",
       number(error.virial, 2));
   s.panel = "(a) and (c)";
   s.earlier =
@@ -228,7 +228,8 @@ void minimum(report::Artefact& artefact, const RodCurves& curves) {
   const double root = std::sqrt(quotient.value(x)) / curves.study.mode().linear_omega();
   const double mode = std::sqrt(point.rayleigh) / curves.study.mode().linear_omega();
   Statement s{
-      "section 3.1", "Accordingly, the eigenproblem of interest becomes min r(û) subject to h(û) = 0",
+      "section 3.1",
+      "Accordingly, the eigenproblem of interest becomes $\\min r(\\hat u)$ subject to $h(\\hat u) = 0$",
       fmt::format("no motion without contact and of the energy {} has a smaller r than the mode",
                   number(energy)),
       fmt::format("√r is {} of the linear frequency for the mode, and {} for the linear mode at {} times its "

@@ -18,7 +18,7 @@ bool equal(const Sparse& a, const Sparse& b) {
   return true;
 }
 
-void read_matrix(const std::string& text) {
+void matrix_survives(const std::string& text) {
   std::istringstream input(text);
   const Sparse matrix = read_matrix_market(input, "fuzz");
   std::stringstream written;
@@ -34,7 +34,7 @@ void read_matrix(const std::string& text) {
   }
 }
 
-void read_vector(const std::string& text) {
+void vector_is_finite(const std::string& text) {
   std::istringstream input(text);
   require(read_matrix_market_vector(input, "fuzz").allFinite(), "a vector's values are finite");
 }
@@ -52,7 +52,7 @@ void attempt(Read read, const std::string& text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  attempt(read_matrix, text);
-  attempt(read_vector, text);
+  attempt(matrix_survives, text);
+  attempt(vector_is_finite, text);
   return 0;
 }

@@ -247,8 +247,9 @@ std::string panel_text(const Panel& panel, std::size_t index, const std::string&
   const bool framed = panel.frame && !panel.surface;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
-  std::string text = "unset bmargin\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
-                     frame_text(framed, aligned, labelled);
+  std::string text =
+      "unset bmargin\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
+      frame_text(framed, aligned, labelled);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
   if (panel.z)
     text += axis_text("z", *panel.z, empty) +

@@ -40,61 +40,6 @@ TEST(CommandRun, SolvesAndWritesEverything) {
   EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(scene));
 }
 
-TEST(CommandRun, ReportTellsWhatWasAskedAndWhatCameOut) {
-  const TemporaryFolder folder;
-  const std::string scene = folder.write("case.toml", bar_scene);
-  const Outcome outcome =
-      run(folder, {"run", scene, "--output", folder / "out", "--set", "contact.gap=1.1e-3", "--quiet"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  const std::string report = read_file(folder / "out" / "report.html");
-  for (const char* words :
-       {"<h1>Forced response of a bar</h1>", "was solved", "the gap of 1.1 mm", "--set contact.gap=1.1e-3",
-        "The motion is stable", "href=\"response.csv\"", "src=\"response.svg\"", "alt=\""})
-    EXPECT_NE(report.find(words), std::string::npos) << words;
-  EXPECT_EQ(report.find("<h2>Warnings"), std::string::npos);
-}
-
-TEST(CommandRun, TheMovingBarOfTheReportIsTheMotionOfTheResponse) {
-  const TemporaryFolder folder;
-  const std::string scene = folder.write("case.toml", bar_scene);
-  for (const std::string type : {"forced_response", "time_stepping"}) {
-    run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.type=" + type});
-    const std::string script = read_file(folder / "out" / "response.motion.js");
-    const std::size_t begin = script.find("\"tip\":[") + 7;
-    const std::vector<double> response = read_csv(folder / "out" / "response.csv").numbers("displacement_m");
-    std::istringstream tip(script.substr(begin, script.find(']', begin) - begin));
-    char comma;
-    for (std::size_t k = 0; k < 128; ++k) {
-      double value = 0.0;
-      ASSERT_TRUE(tip >> value) << type << " " << k;
-      EXPECT_NEAR(value, response[k * response.size() / 128], 1e-8) << type << " " << k;
-      tip >> comma;
-    }
-  }
-}
-
-TEST(CommandRun, ReportSaysThatNothingWasFound) {
-  const TemporaryFolder folder;
-  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "jones_legrand_2014" / "case2_sweep.toml";
-  const Outcome outcome =
-      run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.max_points=5"});
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
-  const std::string report = read_file(folder / "out" / "report.html");
-  EXPECT_NE(report.find("was not solved (point limit)"), std::string::npos);
-  EXPECT_NE(report.find("<h1>Frequency response of a bar</h1>"), std::string::npos);
-}
-
-TEST(CommandRun, NoReportLeavesItOutAndRemovesThatOfAnEarlierRun) {
-  const TemporaryFolder folder;
-  const std::string scene = folder.write("case.toml", bar_scene);
-  run(folder, {"run", scene, "-o", folder / "out", "--quiet"});
-  EXPECT_TRUE(fs::exists(folder / "out" / "report.html"));
-  const Outcome outcome = run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--no-report"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_FALSE(fs::exists(folder / "out" / "report.html"));
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 4);
-}
-
 TEST(CommandRun, QuietSaysNothing) {
   const TemporaryFolder folder;
   const Outcome outcome =

@@ -124,7 +124,7 @@ TEST_F(NamedChain, OfMatricesOfDifferentSizesNamesBothFiles) {
   folder_.write("m.mas", "1 1 2.\n2 2 2.\n");
   const auto details = fault(named_scene, {"structure.mass=m.mas"});
   for (const std::string& part : {(folder_ / "m.mas").string() + " is 2 x 2; expected 3 x 3",
-                                 "structure.stiffness in " + (folder_ / "k.mtx").string()})
+                                  "structure.stiffness in " + (folder_ / "k.mtx").string()})
     EXPECT_NE(details.allowed.find(part), std::string::npos) << details.allowed;
 }
 

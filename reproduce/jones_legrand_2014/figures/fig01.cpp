@@ -90,7 +90,7 @@ void fig01(report::Artefact& artefact) {
   artefact.data(points_table(lines), "units of the bar's length");
   artefact.picture(figure);
   artefact.caption(
-      "The bar clamped at x = 0, the gap g and the exponential spring Kₚ of eq. (5), with the force at "
+      "The bar clamped at $x = 0$, the gap $g$ and the exponential spring $K_p$ of eq. (5), with the force at "
       "the tip (the paper does not say where it acts; the tip gives its displacements without contact).");
 }
 

@@ -32,7 +32,7 @@ void state_levels(report::Artefact& artefact) {
       "section 3.4",
       "When Daubechies scaling functions are periodized on S¹, the wrapping procedure results in functions which "
       "are no longer scale-invariant at low J values",
-      "max |g_{J+1}(t/2) - g_J(t)| is above rounding (1e-12) for J = 0, 1, 2, where the support 5/2^J exceeds the "
+      "$\\max_t |g_{J+1}(t/2) - g_J(t)|$ is above rounding (1e-12) for J = 0, 1, 2, where the support $5/2^J$ exceeds the "
       "circle, and not for J = 3, 4",
       text, report::plain(low > 1e-12 && high < 1e-12)};
   statement.because = "It is " + text + ".";
@@ -86,7 +86,7 @@ void state_products(report::Artefact& artefact) {
       "section 3.4",
       "This makes accurately estimating the inner products of such scaling functions with each other prone to "
       "error when numerical integration is used",
-      "the sum over points in place of the integral of φ'² has a higher error for DB6 than for the B-spline, with 4 "
+      "the sum over points in place of the integral of $\\varphi'^2$ has a higher error for DB6 than for the B-spline, with 4 "
       "points per function, which the paper's 256 are for 64 functions, to 32",
       text, report::lower(smooth, rough)};
   statement.because = "The errors are: " + text + ".";
@@ -101,7 +101,7 @@ void fig04(report::Artefact& artefact) {
   artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
   artefact.caption("The translate k = 0; its support is 5/2ᴶ of the period and wraps up to J = 2.");
   const double integral = largest_integral_error(table);
-  artefact.check({"section 3.3", "normalization by ∫_0^1 φ_{J,k}(t) dt = 1",
+  artefact.check({"section 3.3", "normalization by $\\int_0^1 \\phi_{J,k}(t)\\,dt = 1$",
                   "mean of the samples within 1e-12 of 1 at every level",
                   "largest deviation " + report::number(integral), integral < 1e-12});
   state_levels(artefact);

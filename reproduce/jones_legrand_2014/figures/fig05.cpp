@@ -25,7 +25,7 @@ void fig05(report::Artefact& artefact) {
   artefact.check({"section 3.5",
                   "Since the compact support of the father scaling function is S1, the periodized function "
                   "is equivalent.",
-                  "every level is exactly the dilated box 2^J on [0, 2^-J)",
+                  "every level is exactly the dilated box $2^J$ on $[0, 2^{-J})$",
                   std::to_string(boxes) + " of 6 levels are", boxes == 6});
 }
 

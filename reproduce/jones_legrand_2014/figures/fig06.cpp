@@ -223,7 +223,7 @@ void fig06(report::Artefact& artefact) {
   artefact.caption(
       "64 functions at 150 Hz. Right: the time in which time stepping is in contact, on one scale for (c) and "
       "(e), whose cells jump, and on another for the other four; the grey line is the gap. The force "
-      "F cos 2πft puts the contact about t = 0. The letters are those that the text gives.");
+      "$F \\cos 2\\pi f t$ puts the contact about $t = 0$. The letters are those that the text gives.");
   const Readings readings(artefact, study);
   state_hbm(artefact, study, readings);
   state_gibbs(artefact, study, readings);

@@ -67,7 +67,7 @@ void reference(report::Artefact& artefact, int case_number) {
   artefact.check(
       {"section 4",
        "the solution is deemed to have converged to its periodic state when the rms of the relative error "
-       "between the tip displacements for the i and i − 1 periods is below 10^{-7}",
+       "between the tip displacements for the i and i − 1 periods is below $10^{-7}$",
        "reached within " + std::to_string(scene.analysis.max_periods) + " periods",
        report::number(stepping.residual) + " after " + std::to_string(stepping.iterations) + " periods",
        stepping.residual < 1e-7});

@@ -28,10 +28,10 @@ Table printed(const app::Scene& one, const app::Scene& two, double free_one, dou
     table.append_row({name, number(a, 6) + " " + unit, number(b, 6) + " " + unit});
   };
   row("forcing frequency", one.forcing.frequency, two.forcing.frequency, "Hz");
-  row("penalty constant a_c", one.contact.constant, two.contact.constant, "N");
-  row("penalty exponent α", one.contact.exponent, two.contact.exponent, "1/m");
-  row("damping factor β", one.structure.stiffness_damping, two.structure.stiffness_damping, "s");
-  row("initial gap g_0", 1e3 * one.contact.gap, 1e3 * two.contact.gap, "mm");
+  row("penalty constant $a_c$", one.contact.constant, two.contact.constant, "N");
+  row("penalty exponent $\\alpha$", one.contact.exponent, two.contact.exponent, "1/m");
+  row("damping factor $\\beta$", one.structure.stiffness_damping, two.structure.stiffness_damping, "s");
+  row("initial gap $g_0$", 1e3 * one.contact.gap, 1e3 * two.contact.gap, "mm");
   row("largest tip displacement without contact (computed)", 1e3 * free_one, 1e3 * free_two, "mm");
   return table;
 }

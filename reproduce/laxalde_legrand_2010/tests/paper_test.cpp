@@ -97,7 +97,7 @@ TEST(Ll10Paper, VerdictsOnTheRodFollowTheFigures) {
   EXPECT_EQ(verdict("initial gap amplitude"), agrees);
   EXPECT_EQ(verdict("reaches unity"), agrees);
   EXPECT_EQ(verdict("hardening"), agrees);
-  EXPECT_EQ(verdict("ω² = r"), differs);
+  EXPECT_EQ(verdict("omega^2 = r"), differs);
   EXPECT_EQ(verdict("identically zero; hence"), differs);
   EXPECT_EQ(verdict("becomes min r"), misprint);
   EXPECT_EQ(verdict("Eq. (24c)"), misprint);

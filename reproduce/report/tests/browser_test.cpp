@@ -222,6 +222,32 @@ TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
   EXPECT_TRUE(curves["reset"].get<bool>());
 }
 
+TEST_F(Browser, TheReportOfARunIsSoundAndMovesTheBarAsItsResponseSays) {
+  const TemporaryFolder folder;
+  std::vector<Path> pages;
+  for (const std::string scene : {"case1", "case2_sweep"}) {
+    const Path output = folder.path() / scene;
+    const std::string command = "'" WAVEBALANCE_COMMAND "' run '" WAVEBALANCE_SCENES "/jones_legrand_2014/" +
+                                scene + ".toml' --quiet --output '" + output.string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    pages.push_back(output / "report.html");
+    EXPECT_EQ(broken_links(pages.back()), std::set<std::string>{}) << pages.back();
+  }
+  std::string log;
+  const auto found = probed(pages, folder.path(), log);
+  ASSERT_EQ(found.size(), 6u) << found.back();
+  expect_sound(found, log);
+  const auto& tips = found[2]["tips"];
+  ASSERT_TRUE(tips.is_object()) << tips;
+  EXPECT_TRUE(tips["moved"].get<bool>());
+  const auto response = app::read_csv(folder.path() / "case1" / "response.csv").numbers("displacement_m");
+  constexpr std::size_t instants = 128;
+  for (const auto& one : tips["found"]) {
+    const std::size_t instant = (one["position"].get<std::size_t>() + instants / 2) % instants;
+    EXPECT_NEAR(one["tip"].get<double>(), response[instant * response.size() / instants], 1e-8) << one;
+  }
+}
+
 TEST_F(Browser, TheResultsOfTheRunAreSound) {
   const Path results = WAVEBALANCE_RESULTS;
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";

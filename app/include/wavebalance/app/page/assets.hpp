@@ -16,8 +16,8 @@ enum class Library {
 /// absent; their pictures then stay as they are and formulas remain plain text.
 bool available(Library library);
 
-/// A style or script of this project's own: "page.css", "page.js", "curves.js", "motion.js", "blade.js". Throws
-/// std::out_of_range for any other name.
+/// A style or script of this project's own: "page.css", "page.js", "curves.js", "motion.js", "blade.js".
+/// Throws std::out_of_range for any other name.
 std::string_view asset(std::string_view name);
 
 /// Writes all styles and scripts of this project's own into `folder`, and beside them the files of those

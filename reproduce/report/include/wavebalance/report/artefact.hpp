@@ -21,8 +21,8 @@ class NotConverged : public std::runtime_error {
 
 /// One figure or table in the making: reads scenes and the results of earlier steps, gathers data, picture
 /// and claims, and writes them together or not at all:
-/// stem.csv, stem.svg and stem.png (figures) or stem.md (tables), stem.figure.js (figures whose curves the page
-/// can zoom), and records/stem.json for the report.
+/// stem.csv, stem.svg and stem.png (figures) or stem.md (tables), stem.figure.js (figures whose curves the
+/// page can zoom), and records/stem.json for the report.
 class Artefact {
  public:
   Artefact(Identity identity, std::filesystem::path output, std::filesystem::path scenes);
