@@ -132,8 +132,9 @@ std::string picture(const std::vector<ResultFile>& files, const std::string& hea
 std::string motion(const std::vector<ResultFile>& files) {
   const auto found = std::find_if(files.begin(), files.end(),
                                   [](const auto& file) { return file.name.ends_with(".motion.js"); });
-  return found == files.end() ? ""
-                              : fmt::format("<div class=\"motion\" data-motion=\"{}\"></div>\n", found->name);
+  return found == files.end()
+             ? ""
+             : fmt::format("<h3>Motion</h3>\n<div class=\"motion\" data-motion=\"{}\"></div>\n", found->name);
 }
 
 std::string asked(const RunArguments& arguments, const Scene& scene) {

@@ -99,7 +99,7 @@ TEST(Ll10Paper, VerdictsOnTheRodFollowTheFigures) {
   EXPECT_EQ(verdict("hardening"), agrees);
   EXPECT_EQ(verdict("omega^2 = r"), differs);
   EXPECT_EQ(verdict("identically zero; hence"), differs);
-  EXPECT_EQ(verdict("becomes min r"), misprint);
+  EXPECT_EQ(verdict("becomes $\\min r"), misprint);
   EXPECT_EQ(verdict("Eq. (24c)"), misprint);
   EXPECT_TRUE(results().passes("fig03_backbone", "their work is identically zero"));
   EXPECT_TRUE(results().passes("fig03_backbone", "Two solvers give one mode"));
