@@ -133,6 +133,13 @@ double largest(const solvers::FrequencySweep& curve, double solvers::SweepPoint:
   return value;
 }
 
+/// Missing without points.
+double least_displacement(const solvers::FrequencySweep& curve) {
+  double value = missing;
+  for (const auto& point : curve.points) value = std::fmin(value, point.min_displacement);
+  return value;
+}
+
 /// The law's force at the largest displacement; missing where contacts have different gaps.
 double force_at(const Contact& contact, double displacement) {
   return contact.gaps.empty() ? make_law(contact).force(displacement) : missing;
@@ -161,7 +168,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
                        points, model.contacts() * scene.time.functions, sweep.wall_seconds);
   record.summary.emplace_back("max_displacement_m", highest);
   record.summary.emplace_back("frequency_at_max_displacement_Hz", frequency_of_peak(sweep.curve));
-  record.summary.emplace_back("min_displacement_m", missing);
+  record.summary.emplace_back("min_displacement_m", least_displacement(sweep.curve));
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
   const bool one_law = sweep.curve.form != solvers::ContactForm::force && scene.contact.pairs.empty();
@@ -169,7 +176,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
                               points == 0 ? missing
                               : one_law   ? force_at(scene.contact, highest)
                                           : largest(sweep.curve, &solvers::SweepPoint::max_force));
-  record.summary.emplace_back("contact_fraction", missing);
+  record.summary.emplace_back("contact_fraction",
+                              largest(sweep.curve, &solvers::SweepPoint::contact_fraction));
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("points", std::int64_t{points});
   append_period(record, sweep.periods, sweep.motion_periods);

@@ -274,33 +274,44 @@ void append_branches(Record& record, const Sweep& sweep) {
   record.summary.emplace_back("special_points_of_branches", special);
 }
 
-Table sweep_table(const solvers::FrequencySweep& curve) {
-  Table table({"frequency_Hz", "max_displacement_m", "rms_displacement_m"});
-  for (const auto& point : curve.points)
-    table.append_row({point.frequency, point.max_displacement, point.rms_displacement});
-  return table;
-}
-
 namespace {
+
+const std::vector<std::string> point_columns{
+    "frequency_Hz",           "max_displacement_m",  "rms_displacement_m", "min_displacement_m",
+    "max_abs_displacement_m", "max_contact_force_N", "contact_fraction"};
+
+std::vector<Cell> point_cells(const solvers::SweepPoint& point) {
+  return {point.frequency,        point.max_displacement,     point.rms_displacement,
+          point.min_displacement, point.max_abs_displacement, point.max_force,
+          point.contact_fraction};
+}
 
 void append_rows(Table& table, const solvers::FrequencySweep& curve,
                  const std::vector<solvers::PointStability>& stability, int branch, int period) {
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const auto& point = curve.points[i];
     const bool known = i < stability.size();
-    const double unstable = known && stability[i].unstable >= 0 ? stability[i].unstable : missing;
-    const double contacts = known ? stability[i].contacts : missing;
-    table.append_row({point.frequency, point.max_displacement, point.rms_displacement, unstable, contacts,
-                      std::int64_t{branch}, std::int64_t{period}});
+    std::vector<Cell> row = point_cells(curve.points[i]);
+    row.emplace_back(known && stability[i].unstable >= 0 ? stability[i].unstable : missing);
+    row.emplace_back(known ? stability[i].contacts : missing);
+    row.emplace_back(std::int64_t{branch});
+    row.emplace_back(std::int64_t{period});
+    table.append_row(std::move(row));
   }
 }
 
 }  // namespace
 
+Table sweep_table(const solvers::FrequencySweep& curve) {
+  Table table(point_columns);
+  for (const auto& point : curve.points) table.append_row(point_cells(point));
+  return table;
+}
+
 Table sweep_table(const Sweep& sweep, bool with_branches) {
   if (with_branches) {
-    Table table({"frequency_Hz", "max_displacement_m", "rms_displacement_m", "unstable", "contacts", "branch",
-                 "period"});
+    std::vector<std::string> columns = point_columns;
+    columns.insert(columns.end(), {"unstable", "contacts", "branch", "period"});
+    Table table(columns);
     append_rows(table, sweep.curve, sweep.stability.points, 0, sweep.periods);
     int number = 0;
     for (const solvers::Branch& branch : sweep.branches)

@@ -61,13 +61,14 @@ std::string beside_gap(double displacement, double gap) {
                      quantity(gap, "m"));
 }
 
-void append_contact(std::vector<std::string>& sentences, const Summary& summary) {
+/// `limit` is "up to " for a curve, whose shares differ from point to point.
+void append_contact(std::vector<std::string>& sentences, const Summary& summary, const char* limit) {
   const double share = number(summary, "contact_fraction"), force = number(summary, "max_contact_force_N");
   if (share == 0.0) {
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
-    sentences.push_back(fmt::format("Contact takes {} of the period; the largest contact force is {}.",
-                                    percent(share), quantity(force, "N")));
+    sentences.push_back(fmt::format("Contact takes {}{} of the period; the largest contact force is {}.",
+                                    limit, percent(share), quantity(force, "N")));
   } else if (std::isfinite(force)) {
     sentences.push_back(fmt::format("The largest contact force is {}.", quantity(force, "N")));
   }
@@ -208,7 +209,7 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
     append_mode(sentences, summary);
   else
     append_motion(sentences, summary, gap);
-  append_contact(sentences, summary);
+  append_contact(sentences, summary, analysis == "frequency_sweep" ? "up to " : "");
   return sentences;
 }
 

@@ -93,6 +93,31 @@ TEST(Analyse, ForcedResponseHoldsTheFieldsInOrder) {
   EXPECT_TRUE(record.sweep.empty());
 }
 
+TEST(Analyse, PointOfASweepIsTheForcedResponseAtItsFrequency) {
+  const Record curve = analyse(scene_of(
+      {"analysis.type=frequency_sweep", "analysis.frequency_from=150", "analysis.frequency_to=155"}));
+  const Record motion = analyse(scene_of());
+  const auto at_start = [&](const char* column) { return curve.sweep.numbers(column).at(0); };
+  const auto of_motion = [&](const char* name) { return value_of<double>(motion.summary, name); };
+  ASSERT_EQ(at_start("frequency_Hz"), of_motion("frequency_Hz"));
+  const double peak = of_motion("max_displacement_m"), least = of_motion("min_displacement_m");
+  ASSERT_GT(of_motion("contact_fraction"), 0.0);
+  EXPECT_NEAR(at_start("max_displacement_m"), peak, 1e-9 * peak);
+  EXPECT_NEAR(at_start("min_displacement_m"), least, 1e-9 * peak);
+  EXPECT_NEAR(at_start("max_abs_displacement_m"), std::max(peak, -least), 1e-9 * peak);
+  // A curve has forces at the 256 quadrature points, a motion at the 1024 points of its output.
+  EXPECT_NEAR(at_start("contact_fraction"), of_motion("contact_fraction"), 4.0 / 256);
+  const double force = of_motion("max_contact_force_N");
+  EXPECT_LE(at_start("max_contact_force_N"), force * (1.0 + 1e-9));
+  EXPECT_GT(at_start("max_contact_force_N"), 0.95 * force);
+  const auto shares = curve.sweep.numbers("contact_fraction"),
+             lows = curve.sweep.numbers("min_displacement_m");
+  EXPECT_EQ(value_of<double>(curve.summary, "contact_fraction"),
+            *std::max_element(shares.begin(), shares.end()));
+  EXPECT_EQ(value_of<double>(curve.summary, "min_displacement_m"),
+            *std::min_element(lows.begin(), lows.end()));
+}
+
 TEST(Analyse, SummaryIsThatOfTheResponse) {
   const Record record = analyse(scene_of());
   const auto u = record.response.numbers("displacement_m");
@@ -141,8 +166,10 @@ TEST(Analyse, SweepGivesACurve) {
                                "\"frequency_sweep\"\nfrequency_from = 100\nfrequency_to = 200"),
                           "case.toml", {{"time.functions=31"}}));
   EXPECT_TRUE(record.converged) << record.status;
-  EXPECT_EQ(record.sweep.columns(), (std::vector<std::string>{"frequency_Hz", "max_displacement_m",
-                                                              "rms_displacement_m", "unstable", "contacts"}));
+  EXPECT_EQ(record.sweep.columns(),
+            (std::vector<std::string>{"frequency_Hz", "max_displacement_m", "rms_displacement_m",
+                                      "min_displacement_m", "max_abs_displacement_m", "max_contact_force_N",
+                                      "contact_fraction", "unstable", "contacts"}));
   EXPECT_EQ(record.sweep.numbers("frequency_Hz").front(), 100.0);
   EXPECT_TRUE(record.response.empty());
   EXPECT_EQ(record.figure.panels.size(), 1u);

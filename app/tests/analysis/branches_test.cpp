@@ -216,8 +216,10 @@ TEST(CheckOfAScene, NamesThePeriodsAndTheBranches) {
 
 TEST(SweepWithoutBranches, HasTheColumnsOfOneCurve) {
   const Record record = analyse(sweep_with({}));
-  EXPECT_EQ(record.sweep.columns(), (std::vector<std::string>{"frequency_Hz", "max_displacement_m",
-                                                              "rms_displacement_m", "unstable", "contacts"}));
+  EXPECT_EQ(record.sweep.columns(),
+            (std::vector<std::string>{"frequency_Hz", "max_displacement_m", "rms_displacement_m",
+                                      "min_displacement_m", "max_abs_displacement_m", "max_contact_force_N",
+                                      "contact_fraction", "unstable", "contacts"}));
 }
 
 TEST(Sweep, WarnsThatMotionsBecomeQuasiPeriodicAtNeimarkSackerPoints) {

@@ -264,6 +264,7 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
   SweepPoint measured;
   measured.frequency = point.parameter;
   measured.max_displacement = -std::numeric_limits<double>::infinity();
+  measured.min_displacement = std::numeric_limits<double>::infinity();
   measured.max_force = system.force().maxCoeff();
   measured.residual = point.residual;
   measured.grazing = point.grazing;
@@ -273,6 +274,10 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
     measured.max_displacement = std::max(measured.max_displacement, u.maxCoeff());
     measured.rms_displacement = std::max(measured.rms_displacement, u.norm() / std::sqrt(double(u.size())));
     measured.max_abs_displacement = std::max(measured.max_abs_displacement, u.cwiseAbs().maxCoeff());
+    measured.min_displacement = std::min(measured.min_displacement, u.minCoeff());
+    const auto force = system.force().segment(c * problem.points(), problem.points());
+    measured.contact_fraction =
+        std::max(measured.contact_fraction, (force.array() > 0.0).cast<double>().mean());
   }
   return measured;
 }

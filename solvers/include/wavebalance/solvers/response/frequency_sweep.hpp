@@ -26,13 +26,16 @@ enum class SweepStatus {
 
 std::string_view to_string(SweepStatus status);
 
-/// A point of a response curve. Each displacement is the largest among the contacts.
+/// A point of a response curve. Each value is the largest among the contacts, but min_displacement, which is
+/// the least.
 struct SweepPoint {
   double frequency = 0.0;             ///< Hz
   double max_displacement = 0.0;      ///< m, over output_points of the period
   double rms_displacement = 0.0;      ///< m
   double max_abs_displacement = 0.0;  ///< m
+  double min_displacement = 0.0;      ///< m
   double max_force = 0.0;             ///< N, over the points and contacts
+  double contact_fraction = 0.0;      ///< share of the quadrature points at which a contact has a force
   double residual = 0.0;              ///< relative
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown; empty unless keep_unknowns
