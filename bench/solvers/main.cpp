@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "wavebalance/solvers/linalg/blas_threads.hpp"
+
 namespace {
 
 // Shows the console table, and after it each "dense_X" over its "X": how much slower the assembled system of
@@ -48,6 +50,7 @@ class RatioReporter final : public benchmark::ConsoleReporter {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wavebalance::solvers::use_one_blas_thread();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   RatioReporter reporter;

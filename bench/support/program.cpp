@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "wavebalance/solvers/linalg/blas_threads.hpp"
+
 namespace wavebalance::bench {
 namespace {
 
@@ -26,6 +28,7 @@ Program read_arguments(int argc, char** argv) {
 }  // namespace
 
 int run_program(int argc, char** argv, const std::function<void(const Program&)>& body) {
+  solvers::use_one_blas_thread();
   try {
     body(read_arguments(argc, argv));
     return 0;

@@ -12,6 +12,7 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
+#include "wavebalance/solvers/linalg/blas_threads.hpp"
 
 namespace {
 
@@ -126,6 +127,7 @@ int dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file size limit is then an error of the write, reported like a full disk
+  wavebalance::solvers::use_one_blas_thread();
   try {
     return dispatch(argc, argv);
   } catch (const std::bad_alloc&) {

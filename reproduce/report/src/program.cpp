@@ -6,6 +6,7 @@
 
 #include "command_line.hpp"
 #include "wavebalance/report/artefact.hpp"
+#include "wavebalance/solvers/linalg/blas_threads.hpp"
 
 namespace wavebalance::report {
 namespace {
@@ -56,6 +57,7 @@ int run_program(int argc, const char* const* argv, const std::vector<Step>& step
                       {"--scenes", &arguments.scenes, "folder of the scene files"}});
   if (code) return *code;
   const Step& step = find(steps, arguments.name);
+  solvers::use_one_blas_thread();
   try {
     run(step, std::filesystem::path(argv[0]).filename().string(), arguments);
     return 0;
