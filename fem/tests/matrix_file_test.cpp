@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "expect_error.hpp"
-#include "fortran_format.hpp"
+#include "files/fortran_format.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 

@@ -1,4 +1,5 @@
-// Tests compute with one thread of OpenBLAS, as the programs do, so that their figures are those of the programs.
+// Tests compute with one thread of OpenBLAS, as the programs do, so that their figures are those of the
+// programs.
 extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
 
 namespace {

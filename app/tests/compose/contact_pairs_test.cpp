@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/chain_files.hpp"
+#include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
@@ -62,13 +63,7 @@ class ContactPairs : public testing::Test {
 
   SceneError::Details error_of(const std::string& text,
                                const std::vector<std::string>& overrides = {}) const {
-    try {
-      load(text, overrides);
-    } catch (const SceneError& error) {
-      return error.details();
-    }
-    ADD_FAILURE() << "loaded without an error:\n" << text;
-    return {};
+    return details_of_error([&](const std::string& one) { load(one, overrides); }, text);
   }
 
   TemporaryFolder folder_;

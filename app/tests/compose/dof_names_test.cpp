@@ -38,13 +38,7 @@ class NamedChain : public testing::Test {
     return parse_scene(text, (folder_ / "case.toml").string(), overrides);
   }
   SceneError::Details fault(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    try {
-      load(text, overrides);
-    } catch (const SceneError& error) {
-      return error.details();
-    }
-    ADD_FAILURE() << "loaded without an error:\n" << text;
-    return {};
+    return details_of_error([&](const std::string& one) { load(one, overrides); }, text);
   }
   void expect_fault(const std::string& text, int line, const std::string& key,
                     const std::string& part) const {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "support/chain_files.hpp"
+#include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -32,13 +33,7 @@ class ChainScene : public testing::Test {
 
   SceneError::Details error_of(const std::string& text,
                                const std::vector<std::string>& overrides = {}) const {
-    try {
-      load(text, overrides);
-    } catch (const SceneError& error) {
-      return error.details();
-    }
-    ADD_FAILURE() << "loaded without an error:\n" << text;
-    return {};
+    return details_of_error([&](const std::string& one) { load(one, overrides); }, text);
   }
 
   void expect_error(const std::string& text, int line, const std::string& key,

@@ -6,6 +6,18 @@
 
 #include "wavebalance/app/compose/scene_loader.hpp"
 
+/// The error that `load` of the text ends with; there must be one.
+template <class Load>
+wavebalance::app::SceneError::Details details_of_error(const Load& load, const std::string& text) {
+  try {
+    load(text);
+  } catch (const wavebalance::app::SceneError& error) {
+    return error.details();
+  }
+  ADD_FAILURE() << "loaded without an error:\n" << text;
+  return {};
+}
+
 /// The error of a scene, which must have one.
 inline wavebalance::app::SceneError::Details error_of(const std::string& text,
                                                       const std::vector<std::string>& overrides = {},

@@ -8,6 +8,7 @@
 #include "stability/perturbation.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
+#include "support/refusal.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
@@ -90,18 +91,9 @@ TEST(SampleOffset, DoesNotMoveExactInnerProducts) {
   EXPECT_EQ(exact(0.0).load(testing::cosine_load()), exact(0.5).load(testing::cosine_load()));
 }
 
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(SampleOffset, IsHalfOrNothing) {
   for (const double wrong : {0.25, 1.0, -0.5, std::nan("")})
-    EXPECT_NE(refusal([&] {
+    EXPECT_NE(testing::refusal([&] {
                 testing::fourier_pair(7, 32, NyquistCoefficient::keep, wrong);
               }).find("it must be 0 or 0.5"),
               std::string::npos)
@@ -117,10 +109,11 @@ TEST(SampleOffset, RefusesANyquistCoefficientThatVanishesAtTheMiddles) {
   using enum NyquistCoefficient;
   for (const AnyTimeBasis& trial :
        {AnyTimeBasis(fourier), AnyTimeBasis(CubicBasis{8}), AnyTimeBasis(HaarBasis{8})})
-    EXPECT_NE(
-        refusal([&] { middles(trial, fourier, 8, keep); }).find("vanishes at the middles of 8 intervals"),
-        std::string::npos);
-  EXPECT_NE(refusal([&] {
+    EXPECT_NE(testing::refusal([&] {
+                middles(trial, fourier, 8, keep);
+              }).find("vanishes at the middles of 8 intervals"),
+              std::string::npos);
+  EXPECT_NE(testing::refusal([&] {
               middles(HaarBasis{8}, fourier, 64, keep);
             }).find("the Nyquist coefficient of the 8 functions dropped"),
             std::string::npos);
@@ -133,15 +126,16 @@ TEST(SampleOffset, RefusesANyquistCoefficientThatVanishesAtTheMiddles) {
 
 TEST(SampleOffset, IsRefusedByModesAndByRefinements) {
   const TimePair middle = testing::fourier_pair(7, 32, NyquistCoefficient::keep, 0.5);
-  EXPECT_NE(refusal([&] { require_free_motions(middle); }).find("sample_offset of 0.5; it must be 0"),
-            std::string::npos);
+  EXPECT_NE(
+      testing::refusal([&] { require_free_motions(middle); }).find("sample_offset of 0.5; it must be 0"),
+      std::string::npos);
   const auto problem = [](int functions, int points) {
     CondensedProblem made(testing::fourier_pair(functions, points, NyquistCoefficient::keep, 0.5),
                           testing::jl14_bar(3, 1e-4), testing::cosine_load());
     made.set_frequency(150.0);
     return made;
   };
-  EXPECT_NE(refusal([&] {
+  EXPECT_NE(testing::refusal([&] {
               response_to_tolerance(problem, testing::jl14_case_1.law, {});
             }).find("sample_offset of 0.5; it must be 0"),
             std::string::npos);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "constants.hpp"
+#include "support/refusal.hpp"
 #include "support/small_problems.hpp"
 
 namespace wavebalance::solvers {
@@ -160,21 +161,12 @@ TEST(Admissibility, AsksForTheDerivativesThatTheFormulationSamples) {
   EXPECT_NE(reason.find("derivative 2 of the trial"), std::string::npos) << reason;
 }
 
-std::string message(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(TimePair, SaysWhichSizesDoNotFit) {
-  const auto differ = message([] { make_pair(FourierBasis(8), FourierBasis(9), 32); });
+  const auto differ = testing::refusal([] { make_pair(FourierBasis(8), FourierBasis(9), 32); });
   EXPECT_NE(differ.find("has 8 functions and the weighting basis 9"), std::string::npos) << differ;
-  const auto few = message([] { make_pair(FourierBasis(9), FourierBasis(9), 8); });
+  const auto few = testing::refusal([] { make_pair(FourierBasis(9), FourierBasis(9), 8); });
   EXPECT_NE(few.find("quadrature_points is 8; at least as many as the 9"), std::string::npos) << few;
-  const auto ragged = message([] { make_pair(HaarBasis{8}, FourierBasis(8), 30); });
+  const auto ragged = testing::refusal([] { make_pair(HaarBasis{8}, FourierBasis(8), 30); });
   EXPECT_NE(ragged.find("quadrature_points is 30; it must be a multiple of the 8"), std::string::npos)
       << ragged;
 }
@@ -184,9 +176,9 @@ TEST(TimePair, ExactProductsOfTwoWaveletsAreAskedOfTheCaller) {
   options.inner_products = InnerProducts::exact;
   options.quadrature_points = 32;
   const auto make = [&] { TimePair(CubicBasis{8}, CubicBasis{8}, options); };
-  EXPECT_NE(message(make).find("need exact_column"), std::string::npos);
+  EXPECT_NE(testing::refusal(make).find("need exact_column"), std::string::npos);
   options.exact_column = [](int) { return Eigen::VectorXd::Ones(7); };
-  EXPECT_NE(message(make).find("returned 7 values; 8 functions"), std::string::npos);
+  EXPECT_NE(testing::refusal(make).find("returned 7 values; 8 functions"), std::string::npos);
   options.exact_column = [](int d) { return Eigen::VectorXd(Eigen::VectorXd::Unit(8, d)); };
   const TimePair pair(CubicBasis{8}, CubicBasis{8}, options);
   for (int k = 0; k <= 4; ++k)
