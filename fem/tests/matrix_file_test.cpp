@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
 #include <sstream>
 
 #include "expect_error.hpp"
 #include "files/fortran_format.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
@@ -183,13 +183,10 @@ TEST(CalculixMatrix, NamesWhatIsWrongAndWhere) {
 
 class MatrixFiles : public testing::Test {
  protected:
-  MatrixFiles() { std::filesystem::create_directories(folder_); }
-  ~MatrixFiles() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path written(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    return folder_.write(name, text);
   }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "wavebalance_matrix_files";
+  const TemporaryFolder folder_;
 };
 
 TEST_F(MatrixFiles, AreReadByTheirContentWhateverTheirName) {
@@ -220,7 +217,7 @@ TEST_F(MatrixFiles, OfNoKnownFormatAreRefusedWithAllThatAreAllowed) {
   expect_error([&] { read_matrix(file); }, "CalculiX (.sti, .mas: lines of row, column and value)");
   expect_error([&] { read_matrix(written("k.sti", "1 1\n")); }, "k.sti:1: found \"1 1\"");
   expect_error([&] { read_matrix(written("k.rsa", "1 1\n")); }, "k.rsa:1: the file ends before");
-  expect_error([&] { read_matrix(folder_); }, "is not a regular file");
+  expect_error([&] { read_matrix(folder_.path()); }, "is not a regular file");
   expect_error([&] { read_matrix(folder_ / "none.sti"); }, "cannot be opened for reading");
 }
 

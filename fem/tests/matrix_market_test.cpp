@@ -4,11 +4,10 @@
 
 #include <sys/stat.h>
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "expect_error.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/fem/bar.hpp"
 
 namespace wavebalance::fem {
@@ -46,10 +45,10 @@ TEST(MatrixMarket, GivesBackWhatItWroteToTheLastBit) {
     EXPECT_EQ(found.nonZeros(), matrix.nonZeros());
     EXPECT_EQ(Eigen::MatrixXd(found), Eigen::MatrixXd(matrix));
   }
-  const auto file = std::filesystem::path(testing::TempDir()) / "wavebalance_fem_matrix.mtx";
+  const TemporaryFolder folder;
+  const auto file = folder / "matrix.mtx";
   write_matrix_market(file, matrix);
   EXPECT_EQ(Eigen::MatrixXd(read_matrix_market(file)), Eigen::MatrixXd(matrix));
-  std::filesystem::remove(file);
 }
 
 TEST(MatrixMarket, NamesWhatIsWrongAndWhere) {
@@ -128,23 +127,20 @@ TEST(MatrixMarket, GivesBackDenseMatricesToTheLastBit) {
 }
 
 TEST(MatrixMarket, RefusesDevicesPipesAndFoldersAtOnce) {
-  const auto folder = std::filesystem::path(testing::TempDir());
-  const auto pipe = folder / "wavebalance_fem_pipe.mtx";
-  std::filesystem::remove(pipe);
+  const TemporaryFolder folder;
+  const auto pipe = folder / "pipe.mtx";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  for (const std::filesystem::path& file : {std::filesystem::path("/dev/zero"), pipe, folder}) {
+  for (const std::filesystem::path& file : {std::filesystem::path("/dev/zero"), pipe, folder.path()}) {
     expect_error([&] { read_matrix_market(file); }, file.string() + " is not a regular file");
     expect_error([&] { read_matrix_market_vector(file); }, file.string() + " is not a regular file");
   }
-  std::filesystem::remove(pipe);
 }
 
 TEST(MatrixMarket, RefusesFilesAboveTheSizeLimit) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "wavebalance_fem_large.mtx";
-  std::ofstream(file) << general;
+  const TemporaryFolder folder;
+  const auto file = folder.write("large.mtx", general);
   std::filesystem::resize_file(file, largest_matrix_market_file + 1);  // a hole: takes no space
   expect_error([&] { read_matrix_market(file); }, "is 8000000001 bytes; it must be at most 8000000000");
-  std::filesystem::remove(file);
 }
 
 TEST(MatrixMarket, RefusesToWriteWhatCouldNotBeRead) {

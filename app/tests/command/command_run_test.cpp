@@ -11,7 +11,7 @@
 #include "support/chain_files.hpp"
 #include "support/command.hpp"
 #include "support/scene_texts.hpp"
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"

@@ -7,7 +7,7 @@
 
 #include "support/command.hpp"
 #include "support/scene_texts.hpp"
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"

@@ -5,7 +5,7 @@
 
 #include "support/command.hpp"
 #include "support/scene_texts.hpp"
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
 

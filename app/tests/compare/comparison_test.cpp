@@ -9,7 +9,7 @@
 #include "support/bar_scene.hpp"
 #include "support/chain_files.hpp"
 #include "support/summary_value.hpp"
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 

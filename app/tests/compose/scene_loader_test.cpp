@@ -5,7 +5,7 @@
 
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace {

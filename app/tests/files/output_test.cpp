@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/files/output.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "support/occurrences.hpp"
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 

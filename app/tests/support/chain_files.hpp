@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 /// A chain of three masses of 2 kg between springs of 1e6 N/m, free at its end, as Matrix Market files in a
 /// folder, and a scene of them in which its last two masses touch obstacles. Of the scene every test changes

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {

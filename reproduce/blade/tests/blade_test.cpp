@@ -148,7 +148,7 @@ TEST(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
   }
   ASSERT_NE(text.find("frequency = 600.0"), std::string::npos);
   text.replace(text.find("frequency = 600.0"), 17, "frequency = 590.0");
-  const report::TemporaryFolder folder;
+  const TemporaryFolder folder;
   app::write_file(folder.path() / "forced_response.toml", text);
   report::Artefact artefact({"blade", "", "", "forced_response"}, folder.path(), folder.path());
   forced_response(artefact);

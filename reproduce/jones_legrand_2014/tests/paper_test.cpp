@@ -49,7 +49,7 @@ class Jl14Program : public testing::Test {
     return code;
   }
 
-  report::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::string messages_;
 };
 

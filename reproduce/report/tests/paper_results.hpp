@@ -5,29 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "temporary_folder.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/report/program.hpp"
 
 namespace wavebalance::report {
-
-/// A folder that is removed with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "wavebalance_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// What the steps of a paper wrote, each made once: by CTest in the folder that the variable
 /// WAVEBALANCE_RESULTS names, before any test; or, where a test program is started by hand, here in a

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
+#include "temporary_folder.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/report/artefact.hpp"
 
@@ -60,29 +58,26 @@ TEST(Record, OtherTextIsAnErrorThatNamesTheFile) {
 }
 
 TEST(Artefact, AttachedFilesAreWrittenAndOnlyListedOnesAreLinked) {
-  std::string folder = (std::filesystem::temp_directory_path() / "wavebalance_report_XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder, folder);
+  const TemporaryFolder folder;
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder.path(), folder.path());
   artefact.attach("series.pvd", "a");
   artefact.attach("series_00.vtu", "b", false);
   artefact.write(0.0);
-  EXPECT_EQ(app::read_file(std::filesystem::path(folder) / "series_00.vtu"), "b");
-  const auto record = std::filesystem::path(folder) / "records" / "fig02.json";
+  EXPECT_EQ(app::read_file(folder / "series_00.vtu"), "b");
+  const auto record = folder / "records" / "fig02.json";
   EXPECT_EQ(parse_record(app::read_file(record), record).files, std::vector<std::string>{"series.pvd"});
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Artefact, UnitsAndNotesOfItsDataAreInTheRecord) {
-  std::string folder = (std::filesystem::temp_directory_path() / "wavebalance_report_XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder, folder);
+  const TemporaryFolder folder;
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder.path(), folder.path());
   app::Table table({"a", "b"});
   table.append_row({1.0, 2.0});
   artefact.data(table, "SI", {"a note"});
   artefact.more_data("more", table, "Hz");
   artefact.write(0.0);
-  EXPECT_EQ(app::read_file(std::filesystem::path(folder) / "fig02.csv"), "a,b\n1,2\n");
-  const auto file = std::filesystem::path(folder) / "records" / "fig02.json";
+  EXPECT_EQ(app::read_file(folder / "fig02.csv"), "a,b\n1,2\n");
+  const auto file = folder / "records" / "fig02.json";
   const Record record = parse_record(app::read_file(file), file);
   ASSERT_EQ(record.data.size(), 2u);
   EXPECT_EQ(record.data[0].name, "fig02.csv");
@@ -90,20 +85,17 @@ TEST(Artefact, UnitsAndNotesOfItsDataAreInTheRecord) {
   EXPECT_EQ(record.data[0].notes, std::vector<std::string>{"a note"});
   EXPECT_EQ(record.data[1].name, "fig02_more.csv");
   EXPECT_EQ(record.data[1].units, "Hz");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Artefact, TheDataOfItsCurvesAreWrittenBesideThePicture) {
-  std::string folder = (std::filesystem::temp_directory_path() / "wavebalance_report_XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder, folder);
+  const TemporaryFolder folder;
+  Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, folder.path(), folder.path());
   app::Figure figure;
   figure.add_panel().add({"u", std::vector<double>{0, 1}, std::vector<double>{0, 1}});
   artefact.picture(figure);
   artefact.write(0.0);
-  const auto script = app::read_file(std::filesystem::path(folder) / "fig02.figure.js");
+  const auto script = app::read_file(folder / "fig02.figure.js");
   EXPECT_NE(script.find("[\"fig02\"]"), std::string::npos);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsItsReadings) {

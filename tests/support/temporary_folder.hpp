@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
-/// A folder of its own for one test, gone with it.
+/// A folder of its own for one test, removed with it. CTest runs tests in parallel, each in a process of its
+/// own, so that a name that two tests have in common would be written by both.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
