@@ -23,11 +23,11 @@ namespace wavebalance::app {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class>
-inline constexpr bool is_list = false;
+inline constexpr bool is_list_of = false;
 template <class Number>
-inline constexpr bool is_list<std::vector<Number>> = true;
+inline constexpr bool is_list_of<std::vector<Number>> = true;
 template <class Number, std::size_t Size>
-inline constexpr bool is_list<std::array<Number, Size>> = true;
+inline constexpr bool is_list_of<std::array<Number, Size>> = true;
 
 /// The type that SceneValue has for a number of a Scene.
 template <class Number>
@@ -37,7 +37,7 @@ template <class Field>
 SceneValue value_of(const Field& field) {
   if constexpr (std::is_enum_v<Field>)
     return enum_name(field);
-  else if constexpr (is_list<Field>)
+  else if constexpr (is_list_of<Field>)
     return std::vector<Stored<typename Field::value_type>>(field.begin(), field.end());
   else if constexpr (std::is_same_v<Field, int>)
     return std::int64_t{field};
@@ -49,7 +49,7 @@ template <class Field>
 void assign(Field& field, const SceneValue& value) {
   if constexpr (std::is_enum_v<Field>) {
     field = enum_value<Field>(std::get<std::string>(value));
-  } else if constexpr (is_list<Field>) {
+  } else if constexpr (is_list_of<Field>) {
     using Number = typename Field::value_type;
     const auto& list = std::get<std::vector<Stored<Number>>>(value);
     if constexpr (requires { field.resize(0); }) field.resize(list.size());
@@ -75,7 +75,7 @@ void describe(SceneKey& key) {
     key.type = SceneKey::Type::boolean;
   } else if constexpr (std::is_arithmetic_v<Field>) {
     describe_number<Field>(key);
-  } else if constexpr (is_list<Field>) {
+  } else if constexpr (is_list_of<Field>) {
     describe_number<typename Field::value_type>(key);
     key.form = SceneKey::Form::list;
     if constexpr (requires { std::tuple_size<Field>::value; })

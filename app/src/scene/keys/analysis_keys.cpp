@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include "scene/keys/key_tables.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// The interval of a sweep over `parts`.
+auto interval_over(int parts) {
+  return [parts](const Scene& scene) {
+    return std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from) / parts;
+  };
+}
+
+void add_sweep(std::vector<SceneKey>& keys) {
+  const Section sweep(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
+  sweep(&Analysis::frequency_from, "frequency_from", "Hz", "where the branch starts", positive);
+  sweep(&Analysis::frequency_to, "frequency_to", "Hz", "where the branch ends, above or below its start",
+        positive);
+  sweep(&Analysis::first_step, "first_step", "Hz", "first step along the branch", positive,
+        derived("|frequency_to - frequency_from| / 1000", interval_over(1000)));
+  sweep(&Analysis::largest_step, "largest_step", "Hz",
+        "no step along the branch is larger; a displacement by the gap counts as a 20th of the interval",
+        positive, derived("|frequency_to - frequency_from| / 80", interval_over(80)));
+  sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
+        within(2, 10'000'000), optional);
+  sweep(&Analysis::branches, "branches", "",
+        "true also follows the curves that begin at period doublings and at branch points", optional);
+}
+
+void add_time_stepping(std::vector<SceneKey>& keys) {
+  const Section stepping(keys, "analysis", analysis_part, analysis_is({"time_stepping"}));
+  stepping(&Analysis::tolerance, "tolerance", "",
+           "relative rms difference of two successive periods to be reached", above(0, 1), optional);
+  stepping(&Analysis::max_periods, "max_periods", "", "given up after so many periods",
+           within(1, 100'000'000), optional);
+}
+
+void add_mode(std::vector<SceneKey>& keys) {
+  const Section mode(keys, "analysis", analysis_part, analysis_is({"nonlinear_mode"}));
+  mode(&Analysis::formulation, "formulation", "",
+       "consistent: the equation of motion holds at every point; published: the equations of Laxalde & "
+       "Legrand as printed, by their augmented Lagrangian, with the root of the Rayleigh quotient as "
+       "frequency (runs with few harmonics only)",
+       optional);
+  mode(&Analysis::mode, "mode", "", "the linear mode that the nonlinear one continues", within(1, 10'000'000),
+       optional);
+  mode(&Analysis::harmonics, "harmonics", "", "harmonics N of the Fourier series in time", within(1, 4096),
+       optional);
+  mode(
+      &Analysis::samples, "samples", "",
+      "uniform times of one period at which contact is enforced, at least 2 x harmonics; with an exponential "
+      "or linear law those of its force",
+      within(2, 1 << 16),
+      derived("2 x harmonics, 8 x with an exponential or linear law", [](const Scene& scene) {
+        return (scene.contact.law == ContactLawType::rigid ? 2 : 8) * scene.analysis.harmonics;
+      }));
+  mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
+  mode(&Analysis::energy_ratio, "energy_ratio", "",
+       "the one motion of this energy, over that of the linear mode that just touches; 0 for the curve",
+       not_negative, optional);
+  mode(&Analysis::largest_energy, "largest_energy", "", "the curve ends beyond this energy ratio", above(1),
+       optional);
+  mode(&Analysis::last_frequency_ratio, "last_frequency_ratio", "",
+       "or beyond this ratio of the frequency to the linear one", above(1.001), optional);
+  mode(&Analysis::points, "points", "",
+       "of the curve, uniform in frequency up to there; in energy when published; about as many with an "
+       "exponential or linear law",
+       within(2, 1'000'000), optional);
+}
+
+int contacts_of(const Scene& scene) {
+  if (scene.structure.type == StructureType::bar) return 1;
+  if (scene.structure.type == StructureType::blade)
+    return 2 * (scene.structure.blade.chord_elements + 1);  // nodes along its tip
+  return static_cast<int>(scene.structure.matrices.contact_dofs.size() +
+                          scene.contact.pair_contacts().size());
+}
+
+/// Whether counts take a few times as long as the curve, or less.
+SceneValue stability_by_default(const Scene& scene) {
+  const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  if (scene.analysis.type != AnalysisType::frequency_sweep && !mode) return true;
+  if (mode && scene.contact.law == ContactLawType::rigid) return true;  // not known
+  constexpr int few = 6;
+  constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
+  const int contacts = contacts_of(scene);
+  return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
+}
+
+}  // namespace
+
+void add_analysis_keys(std::vector<SceneKey>& keys) {
+  const Section analysis(keys, "analysis", analysis_part);
+  analysis(&Analysis::type, "type", "", "what is computed", optional);
+  analysis(&Analysis::output_points, "output_points", "", "uniform points of one period in response.csv",
+           within(2, 1 << 24), optional);
+  analysis(
+      &Analysis::motion_points, "motion_points", "",
+      "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
+      "for ParaView, matrices to motion.mtx, a column an instant",
+      within(0, 9999),
+      derived("32 for a blade, 0 for matrices",
+              [](const Scene& scene) { return scene.structure.type == StructureType::blade ? 32 : 0; }),
+      only_with(structure_is({"blade", "matrices"}) && analysis_is({"forced_response", "nonlinear_mode"})));
+  analysis(&Analysis::stability, "stability", "",
+           "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
+           "curve, and finds the curve's special points",
+           derived("true; with more than 6 contacts false for modes, and for curves where contacts times "
+                   "functions exceed 400",
+                   stability_by_default),
+           only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
+  analysis(&Analysis::subharmonic, "subharmonic", "",
+           "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
+           "output_points are then those of n periods",
+           within(1, 1024), optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
+  add_sweep(keys);
+  add_time_stepping(keys);
+  add_mode(keys);
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,30 @@
+#pragma once
+#include "scene/scene_key_builder.hpp"
+
+/// The tables of keys, one per section of a scene file, each in a file of its own.
+namespace wavebalance::app {
+
+inline constexpr auto structure_part = [](auto& scene) -> auto& { return scene.structure; };
+inline constexpr auto matrices_part = [](auto& scene) -> auto& { return scene.structure.matrices; };
+inline constexpr auto blade_part = [](auto& scene) -> auto& { return scene.structure.blade; };
+inline constexpr auto contact_part = [](auto& scene) -> auto& { return scene.contact; };
+inline constexpr auto forcing_part = [](auto& scene) -> auto& { return scene.forcing; };
+inline constexpr auto time_part = [](auto& scene) -> auto& { return scene.time; };
+inline constexpr auto analysis_part = [](auto& scene) -> auto& { return scene.analysis; };
+
+inline Condition structure_is(std::vector<std::string_view> types) {
+  return {"structure.type", std::move(types)};
+}
+inline Condition law_is(std::vector<std::string_view> laws) { return {"contact.law", std::move(laws)}; }
+inline Condition analysis_is(std::vector<std::string_view> types) {
+  return {"analysis.type", std::move(types)};
+}
+
+/// Each appends the keys of its section.
+void add_structure_keys(std::vector<SceneKey>& keys);
+void add_contact_keys(std::vector<SceneKey>& keys);
+void add_forcing_keys(std::vector<SceneKey>& keys);
+void add_time_keys(std::vector<SceneKey>& keys);
+void add_analysis_keys(std::vector<SceneKey>& keys);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,52 @@
+#include "scene/keys/key_tables.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::vector<std::string_view> basis_names() {
+  return {"fourier",      "haar",         "bspline",      "daubechies2",  "daubechies4",  "daubechies6",
+          "daubechies8",  "daubechies10", "daubechies12", "daubechies14", "daubechies16", "daubechies18",
+          "daubechies20", "daubechies22", "daubechies24", "daubechies26", "daubechies28", "daubechies30",
+          "daubechies32", "daubechies34", "daubechies36", "daubechies38", "daubechies40"};
+}
+
+}  // namespace
+
+void add_time_keys(std::vector<SceneKey>& keys) {
+  const Section time(keys, "time", time_part);
+  const Condition balance = analysis_is({"forced_response", "frequency_sweep"}).unless("time.tolerance");
+  time(&Time::tolerance, "tolerance", "",
+       "relative rms error of the contact displacement over the period to be met, in place of functions and "
+       "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
+       "these too",
+       within(0, 1), derived("none", 0.0), only_with(analysis_is({"forced_response"})));
+  time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
+       required_with(balance));
+  time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),
+       required_with(balance));
+  time(&Time::functions, "functions", "", "trial functions; a power of two for wavelets", within(1, 1 << 20),
+       required_with(balance));
+  time(&Time::formulation, "formulation", "", "how many derivatives move to the weights: none, one or two",
+       optional);
+  time(&Time::quadrature_points, "quadrature_points", "",
+       "uniform points of one period where the contact force is evaluated; a multiple of functions for "
+       "wavelets",
+       within(1, 1 << 24),
+       derived("4 x functions", [](const Scene& scene) { return 4 * scene.time.functions; }));
+  time(&Time::sample_offset, "sample_offset", "",
+       "first quadrature point in intervals of the points: 0 for their left ends k/N, 0.5 for their middles "
+       "(k + 0.5)/N; without effect on output_points",
+       optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
+  time(&Time::inner_products, "inner_products", "",
+       "inner products of trial and weight functions: sums over the quadrature points (Daubechies Galerkin "
+       "pairs: connection coefficients) or exact",
+       optional);
+  time(
+      &Time::nyquist, "nyquist", "",
+      "the alternating coefficient of an even number of functions, which no damping acts on: drop takes it out "
+      "of trial and weight space, keep leaves it there with resonances of its own; without effect for an odd "
+      "number",
+      optional);
+}
+
+}  // namespace wavebalance::app
