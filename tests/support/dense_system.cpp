@@ -24,9 +24,13 @@ DenseSystem::DenseSystem(solvers::LinearStructure structure, solvers::ContactLaw
     : structure_(std::move(structure)), laws_(std::move(laws)), time_(std::move(time)), load_(unknowns()) {
   structure_.validate();
   laws_.require(contacts());
-  const Eigen::Index size = time_.load.size();
-  for (Eigen::Index i = 0; i < structure_.load.size(); ++i)
-    load_.segment(i * size, size) = structure_.load[i] * time_.load;
+  load_.setZero();
+  add_load(structure_.load, time_.load);
+}
+
+void DenseSystem::add_load(const Eigen::VectorXd& shape, const Eigen::VectorXd& projections) {
+  for (Eigen::Index i = 0; i < shape.size(); ++i)
+    load_.segment(i * projections.size(), projections.size()) += shape[i] * projections;
 }
 
 void DenseSystem::set_frequency(double frequency_hz) {

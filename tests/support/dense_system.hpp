@@ -68,6 +68,8 @@ class DenseSystem {
 
   int unknowns() const { return static_cast<int>(structure_.load.size() * time_.load.size()); }
   int functions() const { return static_cast<int>(time_.load.size()); }
+  /// Adds a force `shape` (n) whose time function has these inner products with the weighting functions (M).
+  void add_load(const Eigen::VectorXd& shape, const Eigen::VectorXd& projections);
   /// Assembles G at a frequency in Hz.
   void set_frequency(double frequency_hz);
   const Eigen::MatrixXd& matrix() const { return matrix_; }  ///< G

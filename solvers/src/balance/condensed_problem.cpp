@@ -28,9 +28,11 @@ CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structu
       structure_(std::make_shared<const LinearStructure>(structure)),
       load_harmonics_(std::move(load_harmonics)),
       condensation_(structure, method),
-      load_(pair_.load(load_harmonics_)),
       columns_are_current_(static_cast<std::size_t>(structure.contacts()), false),
-      work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {}
+      work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {
+  set_unit_loads();
+  update_load();
+}
 
 CondensedProblem::CondensedProblem(CondensedProblem&&) noexcept = default;
 CondensedProblem& CondensedProblem::operator=(CondensedProblem&&) noexcept = default;
@@ -50,6 +52,60 @@ void CondensedProblem::append_dropped() {
   }
 }
 
+void CondensedProblem::set_unit_loads() {
+  unit_loads_.resize(pair_.spectrum_size(), structure_->load_count());
+  static_loads_.resizeLike(unit_loads_);
+  const auto set = [&](Eigen::Index l, const Eigen::VectorXcd& harmonics) {
+    unit_loads_.col(l) = pair_.load(harmonics);
+    static_loads_.col(l) = pair_.load(harmonics.head(std::min<Eigen::Index>(1, harmonics.size())));
+  };
+  set(0, load_harmonics_);
+  const int periods = repeats_within_period(load_harmonics_);
+  for (std::size_t l = 0; l < structure_->forces.size(); ++l) {
+    PeriodicForce force = structure_->forces[l];
+    force.harmonics = over_periods(force.harmonics, periods);
+    set(Eigen::Index(l) + 1, force.amplitudes(1.0));
+  }
+}
+
+// The power of the frequency that a load grows with.
+double CondensedProblem::load_power(Eigen::Index load) const {
+  return load == 0 ? 0.0 : structure_->forces[std::size_t(load) - 1].derivative;
+}
+
+void CondensedProblem::update_load() {
+  load_ = load_scale_ == 1.0 ? unit_loads_
+                             : Eigen::MatrixXcd(static_loads_ + load_scale_ * (unit_loads_ - static_loads_));
+  for (Eigen::Index l = 0; l < load_.cols(); ++l)
+    if (load_power(l) > 0.0) load_.col(l) *= std::pow(frequency_, load_power(l));
+}
+
+// The responses of the contacts to all loads together, (M/2 + 1) x C, from those to each unit load.
+Eigen::MatrixXcd CondensedProblem::combine_loads(const Eigen::MatrixXcd& responses,
+                                                 const Eigen::MatrixXcd& loads) const {
+  Eigen::MatrixXcd sum = responses.leftCols(contacts());
+  sum.array().colwise() *= loads.col(0).array();
+  for (Eigen::Index l = 1; l < loads.cols(); ++l)
+    sum.array() += responses.middleCols(contacts() * l, contacts()).array().colwise() * loads.col(l).array();
+  return sum;
+}
+
+void CondensedProblem::update_free_response() {
+  slope_is_current_ = false;
+  load_response_ = combine_loads(condensed_.load_response, load_);
+  synthesize(load_response_, free_response_);
+}
+
+void CondensedProblem::set_load_scale(double scale) {
+  if (!std::isfinite(scale))
+    throw std::invalid_argument("CondensedProblem::set_load_scale: scale is " + std::to_string(scale) +
+                                "; it must be finite");
+  if (scale == load_scale_) return;
+  load_scale_ = scale;
+  update_load();
+  if (frequency_ > 0.0) update_free_response();
+}
+
 ImpedanceCoefficients CondensedProblem::factors(int k) const {
   return {factors_[0][k], factors_[1][k], factors_[2][k]};
 }
@@ -63,13 +119,11 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
   factors_ = {symbol(2) * (frequency_ * frequency_), symbol(1) * frequency_, symbol(0)};
   derivatives_ = {symbol(2) * (2.0 * frequency_), symbol(1), Eigen::VectorXcd::Zero(solved)};
-  condensation_.condense(factors_, derivatives_, condensed_, load_.head(solved));
+  if (!structure_->forces.empty()) update_load();  // some grow with the frequency
+  condensation_.condense(factors_, derivatives_, condensed_, load_.topRows(solved));
   append_dropped();
-  condensed_.load_response.array().colwise() *= load_.array();
-  condensed_.load_response_slope.array().colwise() *= load_.array();
-  slope_is_current_ = false;
   update_kernel();
-  synthesize(condensed_.load_response, free_response_);
+  update_free_response();
 }
 
 void CondensedProblem::set_regularization(Eigen::VectorXd flexibility) {
@@ -128,9 +182,23 @@ void CondensedProblem::synthesize(const Eigen::MatrixXcd& spectra, Eigen::Vector
 
 const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
   if (slope_is_current_) return free_response_slope_;
-  synthesize(condensed_.load_response_slope, free_response_slope_);
+  Eigen::MatrixXcd slope = combine_loads(condensed_.load_response_slope, load_);
+  if (!structure_->forces.empty()) {
+    Eigen::MatrixXcd growth = load_;  // by frequency, of loads that are derivatives
+    for (Eigen::Index l = 0; l < growth.cols(); ++l) growth.col(l) *= load_power(l) / frequency_;
+    slope += combine_loads(condensed_.load_response, growth);
+  }
+  synthesize(slope, free_response_slope_);
   slope_is_current_ = true;
   return free_response_slope_;
+}
+
+Eigen::VectorXd CondensedProblem::contact_free_response_by_scale() {
+  Eigen::MatrixXcd varying = unit_loads_ - static_loads_;
+  for (Eigen::Index l = 0; l < varying.cols(); ++l) varying.col(l) *= std::pow(frequency_, load_power(l));
+  Eigen::VectorXd samples;
+  synthesize(combine_loads(condensed_.load_response, varying), samples);
+  return samples;
 }
 
 void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
@@ -222,7 +290,7 @@ Eigen::VectorXd CondensedProblem::displacement(const Eigen::VectorXd& force) {
 // Contact-free response less what the force causes by `kernel`.
 Eigen::MatrixXcd CondensedProblem::respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force) {
   project(force);
-  Eigen::MatrixXcd spectra = condensed_.load_response;
+  Eigen::MatrixXcd spectra = load_response_;
   for (int c = 0; c < contacts(); ++c)
     for (int d = 0; d < contacts(); ++d)
       spectra.col(c) -=
@@ -238,15 +306,23 @@ Eigen::MatrixXcd CondensedProblem::unknown_coefficients(const Eigen::VectorXd& f
   return respond(kernel_, force);
 }
 
+// Of the contact-free response, (M/2 + 1) x C.
+Eigen::MatrixXd CondensedProblem::load_errors() const {
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(load_.rows(), contacts());
+  for (Eigen::Index l = 0; l < load_.cols(); ++l)
+    errors += load_.col(l).cwiseAbs().asDiagonal() *
+              condensed_.load_response_error.middleCols(contacts() * l, contacts());
+  return errors;
+}
+
 double CondensedProblem::rounding_error(const Eigen::VectorXd& force) {
   const double motion = safe_norm(coefficients(force));  // and <p, force> in translates
   const Eigen::MatrixXd spread = condensed_.compliance_error.cwiseSqrt();
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(spread.rows());
   for (int d = 0; d < contacts(); ++d)
     moved += spread.col(d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)].cwiseAbs());
-  const Eigen::MatrixXd errors =
-      load_.cwiseAbs().asDiagonal() * condensed_.load_response_error + moved.asDiagonal() * spread;
-  return relative_to(std::max(motion, safe_norm(condensed_.load_response)), safe_norm(errors));
+  const Eigen::MatrixXd errors = load_errors() + moved.asDiagonal() * spread;
+  return relative_to(std::max(motion, safe_norm(load_response_)), safe_norm(errors));
 }
 
 Eigen::VectorXd CondensedProblem::rounding_motion(const Eigen::VectorXd& force) {
@@ -254,12 +330,11 @@ Eigen::VectorXd CondensedProblem::rounding_motion(const Eigen::VectorXd& force) 
   const auto phase = [](std::complex<double> value) {
     return value == 0.0 ? std::complex<double>(0.0) : value / std::abs(value);
   };
-  const Eigen::MatrixXd spread = condensed_.compliance_error.cwiseSqrt();
+  const Eigen::MatrixXd spread = condensed_.compliance_error.cwiseSqrt(), of_loads = load_errors();
   Eigen::MatrixXcd errors(spread.rows(), contacts());
   for (Eigen::Index k = 0; k < errors.rows(); ++k)
     for (int c = 0; c < contacts(); ++c) {
-      errors(k, c) =
-          std::abs(load_[k]) * condensed_.load_response_error(k, c) * phase(condensed_.load_response(k, c));
+      errors(k, c) = of_loads(k, c) * phase(load_response_(k, c));
       for (int d = 0; d < contacts(); ++d)
         errors(k, c) -= phase(condensed_.compliance(k, c + contacts() * d)) * spread(k, c) * spread(k, d) *
                         work_->translates[static_cast<std::size_t>(d)][k];
@@ -275,7 +350,7 @@ Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& forc
   Eigen::VectorXcd forces(contacts());
   for (int k = 0; k < pair_.solved_size(); ++k) {
     for (int c = 0; c < contacts(); ++c) forces[c] = work_->translates[static_cast<std::size_t>(c)][k];
-    spectra.col(k) = condensation_.recover(factors(k), load_[k], forces);
+    spectra.col(k) = condensation_.recover(factors(k), load_.row(k).transpose(), forces);
   }
   return spectra;
 }

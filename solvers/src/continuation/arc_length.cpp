@@ -21,6 +21,14 @@ void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) co
   slope -= system.problem().contact_free_response_slope();
 }
 
+bool LoadScaleParameter::contains(double p) const { return std::isfinite(p); }
+
+void LoadScaleParameter::set(ContactSystem& system, double p) const { system.problem().set_load_scale(p); }
+
+void LoadScaleParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
+  slope = -system.problem().contact_free_response_by_scale();
+}
+
 void ArcLengthOptions::validate() const {
   constexpr const char* who = "ArcLengthOptions";
   for (const auto& [name, value] :

@@ -41,6 +41,8 @@ FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws
     return detail::solve_lower_transposed(lower, detail::solve_lower(lower, right));
   };
   load_ = period * divide_by_mass(structure.load);
+  force_shapes_ = period * divide_by_mass(structure.load_shapes().rightCols(structure.load_count() - 1));
+  for (const PeriodicForce& force : structure.forces) force_series_.push_back(force.amplitudes(frequency_hz));
   contact_inertia_ = period * divide_by_mass(Eigen::MatrixXd(directions_.transpose()));
   linear_ = RowMajorMatrix::Zero(2 * n, 2 * n);
   linear_.topRightCorner(n, n).diagonal().setConstant(two_pi);
@@ -64,6 +66,8 @@ void FirstOrderSystem::derivative(double periods, std::span<const double> state,
   rate.head(n) = two_pi * y.tail(n);
   rate.tail(n).noalias() = linear_.bottomRows(n) * y;
   rate.tail(n) += std::cos(two_pi * periods) * load_;
+  for (std::size_t l = 0; l < force_series_.size(); ++l)
+    rate.tail(n) += series_value(force_series_[l], periods) * force_shapes_.col(Eigen::Index(l));
   for (int c = 0; c < contact_inertia_.cols(); ++c)
     rate.tail(n) -= laws_[c].force(contact_displacement(c, state)) * contact_inertia_.col(c);
 }
@@ -81,6 +85,8 @@ void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
   }
   by_time.head(n).setZero();
   by_time.tail(n) = -two_pi * std::sin(two_pi * periods) * load_;
+  for (std::size_t l = 0; l < force_series_.size(); ++l)
+    by_time.tail(n) += series_slope(force_series_[l], periods) * force_shapes_.col(Eigen::Index(l));
 }
 
 Eigen::VectorXd FirstOrderSystem::state(const Eigen::VectorXd& displacement,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,10 @@ void advance_sample(const Flows& flows, Eigen::VectorXd& state, bool& closed, st
 
 RigidReference rigid_reference(const LinearStructure& structure, double gap, double frequency_hz, int points,
                                double tolerance, int max_periods) {
+  if (!structure.forces.empty())
+    throw std::invalid_argument("rigid_reference: the structure has " +
+                                std::to_string(structure.forces.size()) +
+                                " forces beside its load; it must have none");
   const Flows flows(structure, gap, frequency_hz, points);
   RigidReference result;
   result.displacement.resize(points);

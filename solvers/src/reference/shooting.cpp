@@ -31,6 +31,10 @@ struct OutputGrid {
   int repeat = 1;  // steps of that level per output point
 };
 
+double largest_load(const LinearStructure& structure, double frequency_hz) {
+  return structure.load_amplitudes(frequency_hz).cwiseAbs().rowwise().sum().maxCoeff();
+}
+
 class Shooting {
  public:
   Shooting(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
@@ -39,7 +43,7 @@ class Shooting {
         law_(law),
         grid_(options.output_points),
         propagator_(detail::ModalStructure(structure, frequency_hz), law,
-                    structure.load.cwiseAbs().maxCoeff(), grid_.base, options.step_tolerance) {}
+                    largest_load(structure, frequency_hz), grid_.base, options.step_tolerance) {}
 
   ShootingResult run() {
     ShootingResult result;
@@ -112,11 +116,14 @@ class Shooting {
   /// The modal state (q, q') at the time t = periods T from its deviation.
   Eigen::VectorXd total(const Eigen::VectorXd& deviation, double periods) const {
     const int n = modes().size();
-    const Eigen::VectorXcd linear =
-        std::polar(1.0, 2.0 * std::numbers::pi * periods) * modes().linear_response;
     Eigen::VectorXd result = deviation;
-    result.head(n) += linear.real();
-    result.tail(n) -= modes().angular_frequency * linear.imag();
+    for (Eigen::Index m = 0; m < modes().linear_response.cols(); ++m) {
+      if (modes().linear_response.col(m).isZero(0.0)) continue;
+      const Eigen::VectorXcd linear =
+          std::polar(1.0, 2.0 * std::numbers::pi * double(m) * periods) * modes().linear_response.col(m);
+      result.head(n) += linear.real();
+      result.tail(n) -= double(m) * modes().angular_frequency * linear.imag();
+    }
     return result;
   }
 

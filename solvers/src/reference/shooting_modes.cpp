@@ -42,17 +42,22 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
   structure.require_single_contact("shoot");
   const Eigen::MatrixXd along = structure.contact_directions * shapes;
   contact = along.row(0).transpose();
-  const Eigen::VectorXd load = shapes.transpose() * structure.load;
-  linear_response.resize(load.size());
-  for (Eigen::Index k = 0; k < load.size(); ++k) {
-    const std::complex<double> impedance(stiffness[k] - angular_frequency * angular_frequency,
-                                         angular_frequency * damping[k]);
-    linear_response[k] = load[k] == 0.0 ? 0.0 : load[k] / impedance;
+  const Eigen::MatrixXcd loads = structure.load_amplitudes(frequency_hz);
+  linear_response = Eigen::MatrixXcd::Zero(size(), loads.cols());
+  for (Eigen::Index m = 0; m < loads.cols(); ++m) {
+    linear_response.col(m).real() = shapes.transpose() * loads.col(m).real();
+    linear_response.col(m).imag() = shapes.transpose() * loads.col(m).imag();
+  }
+  for (Eigen::Index m = 0; m < linear_response.cols(); ++m) {
+    const double omega = double(m) * angular_frequency;
+    for (Eigen::Index k = 0; k < linear_response.rows(); ++k)
+      if (linear_response(k, m) != 0.0)
+        linear_response(k, m) /= std::complex<double>(stiffness[k] - omega * omega, omega * damping[k]);
   }
   if (!linear_response.allFinite())
     throw std::invalid_argument("shoot: an undamped mode is loaded at its own frequency, " +
                                 std::to_string(frequency_hz) +
-                                " Hz; the response without contact is unbounded");
+                                " Hz or a multiple; the response without contact is unbounded");
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -14,13 +14,14 @@ struct ModalStructure {
 
   int size() const { return static_cast<int>(stiffness.size()); }
 
-  double angular_frequency;          // rad/s
-  Eigen::VectorXd stiffness;         // n, 1/s^2, squared natural angular frequencies
-  Eigen::VectorXd damping;           // n, 1/s
-  Eigen::MatrixXd shapes;            // n x n, columns are modes
-  Eigen::MatrixXd projection;        // n x n, modal coordinates of a displacement, shapes^T M
-  Eigen::VectorXd contact;           // n, the modes along the contact's direction
-  Eigen::VectorXcd linear_response;  // n, q(t) = Re(linear_response exp(i omega t)) without contact
+  double angular_frequency;    // rad/s
+  Eigen::VectorXd stiffness;   // n, 1/s^2, squared natural angular frequencies
+  Eigen::VectorXd damping;     // n, 1/s
+  Eigen::MatrixXd shapes;      // n x n, columns are modes
+  Eigen::MatrixXd projection;  // n x n, modal coordinates of a displacement, shapes^T M
+  Eigen::VectorXd contact;     // n, the modes along the contact's direction
+  // n x (H + 1): without contact q(t) = Re sum_m linear_response[:, m] exp(i m omega t).
+  Eigen::MatrixXcd linear_response;
 };
 
 }  // namespace wavebalance::solvers::detail

@@ -35,7 +35,10 @@ ContactPropagator::ContactPropagator(ModalStructure modes, AnyContactLaw law, do
       load_scale_(load_scale),
       base_steps_(base_steps),
       tolerance_(tolerance),
-      linear_contact_((modes_.linear_response.array() * modes_.contact.array()).sum()) {}
+      linear_contact_(modes_.linear_response.cols()) {
+  for (Eigen::Index m = 0; m < linear_contact_.size(); ++m)
+    linear_contact_[m] = (modes_.linear_response.col(m).array() * modes_.contact.array()).sum();
+}
 
 const StepTable& ContactPropagator::table(int level) {
   const double period = two_pi / modes_.angular_frequency;
@@ -45,7 +48,7 @@ const StepTable& ContactPropagator::table(int level) {
 }
 
 double ContactPropagator::linear_contact(double periods) const {
-  return std::real(linear_contact_ * std::polar(1.0, two_pi * periods));
+  return series_value(linear_contact_, periods);
 }
 
 /// Newton on u = displacement + node_force f_c(u), from the constant force at the step's start; leaves u in

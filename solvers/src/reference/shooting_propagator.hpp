@@ -22,7 +22,7 @@ class ContactPropagator {
   ContactPropagator(ModalStructure modes, AnyContactLaw law, double load_scale, int base_steps,
                     double tolerance);
 
-  /// Takes state (2n) over one period from a time at which the load is at its maximum; multiplies sensitivity
+  /// Takes state (2n) over one period from t = 0; multiplies sensitivity
   /// (2n x columns), unless null, by the derivative of the period map. False when a step of the finest level
   /// is not accurate enough.
   bool propagate_period(Eigen::VectorXd& state, Eigen::MatrixXd* sensitivity, int coarsest_level = 0,
@@ -50,8 +50,8 @@ class ContactPropagator {
   double load_scale_;
   int base_steps_;
   double tolerance_;
-  std::complex<double> linear_contact_;  // m
-  std::vector<StepTable> tables_;        // by level
+  Eigen::VectorXcd linear_contact_;  // m, of the contact without its force, by harmonics
+  std::vector<StepTable> tables_;    // by level
   Attempt attempt_;
   long steps_ = 0;
 };

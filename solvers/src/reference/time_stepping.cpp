@@ -31,19 +31,32 @@ Eigen::VectorXd initial_state(const FirstOrderSystem& system, const TimeStepping
   return system.state(or_zero(options.initial_displacement), or_zero(options.initial_velocity));
 }
 
+/// The largest entry of the state of the linear response to one harmonic of the load, m/s.
+double linear_state(const LinearStructure& structure, double angular_frequency, double harmonic,
+                    const Eigen::VectorXcd& load) {
+  using Complex = std::complex<double>;
+  const double omega = harmonic * angular_frequency;
+  const Eigen::MatrixXcd impedance = Eigen::MatrixXcd(
+      structure.stiffness.cast<Complex>() - Complex(omega * omega) * structure.mass.cast<Complex>() +
+      Complex(0.0, omega) * structure.damping.cast<Complex>());
+  const Eigen::VectorXcd response = detail::Lu<Complex>(impedance).solve(load);
+  const double state = angular_frequency * std::max(1.0, harmonic) * response.cwiseAbs().maxCoeff();
+  return std::isfinite(state) ? state : 0.0;
+}
+
 /// The size of the state, m/s, that the tolerances are relative to: the amplitude of the response without
-/// contact, or the initial state when that is larger; 1 when both vanish.
+/// contact, or the initial state when that is larger; 1 when both vanish. Harmonics with less than a
+/// hundredth of the load do not matter for a size.
 double state_scale(const LinearStructure& structure, double angular_frequency,
                    const Eigen::VectorXd& initial) {
-  using Complex = std::complex<double>;
-  const Eigen::MatrixXcd impedance =
-      Eigen::MatrixXcd(structure.stiffness.cast<Complex>() -
-                       Complex(angular_frequency * angular_frequency) * structure.mass.cast<Complex>() +
-                       Complex(0.0, angular_frequency) * structure.damping.cast<Complex>());
-  const detail::Lu<Complex> lu(impedance);
-  const Eigen::VectorXcd response = lu.solve(Eigen::VectorXcd(structure.load.cast<Complex>()));
-  const double linear = angular_frequency * response.cwiseAbs().maxCoeff();
-  const double scale = std::max(std::isfinite(linear) ? linear : 0.0, initial.cwiseAbs().maxCoeff());
+  constexpr double small = 1e-2;
+  const Eigen::MatrixXcd loads = structure.load_amplitudes(angular_frequency / (2.0 * std::numbers::pi));
+  const Eigen::VectorXd sizes = loads.colwise().norm();
+  double linear = 0.0;
+  for (Eigen::Index m = 0; m < loads.cols(); ++m)
+    if (m == 1 || (sizes[m] > 0.0 && sizes[m] >= small * sizes.maxCoeff()))
+      linear = std::max(linear, linear_state(structure, angular_frequency, double(m), loads.col(m)));
+  const double scale = std::max(linear, initial.cwiseAbs().maxCoeff());
   return scale > 0.0 ? scale : 1.0;
 }
 

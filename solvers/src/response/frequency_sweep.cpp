@@ -40,10 +40,12 @@ namespace {
 // A response with contact larger than this many gaps, and than this many times that without contact.
 constexpr double bound = 100.0;
 
-// Leaves out neighbours that are less than `least` apart in frequency, the nearest first. The turning points
-// of the curve on that scale remain.
-void leave_out_small_returns(std::vector<TurningPoint>& turns, double least) {
-  const auto apart = [&](std::size_t i) { return std::abs(turns[i + 1].frequency - turns[i].frequency); };
+// Leaves out neighbours that are less than `least` apart in the parameter, the nearest first. The turning
+// points of the curve on that scale remain.
+void leave_out_small_returns(std::vector<TurningPoint>& turns, double least, SweepParameter parameter) {
+  const auto apart = [&](std::size_t i) {
+    return std::abs(parameter_of(turns[i + 1], parameter) - parameter_of(turns[i], parameter));
+  };
   while (turns.size() > 1) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i + 1 < turns.size(); ++i)
@@ -57,12 +59,13 @@ void leave_out_small_returns(std::vector<TurningPoint>& turns, double least) {
 class Sweep {
  public:
   Sweep(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweepOptions& options,
-        const SweepStart* start)
+        const SweepStart* start, SweepParameter parameter = SweepParameter::frequency)
       : problem_(problem),
         laws_(laws),
         system_(problem, laws),
         options_(options),
         start_(start),
+        parameter_(parameter),
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   ~Sweep() { problem_.set_regularization({}); }
@@ -74,6 +77,7 @@ class Sweep {
       step_share_ = share;
       largest_free_ = 0.0;
       result_ = {};
+      result_.parameter = parameter_;
       trace();
       const bool again = result_.status == SweepStatus::unbounded &&
                          options_.arc_length.grazing_events != GrazingEvents::all;
@@ -81,7 +85,8 @@ class Sweep {
     }
     const double interval = std::abs(options_.to - options_.from);
     leave_out_small_returns(result_.turning_points,
-                            options_.smallest_return > 0.0 ? options_.smallest_return : 1e-3 * interval);
+                            options_.smallest_return > 0.0 ? options_.smallest_return : 1e-3 * interval,
+                            parameter_);
     return std::move(result_);
   }
 
@@ -91,7 +96,10 @@ class Sweep {
       problem_.set_frequency(start_->response.frequency);
       return start_->response;
     }
-    problem_.set_frequency(options_.from);
+    if (parameter_ == SweepParameter::load_scale)
+      problem_.set_load_scale(options_.from);
+    else
+      problem_.set_frequency(options_.from);
     ForcedResponseOptions how = options_.start;
     if (!how.observer) how.observer = options_.observer;
     return forced_response(problem_, laws_, how);
@@ -113,7 +121,7 @@ class Sweep {
   CurvePoint first_point(const PeriodicResponse& first) const {
     CurvePoint point;
     point.displacement = first.unknown;
-    point.parameter = first.frequency;
+    point.parameter = parameter_ == SweepParameter::frequency ? first.frequency : options_.from;
     const bool directed = start_ && start_->direction.size() > 0;
     point.displacement_tangent = directed ? start_->direction : Eigen::VectorXd::Zero(first.unknown.size());
     point.parameter_tangent = directed ? 0.0 : options_.to - options_.from;
@@ -123,11 +131,10 @@ class Sweep {
   // Follows the curve from the first point. Where it returns to a milestone, it is followed again from the
   // milestone before, each time with shorter steps.
   void follow_until_open(CurvePoint from, ArcLengthOptions arc) {
-    const FrequencyParameter parameter;
     Milestones milestones(arc);
     turns_at_point_.clear();
     while (true) {
-      ArcLength curve(system_, parameter, arc);
+      ArcLength curve(system_, curve_parameter(parameter_), arc);
       if (start_curve(curve, from) != ArcLength::Status::advanced) return;
       if (result_.points.empty() && !record(curve.point())) {
         result_.status = SweepStatus::cancelled;
@@ -220,12 +227,12 @@ class Sweep {
       if (!curve.locate_turning_point(turning)) turning = curve.point();
     }
     const SweepPoint measured = measure(turning);
-    result_.turning_points.push_back(
-        {measured.frequency, measured.max_displacement, measured.max_abs_displacement, turning.grazing});
+    result_.turning_points.push_back({measured.frequency, measured.max_displacement,
+                                      measured.max_abs_displacement, turning.grazing, measured.load_scale});
   }
 
   SweepPoint measure(const CurvePoint& point) {
-    SweepPoint measured = sweep_point(system_, evaluator_, point);
+    SweepPoint measured = sweep_point(system_, evaluator_, point, parameter_);
     result_.condition = std::max(result_.condition, problem_.condensation().condition());
     result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
     if (!options_.keep_unknowns) measured.unknown.resize(0);
@@ -237,8 +244,10 @@ class Sweep {
     turns_at_point_.push_back(result_.turning_points.size());
     const double done = (point.parameter - options_.from) / (options_.to - options_.from);
     const int count = static_cast<int>(result_.points.size());
+    const bool frequency = parameter_ == SweepParameter::frequency;
     return goes_on(options_.observer,
-                   {"frequency sweep", count, point.parameter, "Hz", std::clamp(done, 0.0, 1.0)});
+                   {frequency ? "frequency sweep" : "amplitude sweep", count, point.parameter,
+                    frequency ? "Hz" : "of the load", std::clamp(done, 0.0, 1.0)});
   }
 
   CondensedProblem& problem_;
@@ -246,6 +255,7 @@ class Sweep {
   ContactSystem system_;
   const FrequencySweepOptions& options_;
   const SweepStart* start_;  // null: the first response is sought at `from`
+  SweepParameter parameter_;
   TrialEvaluator evaluator_;
   FrequencySweep result_;
   double largest_free_ = 0.0;
@@ -256,13 +266,22 @@ class Sweep {
 
 }  // namespace
 
-SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point) {
+const CurveParameter& curve_parameter(SweepParameter parameter) {
+  static const FrequencyParameter frequency;
+  static const LoadScaleParameter load_scale;
+  if (parameter == SweepParameter::frequency) return frequency;
+  return load_scale;
+}
+
+SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point,
+                       SweepParameter parameter) {
   CondensedProblem& problem = system.problem();
-  problem.set_frequency(point.parameter);
+  curve_parameter(parameter).set(system, point.parameter);
   system.evaluate(point.displacement);
   const Eigen::MatrixXcd coefficients = problem.coefficients(system.force());
   SweepPoint measured;
-  measured.frequency = point.parameter;
+  measured.frequency = problem.frequency();
+  measured.load_scale = problem.load_scale();
   measured.max_displacement = -std::numeric_limits<double>::infinity();
   measured.min_displacement = std::numeric_limits<double>::infinity();
   measured.max_force = system.force().maxCoeff();
@@ -300,6 +319,15 @@ FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& law
                                const FrequencySweepOptions& options) {
   options.validate();
   return Sweep(problem, laws, options, nullptr).run();
+}
+
+FrequencySweep amplitude_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options) {
+  options.validate();
+  if (!(problem.frequency() > 0.0))
+    throw std::invalid_argument(
+        "amplitude_sweep: the problem has no frequency yet; call set_frequency first");
+  return Sweep(problem, laws, options, nullptr, SweepParameter::load_scale).run();
 }
 
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,

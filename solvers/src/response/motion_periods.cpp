@@ -1,21 +1,14 @@
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
 
 #include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
 
-int load_periods(const CondensedProblem& problem) {
-  int common = 0;
-  for (Eigen::Index n = 1; n < problem.load_harmonics().size(); ++n)
-    if (problem.load_harmonics()[n] != 0.0) common = std::gcd(common, static_cast<int>(n));
-  return std::max(1, common);
-}
+int load_periods(const CondensedProblem& problem) { return repeats_within_period(problem.load_harmonics()); }
 
 double change_after(const CondensedProblem& problem, const PeriodicResponse& response, int periods) {
   detail::require_at_least("change_after", "periods", periods, 1);

@@ -36,18 +36,17 @@ void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
   }
 }
 
-// Responses of all degrees of freedom to the load's harmonics without contact, n x harmonics.
-Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::VectorXcd& harmonics,
+// Responses of all degrees of freedom without contact to a load of these amplitudes, n x harmonics.
+Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
                                 double frequency) {
-  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), harmonics.size());
-  for (Eigen::Index n = 0; n < harmonics.size(); ++n) {
-    if (harmonics[n] == 0.0) continue;
+  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), amplitudes.cols());
+  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
+    if (amplitudes.col(n).isZero(0.0)) continue;
     const Complex rate(0.0, 2.0 * std::numbers::pi * frequency * double(n));
     const Eigen::MatrixXcd impedance = Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
                                        rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
                                        rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
-    const Eigen::VectorXcd right = harmonics[n] * structure.load.cast<Complex>();
-    responses.col(n) = detail::Lu<Complex>(impedance).solve(right);
+    responses.col(n) = detail::Lu<Complex>(impedance).solve(Eigen::VectorXcd(amplitudes.col(n)));
   }
   return responses;
 }
@@ -63,17 +62,17 @@ Eigen::MatrixXd contact_free_motion(const Eigen::MatrixXcd& responses, int steps
   return motion;
 }
 
-// The harmonics of a load that is `start` periods ahead, so that its first one is at its maximum: a load that
-// comes later then gives the same motion later.
-Eigen::VectorXcd from_maximum(Eigen::VectorXcd harmonics, double& start) {
+// The amplitudes of a load (n x harmonics) that is `start` periods ahead, so that the first harmonic of
+// `series` is at its maximum: a load that comes later then gives the same motion later.
+Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXcd& series, double& start) {
   start = 0.0;
   Eigen::Index first = 1;
-  while (first < harmonics.size() && harmonics[first] == 0.0) ++first;
-  if (first >= harmonics.size()) return harmonics;
-  start = -std::arg(harmonics[first]) / (2.0 * std::numbers::pi * double(first));
-  for (Eigen::Index n = 0; n < harmonics.size(); ++n)
-    harmonics[n] *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * start);
-  return harmonics;
+  while (first < series.size() && series[first] == 0.0) ++first;
+  if (first >= series.size()) return amplitudes;
+  start = -std::arg(series[first]) / (2.0 * std::numbers::pi * double(first));
+  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n)
+    amplitudes.col(n) *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * start);
+  return amplitudes;
 }
 
 // Every `step`-th harmonic: those of a load that repeats `step` times within the period.
@@ -83,6 +82,22 @@ Eigen::VectorXcd every(int step, const Eigen::VectorXcd& harmonics) {
   return Eigen::VectorXcd(harmonics(Eigen::seqN(0, count, step)));
 }
 
+// All that acts on the structure of a problem, n x harmonics of one period of the load.
+Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
+  const LinearStructure& structure = problem.structure();
+  const Eigen::VectorXcd harmonics = every(repeats, problem.load_harmonics());
+  LinearStructure forced;  // the forces alone
+  forced.load = Eigen::VectorXd::Zero(structure.size());
+  forced.forces = structure.forces;
+  Eigen::MatrixXcd amplitudes = forced.load_amplitudes(repeats * problem.frequency());
+  const Eigen::Index before = amplitudes.cols(), count = std::max(before, harmonics.size());
+  amplitudes.conservativeResize(Eigen::NoChange, count);
+  amplitudes.rightCols(count - before).setZero();
+  amplitudes.leftCols(harmonics.size()) += structure.load.cast<Complex>() * harmonics.transpose();
+  if (problem.load_scale() != 1.0) amplitudes.rightCols(count - 1) *= problem.load_scale();
+  return amplitudes;
+}
+
 class Settling {
  public:
   Settling(const CondensedProblem& problem, const ContactLaws& laws, const SettlingOptions& options,
@@ -90,8 +105,11 @@ class Settling {
       : laws_(laws), options_(options), flow_(std::move(flow)), repeats_(load_periods(problem)) {
     const LinearStructure& structure = problem.structure();
     const double frequency = repeats_ * problem.frequency();
-    const Eigen::VectorXcd harmonics = from_maximum(every(repeats_, problem.load_harmonics()), start_);
-    const Eigen::MatrixXcd responses = load_responses(structure, harmonics, frequency);
+    const bool forces_alone = structure.load.isZero(0.0) && !structure.forces.empty();
+    const Eigen::VectorXcd series = forces_alone ? structure.forces.front().amplitudes(frequency)
+                                                 : every(repeats_, problem.load_harmonics());
+    const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
+    const Eigen::MatrixXcd responses = load_responses(structure, amplitudes, frequency);
     free_ = contact_free_motion(structure.contact_directions * responses, options.steps);
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(structure.size());
     for (Eigen::Index n = 0; n < responses.cols(); ++n)

@@ -78,6 +78,7 @@ StaticCondensation without_massless(const LinearStructure& structure) {
   const Eigen::MatrixXd coupling = held.solve(Eigen::MatrixXd(stiffness(removed, kept)));
   result.compliance = detail::product(on_removed, held.solve(Eigen::MatrixXd(on_removed.transpose())));
   LinearStructure& rest = result.structure;
+  rest.forces.clear();  // perturbations of a motion do not depend on its load
   rest.mass = Eigen::MatrixXd(mass(kept, kept)).sparseView();
   rest.damping = Eigen::MatrixXd(damping(kept, kept)).sparseView();
   rest.stiffness = Eigen::MatrixXd(stiffness(kept, kept) -

@@ -85,8 +85,11 @@ class Tracker {
         dynamics_(dynamics),
         options_(options),
         system_(in_form_of(curve, problem), laws),
-        path_(system_, frequency_, scales()),
-        evaluator_(problem.pair().trial(), options.output_points, 0) {}
+        path_(system_, curve_parameter(curve.parameter), scales()),
+        evaluator_(problem.pair().trial(), options.output_points, 0) {
+    if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
+      problem.set_frequency(curve.points.front().frequency);
+  }
 
   ~Tracker() { problem_.set_regularization({}); }
 
@@ -96,24 +99,27 @@ class Tracker {
       const SweepPoint& point = curve_.points[i];
       CurveSample here{{}, {}};
       here.point.displacement = point.unknown;
-      here.point.parameter = point.frequency;
+      here.point.parameter = value_of(point);
       measure(here, Measure::count);
       if (!is_known(here)) here.stability.unstable = -1;
       result_.points.push_back(here.stability);
       index_ = i;
       if (before) examine(*before, here, 1.0);
       before = std::move(here);
-      if (!tell(point.frequency)) break;
+      if (!tell(value_of(point))) break;
     }
     return std::move(result_);
   }
 
  private:
-  bool tell(double frequency) {
+  double value_of(const SweepPoint& point) const { return parameter_of(point, curve_.parameter); }
+
+  bool tell(double value) {
     const double done =
         static_cast<double>(result_.points.size()) / static_cast<double>(curve_.points.size());
     const int count = static_cast<int>(result_.points.size());
-    result_.cancelled = !goes_on(options_.observer, {"stability", count, frequency, "Hz", done});
+    const char* unit = curve_.parameter == SweepParameter::frequency ? "Hz" : "of the load";
+    result_.cancelled = !goes_on(options_.observer, {"stability", count, value, unit, done});
     return !result_.cancelled;
   }
 
@@ -122,10 +128,10 @@ class Tracker {
     double largest = 0.0;
     const auto [low, high] =
         std::minmax_element(curve_.points.begin(), curve_.points.end(),
-                            [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+                            [this](const auto& a, const auto& b) { return value_of(a) < value_of(b); });
     for (const SweepPoint& point : curve_.points) largest = std::max(largest, point.max_abs_displacement);
     ArcLengthOptions scales;
-    const double interval = curve_.points.empty() ? 0.0 : high->frequency - low->frequency;
+    const double interval = curve_.points.empty() ? 0.0 : value_of(*high) - value_of(*low);
     scales.max_corrections = 32;  // half as many without grazing events
     scales.displacement_scale = largest > 0.0 ? largest : 1.0;
     scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
@@ -133,7 +139,7 @@ class Tracker {
   }
 
   PeriodicResponse response(const CurvePoint& point) {
-    problem_.set_frequency(point.parameter);
+    curve_parameter(curve_.parameter).set(system_, point.parameter);
     return response_at(system_, point.displacement);
   }
 
@@ -192,27 +198,27 @@ class Tracker {
   // Whether the curve stays on one side of a bracket. Near a fold it may turn at several samples, so that
   // points closer than those turns do not count.
   bool reverses_between(double from, double to) const {
-    const double frequency = 0.5 * (from + to);
-    const double close = std::max(1e-5 * frequency, std::abs(from - to));
-    const auto is_apart = [&](const SweepPoint& point) {
-      return std::abs(point.frequency - frequency) > close;
-    };
+    const double middle = 0.5 * (from + to);
+    const double close = std::max(1e-5 * middle, std::abs(from - to));
+    const auto is_apart = [&](const SweepPoint& point) { return std::abs(value_of(point) - middle) > close; };
     const auto here = curve_.points.begin() + static_cast<std::ptrdiff_t>(index_);
     const auto after = std::find_if(here, curve_.points.end(), is_apart);
     const auto before = std::find_if(std::make_reverse_iterator(here), curve_.points.rend(), is_apart);
     if (after == curve_.points.end() || before == curve_.points.rend()) return false;
-    return (before->frequency - frequency) * (after->frequency - frequency) > 0.0;
+    return (value_of(*before) - middle) * (value_of(*after) - middle) > 0.0;
   }
 
   SpecialPoint special_point(SpecialPointType type, const CurveSample& a, const CurveSample& b,
                              bool located) {
     SpecialPoint point;
     point.type = type;
-    point.frequency = 0.5 * (a.point.parameter + b.point.parameter);
+    const double middle = 0.5 * (a.point.parameter + b.point.parameter);
+    (curve_.parameter == SweepParameter::frequency ? point.frequency : point.load_scale) = middle;
     point.bracket = std::abs(a.point.parameter - b.point.parameter);
     point.located = located;
     point.unknown = a.point.displacement;
     const PeriodicResponse at = response(a.point);
+    if (curve_.parameter == SweepParameter::load_scale) point.frequency = at.frequency;
     point.multiplier = type == SpecialPointType::grazing ? Complex(not_a_number, not_a_number)
                                                          : critical_multiplier(type, at);
     point.max_displacement = -std::numeric_limits<double>::infinity();
@@ -239,7 +245,6 @@ class Tracker {
   const ContactDynamics& dynamics_;
   const CurveStabilityOptions& options_;
   ContactSystem system_;
-  FrequencyParameter frequency_;
   ArcLength path_;
   TrialEvaluator evaluator_;
   CurveStability result_;

@@ -99,16 +99,37 @@ MethodPointer make_method(const LinearStructure& structure, CondensationMethod& 
       structure, [&method](const LinearStructure& scaled) { return make_unscaled_method(scaled, method); });
 }
 
+// The column of contact c in the sum of all loads with their amplitudes (K x L), or with 1 if there are none.
+template <class Matrix, class Amplitudes>
+auto sum_of_loads(const Matrix& responses, Eigen::Index c, Eigen::Index contacts,
+                  const Amplitudes& amplitudes) {
+  using Column = Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, 1>;
+  Column sum = Column::Zero(responses.rows());
+  for (Eigen::Index l = 0; l * contacts < responses.cols(); ++l)
+    if (amplitudes.size() == 0)
+      sum += responses.col(c + contacts * l);
+    else
+      sum += responses.col(c + contacts * l).cwiseProduct(amplitudes.col(l));
+  return sum;
+}
+
 // NaN where squares leave the range of numbers.
-RoundingErrors relative_errors(const CondensedSpectrum& spectrum, const Eigen::VectorXcd& load) {
-  const Eigen::Index contacts = spectrum.load_response.cols();
+RoundingErrors relative_errors(const CondensedSpectrum& spectrum, const Eigen::MatrixXcd& load) {
+  const Eigen::Index contacts = spectrum.compliance_error.cols();
+  const bool one_load = spectrum.load_response.cols() == contacts;
+  const Eigen::MatrixXd load_sizes = load.cwiseAbs();
   double largest = 0.0, response = 0.0, error = 0.0;  // squares
   for (Eigen::Index c = 0; c < contacts; ++c) {
     largest = std::max(largest, spectrum.compliance.col(c * (contacts + 1)).cwiseAbs2().maxCoeff());
+    if (!one_load) {
+      response += sum_of_loads(spectrum.load_response, c, contacts, load).squaredNorm();
+      error += sum_of_loads(spectrum.load_response_error, c, contacts, load_sizes).squaredNorm();
+      continue;
+    }
     const auto responses = spectrum.load_response.col(c).cwiseAbs2();
     const auto errors = spectrum.load_response_error.col(c).cwiseAbs2();
-    response += load.size() == 0 ? responses.sum() : responses.dot(load.cwiseAbs2());
-    error += load.size() == 0 ? errors.sum() : errors.dot(load.cwiseAbs2());
+    response += load.size() == 0 ? responses.sum() : responses.dot(load.col(0).cwiseAbs2());
+    error += load.size() == 0 ? errors.sum() : errors.dot(load.col(0).cwiseAbs2());
   }
   return {relative_to(std::sqrt(largest), spectrum.compliance_error.maxCoeff()),
           relative_to(std::sqrt(response), std::sqrt(error))};
@@ -153,7 +174,7 @@ double StiffnessScale::require_regular(const ImpedanceCoefficients& factors, dou
 }
 
 Condensation::Condensation(const LinearStructure& structure, CondensationMethod method)
-    : chosen_(method), method_(make_method(structure, chosen_)) {
+    : chosen_(method), loads_(structure.load_count()), method_(make_method(structure, chosen_)) {
   if (method == CondensationMethod::automatic && chosen_ == CondensationMethod::modal)
     structure_ = std::make_unique<LinearStructure>(structure);
 }
@@ -170,7 +191,7 @@ CondensedPoint Condensation::dynamic_compliance(const ImpedanceCoefficients& fac
 }
 
 void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
-                            CondensedSpectrum& result, const Eigen::VectorXcd& load) {
+                            CondensedSpectrum& result, const Eigen::MatrixXcd& load) {
   condense_by_method(factors, derivatives, result, load);
   constexpr double largest_modal_error = 1e-8;
   if (!structure_ || !(rounding_.load_response > largest_modal_error)) return;
@@ -180,11 +201,13 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
 }
 
 void Condensation::condense_by_method(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
-                                      CondensedSpectrum& result, const Eigen::VectorXcd& load) {
+                                      CondensedSpectrum& result, const Eigen::MatrixXcd& load) {
   const Eigen::Index size = factors[0].size(), count = contacts();
   for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
-  for (auto* matrix : {&result.load_response, &result.load_response_slope}) matrix->resize(size, count);
-  for (auto* matrix : {&result.compliance_error, &result.load_response_error}) matrix->resize(size, count);
+  for (auto* matrix : {&result.load_response, &result.load_response_slope})
+    matrix->resize(size, count * loads_);
+  result.compliance_error.resize(size, count);
+  result.load_response_error.resize(size, count * loads_);
   method_->reset_condition();
   method_->condense(factors, derivatives, result);
   condition_ = method_->condition();
@@ -209,7 +232,19 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
 Eigen::VectorXcd Condensation::recover(const ImpedanceCoefficients& factors,
                                        std::complex<double> load_amplitude,
                                        const Eigen::VectorXcd& contact_forces) {
-  return method_->recover(factors, load_amplitude, contact_forces);
+  Eigen::VectorXcd amplitudes = Eigen::VectorXcd::Zero(loads_);
+  amplitudes[0] = load_amplitude;
+  return recover(factors, amplitudes, contact_forces);
+}
+
+Eigen::VectorXcd Condensation::recover(const ImpedanceCoefficients& factors,
+                                       const Eigen::VectorXcd& load_amplitudes,
+                                       const Eigen::VectorXcd& contact_forces) {
+  if (load_amplitudes.size() != loads_)
+    throw std::invalid_argument("Condensation::recover: load_amplitudes has " +
+                                std::to_string(load_amplitudes.size()) + " entries; the structure has " +
+                                std::to_string(loads_) + " loads");
+  return method_->recover(factors, load_amplitudes, contact_forces);
 }
 
 }  // namespace wavebalance::solvers

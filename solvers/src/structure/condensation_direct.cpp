@@ -8,16 +8,17 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
                                                 const ImpedanceCoefficients& derivatives) {
   factorize(factors);
   const int count = contacts();
-  Eigen::MatrixXcd right(size(), count + 1);
+  const Eigen::Index loads = loads_.cols();
+  Eigen::MatrixXcd right(size(), count + loads);
   right.leftCols(count) =
       Eigen::MatrixXd(structure_.contact_directions.transpose()).cast<std::complex<double>>();
-  right.col(count) = structure_.load;
+  right.rightCols(loads) = loads_.cast<std::complex<double>>();
   const Eigen::MatrixXcd response = solve(right);
   for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), lengths_[c]));
   const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(derivatives) * response);
   const Eigen::MatrixXcd at_contacts = structure_.contact_directions * response;
-  CondensedPoint point{at_contacts.leftCols(count), at_contacts.col(count), slope.leftCols(count),
-                       slope.col(count)};
+  CondensedPoint point{at_contacts.leftCols(count), at_contacts.rightCols(loads).reshaped(),
+                       slope.leftCols(count), slope.rightCols(loads).reshaped()};
   set_errors(factors, response, point);
   return point;
 }
@@ -31,18 +32,22 @@ void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen:
   const int count = contacts();
   const Eigen::Vector3d size(std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2]));
   const Eigen::MatrixXd squares = response.cwiseAbs2(), moduli = squares.cwiseSqrt();
-  const auto loaded = moduli.col(count);
-  Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
-  for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Eigen::Index(d)] * loaded);
-  point.load_response_error = rounding_unit * (moduli.leftCols(count).transpose() * perturbed);
+  point.load_response_error.resize(count * loads_.cols());
+  for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
+    const auto loaded = moduli.col(count + l);
+    Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
+    for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Eigen::Index(d)] * loaded);
+    point.load_response_error.segment(count * l, count) =
+        rounding_unit * (moduli.leftCols(count).transpose() * perturbed);
+  }
   point.compliance_error = rounding_unit * (squares.leftCols(count).transpose() * (row_sums_ * size));
 }
 
 Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors,
-                                       std::complex<double> load_amplitude,
+                                       const Eigen::VectorXcd& load_amplitudes,
                                        const Eigen::VectorXcd& contact_forces) {
   factorize(factors);
-  Eigen::VectorXcd force = structure_.load * load_amplitude;
+  Eigen::VectorXcd force = loads_ * load_amplitudes;
   force -= structure_.contact_directions.transpose() * contact_forces;
   const Eigen::VectorXcd response = solve(force);
   scale_.require_regular(factors, response, safe_norm(force));

@@ -12,6 +12,7 @@ class DirectMethod : public Condensation::Method {
 
   explicit DirectMethod(const LinearStructure& structure)
       : structure_(structure),
+        loads_(structure.load_shapes()),
         scale_(structure),
         magnitudes_{structure.mass.cwiseAbs(), structure.damping.cwiseAbs(), structure.stiffness.cwiseAbs()},
         row_sums_(structure.size(), 3),
@@ -24,7 +25,7 @@ class DirectMethod : public Condensation::Method {
   int contacts() const override { return structure_.contacts(); }
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives) override;
-  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, const Eigen::VectorXcd& load_amplitudes,
                            const Eigen::VectorXcd& contact_forces) override;
 
  protected:
@@ -35,11 +36,12 @@ class DirectMethod : public Condensation::Method {
   virtual void factorize(const ImpedanceCoefficients& factors) = 0;
   virtual Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const = 0;
 
-  // Errors of the responses to unit forces of the contacts and, in the last column, to the load.
+  // Errors of the responses to unit forces of the contacts and, in the last columns, to the loads.
   void set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
                   CondensedPoint& point) const;
 
   LinearStructure structure_;
+  Eigen::MatrixXd loads_;  // n x L
   StiffnessScale scale_;
   std::array<Eigen::SparseMatrix<double>, 3> magnitudes_;  // absolute values of M, C, K
   Eigen::MatrixX3d row_sums_;                              // of magnitudes_

@@ -20,7 +20,8 @@ class Condensation::Method {
   /// The default condenses point by point. The results have their size already.
   virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                         CondensedSpectrum& result);
-  virtual Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
+  virtual Eigen::VectorXcd recover(const ImpedanceCoefficients& factors,
+                                   const Eigen::VectorXcd& load_amplitudes,
                                    const Eigen::VectorXcd& contact_forces) = 0;
 
   /// The largest lower bound of a condition number since the last reset.

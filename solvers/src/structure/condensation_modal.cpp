@@ -9,26 +9,37 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// One product per load, each the same as without others.
+Eigen::MatrixXd modal_loads(const LinearStructure& structure, const Eigen::MatrixXd& shapes) {
+  const Eigen::MatrixXd loads = structure.load_shapes();
+  Eigen::MatrixXd modal(shapes.cols(), loads.cols());
+  for (Eigen::Index l = 0; l < loads.cols(); ++l) modal.col(l) = shapes.transpose() * loads.col(l);
+  return modal;
+}
+
 class ModalMethod final : public Condensation::Method {
  public:
   ModalMethod(const LinearStructure& structure, ModalForm modes)
       : modes_(std::move(modes)),
         contacts_(structure.contact_directions * modes_.shapes),
-        load_(modes_.shapes.transpose() * structure.load),
+        loads_(modal_loads(structure, modes_.shapes)),
         sizes_(modes_.shapes.colwise().squaredNorm().transpose()),
         size_squares_(sizes_.square()),
-        squares_(contacts_.rows() + 1, load_.size()),
-        terms_(2 * contacts_.rows(), load_.size()),
+        squares_(contacts_.rows() + loads_.cols(), loads_.rows()),
+        terms_(contacts_.rows() * (1 + loads_.cols()), loads_.rows()),
         scale_(structure) {
-    squares_ << contacts_.cwiseAbs2(), load_.cwiseAbs2().transpose();
+    squares_ << contacts_.cwiseAbs2(), loads_.cwiseAbs2().transpose();
     // Before the terms of S shapes cancel: bodies that move in unison hardly move against each other.
     const ContactDirections magnitudes = structure.contact_directions.cwiseAbs();
     const Eigen::MatrixXd summed = magnitudes * modes_.shapes.cwiseAbs();
-    terms_ << contacts_.cwiseAbs().cwiseProduct(summed), summed * load_.cwiseAbs().asDiagonal();
+    const Eigen::Index count = contacts_.rows();
+    terms_.topRows(count) = contacts_.cwiseAbs().cwiseProduct(summed);
+    for (Eigen::Index l = 0; l < loads_.cols(); ++l)
+      terms_.middleRows(count * (1 + l), count) = summed * loads_.col(l).cwiseAbs().asDiagonal();
     terms_ *= rounding_unit;
   }
 
-  int size() const override { return static_cast<int>(load_.size()); }
+  int size() const override { return static_cast<int>(loads_.rows()); }
   int contacts() const override { return static_cast<int>(contacts_.rows()); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
@@ -44,19 +55,23 @@ class ModalMethod final : public Condensation::Method {
         contacts_ * compliance.imag().matrix().asDiagonal(), contacts_ * slope.real().matrix().asDiagonal(),
         contacts_ * slope.imag().matrix().asDiagonal();
     const Eigen::MatrixXd parts = detail::product_transposed(weighted, contacts_);
-    const Eigen::VectorXd loaded = weighted * load_;
     CondensedPoint point;
     point.compliance = joined(parts.topRows(2 * count));
-    point.load_response = joined(loaded.head(2 * count));
     point.compliance_slope = joined(parts.bottomRows(2 * count));
-    point.load_response_slope = joined(loaded.tail(2 * count));
+    point.load_response.resize(count * loads_.cols());
+    point.load_response_slope.resize(count * loads_.cols());
+    for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
+      const Eigen::VectorXd loaded = weighted * loads_.col(l);
+      point.load_response.segment(count * l, count) = joined(loaded.head(2 * count));
+      point.load_response_slope.segment(count * l, count) = joined(loaded.tail(2 * count));
+    }
     set_errors(factors, point);
     return point;
   }
 
-  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, Complex load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, const Eigen::VectorXcd& load_amplitudes,
                            const Eigen::VectorXcd& contact_forces) override {
-    const Eigen::VectorXcd force = load_ * load_amplitude - contacts_.transpose() * contact_forces;
+    const Eigen::VectorXcd force = loads_ * load_amplitudes - contacts_.transpose() * contact_forces;
     return modes_.shapes * (invert(factors) * force.array()).matrix();
   }
 
@@ -85,23 +100,26 @@ class ModalMethod final : public Condensation::Method {
     const double error = std::abs(factors[0]) * modes_.errors[0] + std::abs(factors[1]) * modes_.errors[1] +
                          std::abs(factors[2]) * modes_.errors[2];
     moduli_.col(1) = moduli_.col(0).cwiseSqrt();
-    norms_.noalias() = squares_ * moduli_.col(0);  // of the contacts and, last, of the load
+    norms_.noalias() = squares_ * moduli_.col(0);  // of the contacts and, last, of the loads
     rounding_.noalias() = terms_ * moduli_.col(1);
     point.compliance_error = rounding_.head(count) + error * norms_.head(count);
-    point.load_response_error =
-        rounding_.tail(count) + error * (norms_.head(count) * norms_[count]).cwiseSqrt();
+    point.load_response_error.resize(count * loads_.cols());
+    for (Eigen::Index l = 0; l < loads_.cols(); ++l)
+      point.load_response_error.segment(count * l, count) =
+          rounding_.segment(count * (1 + l), count) +
+          error * (norms_.head(count) * norms_[count + l]).cwiseSqrt();
   }
 
   ModalForm modes_;
   Eigen::MatrixXd contacts_;  // contacts x n, modes along the contact directions
-  Eigen::VectorXd load_;      // n, modal load
+  Eigen::MatrixXd loads_;     // n x L, modal loads
   Eigen::ArrayXd sizes_;      // n, squared norms of the modes
   Eigen::VectorXd size_squares_;
-  Eigen::MatrixXd squares_;  // contacts + 1 x n, of contacts_ and of load_
-  Eigen::MatrixXd terms_;    // 2 contacts x n, rounding errors of contacts_^2 and of contacts_ load_
+  Eigen::MatrixXd squares_;  // contacts + L x n, of contacts_ and of loads_
+  Eigen::MatrixXd terms_;    // contacts (1 + L) x n, rounding errors of contacts_^2 and of contacts_ loads_
   StiffnessScale scale_;
-  Eigen::MatrixX2d moduli_{load_.size(), 2};  // work space: squares of |w_j| and |w_j|
-  Eigen::VectorXd norms_, rounding_;          // work space
+  Eigen::MatrixX2d moduli_{loads_.rows(), 2};  // work space: squares of |w_j| and |w_j|
+  Eigen::VectorXd norms_, rounding_;           // work space
 };
 
 }  // namespace

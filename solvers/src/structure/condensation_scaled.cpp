@@ -58,10 +58,10 @@ class ScaledMethod final : public Condensation::Method {
     take_condition();
   }
 
-  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, const Eigen::VectorXcd& load_amplitudes,
                            const Eigen::VectorXcd& contact_forces) override {
     const double unit = unit_of(scale_.size(factors));
-    return method_->recover(in_units(factors, unit), load_amplitude, contact_forces) * (1.0 / unit);
+    return method_->recover(in_units(factors, unit), load_amplitudes, contact_forces) * (1.0 / unit);
   }
 
  private:

@@ -38,20 +38,20 @@ class TridiagonalMethod final : public Condensation::Method {
         mass_(structure.mass),
         damping_(structure.damping),
         stiffness_(structure.stiffness),
-        load_(structure.load),
+        loads_(structure.load_shapes()),
         directions_(structure.contact_directions),
         lengths_(direction_lengths(structure)),
         single_(structure.contacts() == 1 ? structure.selected_dof(0) : -1),
-        load_at_contact_(single_ >= 0 && load_.cwiseAbs().sum() == std::abs(load_[single_])),
-        diagonal_(load_.size()),
-        off_(load_.size()),
-        inverse_pivot_(load_.size()),
-        diagonal_error_(load_.size()),
-        off_error_(load_.size()),
-        units_(static_cast<std::size_t>(structure.contacts()), Eigen::VectorXcd(load_.size())),
-        loaded_(load_.size()) {}
+        load_at_contact_(single_ >= 0 && loads_.cwiseAbs().sum() == loads_.row(single_).cwiseAbs().sum()),
+        diagonal_(loads_.rows()),
+        off_(loads_.rows()),
+        inverse_pivot_(loads_.rows()),
+        diagonal_error_(loads_.rows()),
+        off_error_(loads_.rows()),
+        units_(static_cast<std::size_t>(structure.contacts()), Eigen::VectorXcd(loads_.rows())),
+        loaded_(loads_.rows()) {}
 
-  int size() const override { return static_cast<int>(load_.size()); }
+  int size() const override { return static_cast<int>(loads_.rows()); }
   int contacts() const override { return static_cast<int>(units_.size()); }
 
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
@@ -64,18 +64,17 @@ class TridiagonalMethod final : public Condensation::Method {
     CondensedPoint point;
     set_compliance(factors, derivatives, point);
     if (load_at_contact_) {
-      point.load_response = load_[single_] * point.compliance;
-      point.load_response_slope = load_[single_] * point.compliance_slope;
-      point.load_response_error = std::abs(load_[single_]) * point.compliance_error;
+      const auto tip = loads_.row(single_).transpose();
+      point.load_response = tip * point.compliance(0, 0);
+      point.load_response_slope = tip * point.compliance_slope(0, 0);
+      point.load_response_error = tip.cwiseAbs() * point.compliance_error[0];
       return point;
     }
-    loaded_ = load_.cast<Complex>();
-    solve(loaded_);
-    point.load_response = directions_ * loaded_;
-    point.load_response_slope.resize(contacts());
-    for (std::size_t c = 0; c < units_.size(); ++c)
-      point.load_response_slope[Eigen::Index(c)] = -product(units_[c], derivatives, loaded_);
-    set_load_error(point);
+    const Eigen::Index count = contacts() * loads_.cols();
+    point.load_response.resize(count);
+    point.load_response_slope.resize(count);
+    point.load_response_error.resize(count);
+    for (Eigen::Index l = 0; l < loads_.cols(); ++l) set_load(l, derivatives, point);
     return point;
   }
 
@@ -86,18 +85,21 @@ class TridiagonalMethod final : public Condensation::Method {
     for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
     if (recursion.weak()) return Method::condense(factors, derivatives, result);
     recursion.last(result.compliance.col(0), result.compliance_slope.col(0), result.compliance_error.col(0));
-    result.load_response = load_[single_] * result.compliance;
-    result.load_response_slope = load_[single_] * result.compliance_slope;
-    result.load_response_error = std::abs(load_[single_]) * result.compliance_error;
+    for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
+      const double load = loads_(single_, l);
+      result.load_response.col(l) = load * result.compliance.col(0);
+      result.load_response_slope.col(l) = load * result.compliance_slope.col(0);
+      result.load_response_error.col(l) = std::abs(load) * result.compliance_error.col(0);
+    }
     Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(factors[0].size());  // of the squares none overflows
     for (std::size_t d = 0; d < 3; ++d) sizes += scale_.largest()[d] * factors[d].array().abs2().sqrt();
     record((sizes * result.compliance.col(0).array().abs2().sqrt()).maxCoeff());
   }
 
-  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, Complex load_amplitude,
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, const Eigen::VectorXcd& load_amplitudes,
                            const Eigen::VectorXcd& contact_forces) override {
-    if (!factorize(factors)) return pivoting().recover(factors, load_amplitude, contact_forces);
-    Eigen::VectorXcd response = load_ * load_amplitude;
+    if (!factorize(factors)) return pivoting().recover(factors, load_amplitudes, contact_forces);
+    Eigen::VectorXcd response = loads_ * load_amplitudes;
     response -= directions_.transpose() * contact_forces;
     const double force = safe_norm(response);
     solve(response);
@@ -154,12 +156,17 @@ class TridiagonalMethod final : public Condensation::Method {
 
   static Eigen::VectorXd magnitudes(const Eigen::VectorXcd& values) { return values.cwiseAbs2().cwiseSqrt(); }
 
-  void set_load_error(CondensedPoint& point) const {
-    const Eigen::VectorXd loaded = magnitudes(loaded_);
-    point.load_response_error.resize(contacts());
-    for (std::size_t c = 0; c < units_.size(); ++c)
-      point.load_response_error[Eigen::Index(c)] =
-          rounding_unit * perturbation(magnitudes(units_[c]), loaded);
+  // Response to load l, with its slope and error; units_ and the factors are those of the point.
+  void set_load(Eigen::Index l, const ImpedanceCoefficients& derivatives, CondensedPoint& point) {
+    loaded_ = loads_.col(l).cast<Complex>();
+    solve(loaded_);
+    const Eigen::VectorXd sizes = magnitudes(loaded_);
+    point.load_response.segment(l * contacts(), contacts()) = directions_ * loaded_;
+    for (std::size_t c = 0; c < units_.size(); ++c) {
+      const Eigen::Index entry = Eigen::Index(c) + l * contacts();
+      point.load_response_slope[entry] = -product(units_[c], derivatives, loaded_);
+      point.load_response_error[entry] = rounding_unit * perturbation(magnitudes(units_[c]), sizes);
+    }
   }
 
   // The part of x along a contact direction.
@@ -226,7 +233,7 @@ class TridiagonalMethod final : public Condensation::Method {
   StiffnessScale scale_;
   std::unique_ptr<Condensation::Method> pivoting_;
   Bands mass_, damping_, stiffness_;
-  Eigen::VectorXd load_;
+  Eigen::MatrixXd loads_;  // n x L
   ContactDirections directions_;
   Eigen::VectorXd lengths_;  // of the directions
   int single_;               // the degree of freedom that the only contact selects, or else -1

@@ -37,6 +37,18 @@ void require_directions(const ContactDirections& directions, Eigen::Index size) 
   }
 }
 
+void require_force(const PeriodicForce& force, std::size_t index, Eigen::Index size) {
+  const std::string name = "LinearStructure: forces[" + std::to_string(index) + "]";
+  if (force.shape.size() != size)
+    throw std::invalid_argument(name + " has a shape of " + std::to_string(force.shape.size()) +
+                                " entries; the load has " + std::to_string(size));
+  if (!force.shape.allFinite() || !force.harmonics.allFinite())
+    throw std::invalid_argument(name + " has a number that is not finite");
+  if (force.derivative < 0)
+    throw std::invalid_argument(name + " has the derivative " + std::to_string(force.derivative) +
+                                "; it must be at least 0");
+}
+
 }  // namespace
 
 void LinearStructure::validate() const {
@@ -46,6 +58,31 @@ void LinearStructure::validate() const {
   require_square(damping, load.size(), "damping");
   require_square(stiffness, load.size(), "stiffness");
   require_directions(contact_directions, load.size());
+  for (std::size_t l = 0; l < forces.size(); ++l) require_force(forces[l], l, load.size());
+}
+
+Eigen::MatrixXd LinearStructure::load_shapes() const {
+  Eigen::MatrixXd shapes(load.size(), load_count());
+  shapes.col(0) = load;
+  for (std::size_t l = 0; l < forces.size(); ++l) shapes.col(Eigen::Index(l) + 1) = forces[l].shape;
+  return shapes;
+}
+
+void LinearStructure::transform_loads(const Eigen::MatrixXd& transformation) {
+  load = (transformation.transpose() * load).eval();
+  for (PeriodicForce& force : forces) force.shape = (transformation.transpose() * force.shape).eval();
+}
+
+Eigen::MatrixXcd LinearStructure::load_amplitudes(double frequency) const {
+  Eigen::Index count = 2;
+  for (const PeriodicForce& force : forces) count = std::max(count, force.harmonics.size());
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(load.size(), count);
+  result.col(1) = load;
+  for (const PeriodicForce& force : forces) {
+    const Eigen::VectorXcd amplitudes = force.amplitudes(frequency);
+    result.leftCols(amplitudes.size()) += force.shape * amplitudes.transpose();
+  }
+  return result;
 }
 
 int LinearStructure::selected_dof(int contact) const {

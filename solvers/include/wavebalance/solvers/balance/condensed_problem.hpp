@@ -35,7 +35,8 @@ namespace wavebalance::solvers {
 class CondensedProblem {
  public:
   /// `load_harmonics[n]`: complex amplitude h_n of the load's time function Re sum h_n exp(2 pi i n t), which
-  /// scales structure.load; {0, 1} is the cosine of JL14.
+  /// scales structure.load; {0, 1} is the cosine of JL14. The period of structure.forces is that of the load:
+  /// with p = gcd of the load's harmonics above 0, their harmonic m is harmonic p m of the problem.
   /// Throws as Condensation does.
   CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
                    CondensationMethod method = CondensationMethod::automatic);
@@ -56,9 +57,15 @@ class CondensedProblem {
   void set_frequency(double frequency_hz);
   double frequency() const { return frequency_; }
 
-  /// u0, m, samples() values, and its derivative by frequency, m/Hz.
+  /// The factor on every harmonic of load and forces but the static one, 1 at first. Finite, or
+  /// std::invalid_argument. No condensation: O(C (L M + N log N)).
+  void set_load_scale(double scale);
+  double load_scale() const { return load_scale_; }
+
+  /// u0, m, samples() values, and its derivatives by frequency, m/Hz, and by load_scale(), m.
   const Eigen::VectorXd& contact_free_response() const { return free_response_; }
   const Eigen::VectorXd& contact_free_response_slope();
+  Eigen::VectorXd contact_free_response_by_scale();
 
   /// Takes K - E P / epsilon in place of K in apply(), apply_transposed(), harmonic_response() and columns():
   /// the force form. `flexibility[c]` is 1 / epsilon of contact c, m/N, at least 0; an empty vector is the
@@ -121,6 +128,12 @@ class CondensedProblem {
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);
   void project(const Eigen::VectorXd& force);
   Eigen::MatrixXcd respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force);
+  void set_unit_loads();
+  double load_power(Eigen::Index load) const;
+  Eigen::MatrixXcd combine_loads(const Eigen::MatrixXcd& responses, const Eigen::MatrixXcd& loads) const;
+  Eigen::MatrixXd load_errors() const;
+  void update_load();
+  void update_free_response();
   void update_kernel();
   void append_dropped();
 
@@ -128,10 +141,12 @@ class CondensedProblem {
   std::shared_ptr<const LinearStructure> structure_;
   Eigen::VectorXcd load_harmonics_;
   Condensation condensation_;
-  Eigen::VectorXcd load_;  // projected load, spectrum over translates
-  double frequency_ = 0.0;
+  Eigen::MatrixXcd unit_loads_, static_loads_;  // projected at 1 Hz, over translates (rows): all, and static
+  Eigen::MatrixXcd load_;                       // those that act at frequency_
+  double frequency_ = 0.0, load_scale_ = 1.0;
   StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
-  CondensedSpectrum condensed_;              // load responses times the projected load
+  CondensedSpectrum condensed_;              // load responses to unit loads
+  Eigen::MatrixXcd load_response_;           // to the projected loads, (M/2 + 1) x C
   Eigen::VectorXd regularization_;
   Eigen::MatrixXcd kernel_;  // of K or, in the force form, of K - E P / epsilon
   Eigen::VectorXd free_response_, free_response_slope_;

@@ -28,6 +28,14 @@ class FrequencyParameter final : public CurveParameter {
   void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
 };
 
+/// p = CondensedProblem::load_scale(), at the frequency that the problem has.
+class LoadScaleParameter final : public CurveParameter {
+ public:
+  bool contains(double p) const override;
+  void set(ContactSystem& system, double p) const override;
+  void slope(ContactSystem& system, Eigen::VectorXd& slope) const override;
+};
+
 /// Which grazing events are solved for: the points of the curve where a sample reaches its gap, so that the
 /// law's slope jumps and the curve has a kink.
 enum class GrazingEvents {

@@ -1,13 +1,14 @@
 #pragma once
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::solvers {
 
-/// The equation of motion M u'' + C u' + K u = load cos(2 pi f t) - S^T f(S u) [JL14, eq. (7)] as 2n
+/// The equation of motion M u'' + C u' + K u = load cos(2 pi f t) + forces - S^T f(S u) [JL14, eq. (7)] as 2n
 /// first-order equations dy/ds = F(s, y) in the number of periods s = f t. The state holds y = (2 pi f u,
 /// u'), both in m/s, so that one absolute tolerance suits displacements and velocities alike.
 ///
@@ -45,9 +46,11 @@ class FirstOrderSystem {
   ContactLaws laws_;
   ContactDirections directions_;
   double angular_frequency_;
-  RowMajorMatrix linear_;            // 2n x 2n, dF/dy without contact
-  Eigen::VectorXd load_;             // T M^-1 load, m/s
-  Eigen::MatrixXd contact_inertia_;  // T M^-1 S^T, n x contacts, s/kg
+  RowMajorMatrix linear_;                       // 2n x 2n, dF/dy without contact
+  Eigen::VectorXd load_;                        // T M^-1 load, m/s
+  Eigen::MatrixXd force_shapes_;                // n x forces, T M^-1 shape, m/s per unit of the series
+  std::vector<Eigen::VectorXcd> force_series_;  // amplitudes at the frequency
+  Eigen::MatrixXd contact_inertia_;             // T M^-1 S^T, n x contacts, s/kg
 };
 
 }  // namespace wavebalance::solvers

@@ -45,16 +45,17 @@ struct ShootingResult {
   double residual = 0.0;                 ///< relative change of the state over one period, energy norm
   std::vector<double> residual_history;  ///< before each Newton step and at the end
   long steps = 0;                        ///< time steps in all
-  Eigen::VectorXd displacement;          ///< n, m, at the load's maximum (t = 0)
+  Eigen::VectorXd displacement;          ///< n, m, at t = 0, the maximum of `load`
   Eigen::VectorXd velocity;              ///< n, m/s, at t = 0
   Eigen::VectorXcd floquet_multipliers;  ///< 2n, of the last iterate, by falling modulus
   Motion contacts;   ///< of the one contact, from the last iterate on; empty on step_failure
   Motion structure;  ///< the same of all n degrees of freedom, without forces; with full_history only
 };
 
-/// The periodic response of M u'' + C u' + K u = load cos(2 pi f t) - e f_c(u_c) by Newton on the period map
-/// (u, u')(0) -> (u, u')(T), with its derivative by the variational equations. It shares neither the time
-/// basis of the weighted residual nor the integrator of integrate_to_periodic, and serves to check both.
+/// The periodic response of M u'' + C u' + K u = load cos(2 pi f t) + forces - e f_c(u_c) by Newton on the
+/// period map (u, u')(0) -> (u, u')(T), with its derivative by the variational equations. It shares neither
+/// the time basis of the weighted residual nor the integrator of integrate_to_periodic, and serves to check
+/// both.
 ///
 /// The deviation from the response without contact is propagated in the modes, exactly for a contact force
 /// that is a polynomial of degree 5 through the Gauss points of a step (exponential collocation), whatever

@@ -56,7 +56,7 @@ struct TimeSteppingResult {
   Motion structure;  ///< the same of all n degrees of freedom, without forces; with full_history only
 };
 
-/// Integrates M u'' + C u' + K u = load cos(2 pi f t) - sum_c e_c f_c(u_c) [JL14, eq. (7)] until two
+/// Integrates M u'' + C u' + K u = load cos(2 pi f t) + forces - sum_c e_c f_c(u_c) [JL14, eq. (7)] until two
 /// successive periods of the contact displacements differ by less than period_tolerance in relative rms. The
 /// integrator is the variable-step, variable-order (1..5) backward differentiation of GSL (msbdf) with the
 /// analytic Jacobian; [JL14, section 4] used the closely related NDF. Steps do not end at output times:

@@ -39,19 +39,34 @@ struct SweepPoint {
   double residual = 0.0;              ///< relative
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown; empty unless keep_unknowns
+  double load_scale = 1.0;            ///< CondensedProblem::load_scale()
 };
 
-/// The SweepPoint of a solution, with its unknown; the system is left at its frequency. O(C (N log N +
-/// points log points)), and a condensation.
-SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point);
+/// What varies along a curve.
+enum class SweepParameter { frequency, load_scale };
 
-/// A point where the curve reverses in frequency: a smooth fold or a grazing event. With a sampled stop each
-/// sample that touches gives a kink, and near folds the curve reverses at many of them.
+/// The arc length's parameter of that kind.
+const CurveParameter& curve_parameter(SweepParameter parameter);
+
+/// The frequency (Hz) or load scale of a point or turning point, whichever varies.
+template <class Point>
+double parameter_of(const Point& point, SweepParameter parameter) {
+  return parameter == SweepParameter::frequency ? point.frequency : point.load_scale;
+}
+
+/// The SweepPoint of a solution, with its unknown; the system is left at its frequency or load scale. O(C (N
+/// log N + points log points)), and a condensation.
+SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point,
+                       SweepParameter parameter = SweepParameter::frequency);
+
+/// A point where the curve reverses in frequency or load scale: a smooth fold or a grazing event. With a
+/// sampled stop each sample that touches gives a kink, and near folds the curve reverses at many of them.
 struct TurningPoint {
   double frequency = 0.0;             ///< Hz
   double max_displacement = 0.0;      ///< m, as in SweepPoint
   double max_abs_displacement = 0.0;  ///< m
   bool grazing = false;               ///< as in SweepPoint
+  double load_scale = 1.0;            ///< as in SweepPoint
 };
 
 /// Where a curve starts and ends, and how it is followed.
@@ -91,6 +106,7 @@ struct SweepStart {
 /// A curve of periodic responses.
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
+  SweepParameter parameter = SweepParameter::frequency;
   ContactForm form = ContactForm::displacement;  ///< of the whole curve
   Eigen::VectorXd regularization;                ///< PeriodicResponse::regularization of the whole curve
   std::vector<SweepPoint> points;
@@ -121,5 +137,12 @@ FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& law
 /// which it has `returned`.
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options, const SweepStart& start);
+
+/// The curve of periodic responses over the amplitude of the load at the frequency of the problem, followed
+/// in the same way: `from`, `to`, `smallest_return` and the parameter scale are values of
+/// CondensedProblem::load_scale(), the factor on all of the load but its static part. The problem is left at
+/// another one. Throws std::invalid_argument also for a problem without a frequency.
+FrequencySweep amplitude_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options);
 
 }  // namespace wavebalance::solvers

@@ -39,6 +39,7 @@ struct SpecialPoint {
   double max_abs_displacement = 0.0;  ///< m
   bool located = false;               ///< to the tolerance; otherwise no point within the bracket was found
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown at one end of the bracket
+  double load_scale = 1.0;            ///< in the middle of the bracket, whose width is then in its unit
 };
 
 /// How the stability of a curve is found.
@@ -62,11 +63,11 @@ struct CurveStability {
   StabilityStatus status() const;
 };
 
-/// The stability of every point of a curve that frequency_sweep() has traced on `problem` with keep_unknowns,
-/// and its special points. Where two neighbours differ in the count, in a sign or in the number of intervals
-/// of contact, the curve between them is halved, each time with a new solution of the balance, until each
-/// difference stands alone in a bracket of the tolerance. Two changes between neighbours that cancel each
-/// other are not noticed.
+/// The stability of every point of a curve that frequency_sweep() or amplitude_sweep() has traced on
+/// `problem` with keep_unknowns, and its special points. Where two neighbours differ in the count, in a sign
+/// or in the number of intervals of contact, the curve between them is halved, each time with a new solution
+/// of the balance, until each difference stands alone in a bracket of the tolerance. Two changes between
+/// neighbours that cancel each other are not noticed.
 ///
 /// Throws std::invalid_argument for a curve without unknowns and as unstable_multipliers does. One
 /// unstable_multipliers() per point, and about 20 responses and counts per special point.

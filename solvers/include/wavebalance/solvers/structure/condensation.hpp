@@ -18,8 +18,10 @@ class SingularSystem : public std::runtime_error {
 /// The reduction of a structure to C contacts at one dynamic stiffness Z = s2 M + s1 C + s0 K; S are their
 /// directions, C x n.
 struct CondensedPoint {
-  Eigen::MatrixXcd compliance;     ///< S Z^-1 S^T, C x C, m/N
-  Eigen::VectorXcd load_response;  ///< S Z^-1 load, C, m for a load of unit time function
+  Eigen::MatrixXcd compliance;  ///< S Z^-1 S^T, C x C, m/N
+  /// S Z^-1 L, m for a unit time function of each load: C L values, that of contact c by load l at c + C l.
+  /// The loads are the columns of LinearStructure::load_shapes(); without forces there is one.
+  Eigen::VectorXcd load_response;
   /// Derivatives of both along dZ = d2 M + d1 C + d0 K.
   Eigen::MatrixXcd compliance_slope;
   Eigen::VectorXcd load_response_slope;
@@ -35,11 +37,11 @@ using ImpedanceCoefficients = std::array<std::complex<double>, 3>;
 using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
 
 /// CondensedPoint for each of the K values k of a spectrum, one row each: entry (c, d) of the compliance is
-/// in column c + C d, load responses in column c.
+/// in column c + C d, the response of contact c to load l in column c + C l.
 struct CondensedSpectrum {
-  Eigen::MatrixXcd compliance, load_response;              ///< K x C^2, m/N; K x C, m
+  Eigen::MatrixXcd compliance, load_response;              ///< K x C^2, m/N; K x C L, m
   Eigen::MatrixXcd compliance_slope, load_response_slope;  ///< along the derivatives of the factors
-  Eigen::MatrixXd compliance_error, load_response_error;   ///< K x C each, m/N and m
+  Eigen::MatrixXd compliance_error, load_response_error;   ///< K x C, m/N; K x C L, m
 };
 
 /// Estimated rounding errors of a condensation, relative.
@@ -85,9 +87,10 @@ class Condensation {
 
   /// dynamic_compliance() for all k at once, with results resized to fit. A bar that is loaded and touches at
   /// its last degree of freedom alone takes one forward recursion, vectorised over k. K times the cost of a
-  /// point. `load`: amplitude of the load at each k, which weights the error of the load response; empty: 1.
+  /// point. `load`: amplitudes of the loads at each k, K x L, which weight the error of the load response;
+  /// empty: 1.
   void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
-                CondensedSpectrum& result, const Eigen::VectorXcd& load = {});
+                CondensedSpectrum& result, const Eigen::MatrixXcd& load = {});
 
   /// Condition of the dynamic stiffnesses of the last condense(): the largest over k of (|s2| max|M| + |s1|
   /// max|C| + |s0| max|K|) ||x|| / ||b|| over the systems Z(k) x = b that were solved, a lower bound up to a
@@ -101,18 +104,22 @@ class Condensation {
   const RoundingErrors& rounding() const { return rounding_; }
 
   /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b
-  /// (C).
+  /// (C). The structure's forces do not act.
   Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, std::complex<double> load_amplitude,
+                           const Eigen::VectorXcd& contact_forces);
+  /// The same for the amplitudes of all L loads.
+  Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, const Eigen::VectorXcd& load_amplitudes,
                            const Eigen::VectorXcd& contact_forces);
 
   class Method;  ///< how one dynamic stiffness is solved; see condensation.cpp
 
  private:
   void condense_by_method(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
-                          CondensedSpectrum& result, const Eigen::VectorXcd& load);
+                          CondensedSpectrum& result, const Eigen::MatrixXcd& load);
 
   std::unique_ptr<LinearStructure> structure_;  // kept while the modal method may be replaced
   CondensationMethod chosen_;
+  int loads_;
   double condition_ = 0.0;
   RoundingErrors rounding_;
   std::unique_ptr<Method> method_;

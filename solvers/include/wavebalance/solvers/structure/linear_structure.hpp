@@ -3,6 +3,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "wavebalance/solvers/structure/periodic_force.hpp"
+
 namespace wavebalance::solvers {
 
 /// The directions S of C contacts, C x n, one row each: contact c has the displacement u_c = S_c x, towards
@@ -15,17 +17,26 @@ using ContactDirections = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// one that is out of 0..size-1 or listed twice.
 ContactDirections contact_rows(const std::vector<int>& dofs, int size);
 
-/// The linear part of a vibrating structure, M x'' + C x' + K x = load cos(2 pi f t) - S^T f(S x), with f the
-/// contact forces. SI units or any other consistent set.
+/// The linear part of a vibrating structure, M x'' + C x' + K x = load cos(2 pi f t) + forces - S^T f(S x),
+/// with f the contact forces. SI units or any other consistent set.
 struct LinearStructure {
-  Eigen::SparseMatrix<double> mass;       ///< n x n, kg
-  Eigen::SparseMatrix<double> damping;    ///< n x n, N s/m
-  Eigen::SparseMatrix<double> stiffness;  ///< n x n, N/m
-  Eigen::VectorXd load;                   ///< n, N, amplitude of the cosine load
-  ContactDirections contact_directions;   ///< S, C x n: at least one row, none of them zero
+  Eigen::SparseMatrix<double> mass;        ///< n x n, kg
+  Eigen::SparseMatrix<double> damping;     ///< n x n, N s/m
+  Eigen::SparseMatrix<double> stiffness;   ///< n x n, N/m
+  Eigen::VectorXd load;                    ///< n, N, amplitude of the cosine load
+  ContactDirections contact_directions;    ///< S, C x n: at least one row, none of them zero
+  std::vector<PeriodicForce> forces = {};  ///< beside `load`: static, of other harmonics, phases and places
 
   int size() const { return static_cast<int>(load.size()); }
   int contacts() const { return static_cast<int>(contact_directions.rows()); }
+  /// The shapes of load and forces, n x (1 + number of forces), `load` first.
+  Eigen::MatrixXd load_shapes() const;
+  int load_count() const { return 1 + static_cast<int>(forces.size()); }
+  /// Takes transformation^T times each shape, as for x = transformation y. The other members are left alone.
+  void transform_loads(const Eigen::MatrixXd& transformation);
+  /// Complex amplitudes of load and forces together at a frequency f (Hz), N, n x (H + 1): column m belongs
+  /// to exp(2 pi i m f t). O(n H) each.
+  Eigen::MatrixXcd load_amplitudes(double frequency) const;
   /// The degree of freedom that row `contact` selects with the coefficient 1, or -1 for any other direction.
   /// O(entries of the row).
   int selected_dof(int contact) const;

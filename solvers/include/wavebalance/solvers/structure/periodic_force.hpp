@@ -1,0 +1,33 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace wavebalance::solvers {
+
+/// A force shape h(t) on a structure, with h the d-th time derivative of
+///
+///   Re sum_m harmonics[m] exp(2 pi i m f t),  m = 0, 1, ..., H,
+///
+/// so that harmonics[0] is its static part, the modulus of harmonics[m] an amplitude and its argument a phase
+/// ahead of a cosine. A support that moves by x_b(t) exerts -K_b x_b - C_b x_b' - M_b x_b'': three forces of
+/// d = 0, 1 and 2, which grow with the frequency as they must.
+struct PeriodicForce {
+  Eigen::VectorXd shape;       ///< n, N s^d per unit of the series
+  Eigen::VectorXcd harmonics;  ///< H + 1 complex amplitudes
+  int derivative = 0;          ///< d, 0 or more
+
+  /// The complex amplitudes of h at a frequency f (Hz), harmonics[m] (2 pi i m f)^d; real for m = 0.
+  Eigen::VectorXcd amplitudes(double frequency) const;
+};
+
+/// The value of Re sum_m amplitudes[m] exp(2 pi i m s) at s periods, and its derivative by s. O(H).
+double series_value(const Eigen::VectorXcd& amplitudes, double periods);
+double series_slope(const Eigen::VectorXcd& amplitudes, double periods);
+
+/// How often a series repeats within its period: the greatest common divisor of its harmonics above 0, 1
+/// without any.
+int repeats_within_period(const Eigen::VectorXcd& harmonics);
+
+/// The series over `times` times the period: harmonic m becomes harmonic times m.
+Eigen::VectorXcd over_periods(const Eigen::VectorXcd& harmonics, int times);
+
+}  // namespace wavebalance::solvers

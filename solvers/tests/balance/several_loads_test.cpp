@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <random>
+
+#include "constants.hpp"
+#include "dense_system.hpp"
+#include "support/oscillator.hpp"
+#include "support/refusal.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/settling.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+using testing::LinearContact;
+using testing::Oscillator;
+
+constexpr int points = 256;
+
+// A static force of 20 N and a third harmonic of 30 N, 40 degrees ahead, beside the oscillator's cosine.
+LinearStructure driven_oscillator(const Oscillator& oscillator) {
+  LinearStructure structure = oscillator.structure();
+  Eigen::VectorXcd series = Eigen::VectorXcd::Zero(4);
+  series[0] = 20.0;
+  series[3] = std::polar(30.0, 40.0 * two_pi / 360.0);
+  structure.forces = {{Eigen::VectorXd::Ones(1), series}};
+  return structure;
+}
+
+double driven_displacement(const Oscillator& oscillator, double periods) {
+  const double omega = 3.0 * two_pi * oscillator.frequency;
+  const Complex third =
+      std::polar(30.0, 40.0 * two_pi / 360.0) /
+      Complex(oscillator.stiffness - omega * omega * oscillator.mass, omega * oscillator.damping);
+  return 20.0 / oscillator.stiffness + oscillator.steady_displacement(periods / oscillator.frequency) +
+         std::real(third * std::polar(1.0, 3.0 * two_pi * periods));
+}
+
+TEST(SeveralLoads, OnALinearOscillatorGiveItsClosedFormInEverySolver) {
+  const Oscillator oscillator;
+  const LinearStructure structure = driven_oscillator(oscillator);
+  CondensedProblem problem(testing::fourier_pair(9, points), structure, testing::cosine_load());
+  problem.set_frequency(oscillator.frequency);
+  ShootingOptions shooting;
+  shooting.output_points = points;
+  const ShootingResult shot = shoot(structure, AnyContactLaw(), oscillator.frequency, shooting);
+  ASSERT_EQ(shot.status, ShootingStatus::converged);
+  TimeSteppingOptions stepping;
+  stepping.output_points = points;
+  const auto stepped = integrate_to_periodic(structure, AnyContactLaw(), oscillator.frequency, stepping);
+  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+  const double scale = std::abs(oscillator.amplitude());
+  for (int l = 0; l < points; ++l) {
+    const double expected = driven_displacement(oscillator, double(l) / points);
+    EXPECT_NEAR(problem.contact_free_response()[l], expected, 1e-13 * scale);
+    EXPECT_NEAR(shot.contacts.displacement(0, l), expected, 1e-10 * scale);
+    EXPECT_NEAR(stepped.contacts.displacement(0, l), expected, 1e-5 * scale);
+  }
+}
+
+// x = x_b + the relative motion: amplitude sqrt(k^2 + (c w)^2) / |k - m w^2 + i c w| of the base's.
+TEST(SeveralLoads, OfAMovingBaseTransmitItByTheClosedForm) {
+  const Oscillator oscillator{.load = 0.0};
+  LinearStructure structure = oscillator.structure();
+  Eigen::VectorXcd base = Eigen::VectorXcd::Zero(2);
+  base[1] = 1e-3;
+  structure.forces = {{Eigen::VectorXd::Constant(1, oscillator.stiffness), base, 0},
+                      {Eigen::VectorXd::Constant(1, oscillator.damping), base, 1}};
+  CondensedProblem problem(testing::fourier_pair(5, points), structure, testing::cosine_load());
+  for (const double frequency : {7.0, 25.0, 60.0}) {
+    problem.set_frequency(frequency);
+    const double omega = two_pi * frequency;
+    const Complex spring(oscillator.stiffness, omega * oscillator.damping);
+    const Complex x = 1e-3 * spring / (spring - omega * omega * oscillator.mass);
+    for (int l = 0; l < points; ++l)
+      EXPECT_NEAR(problem.contact_free_response()[l], std::real(x * std::polar(1.0, two_pi * l / points)),
+                  1e-14 * std::abs(x) + 1e-18);
+  }
+}
+
+// Random chain with forces of three derivatives and a static part, in every kind of pair.
+LinearStructure driven_chain(std::mt19937& generator) {
+  LinearStructure chain = testing::random_chain(5, generator);
+  chain.contact_directions = contact_rows({1, 4}, 5);
+  for (int d = 0; d < 3; ++d) {
+    Eigen::VectorXcd series = testing::random_vector(4, generator).cast<Complex>();
+    series += Complex(0.0, 1.0) * testing::random_vector(4, generator);
+    series[0] = series[0].real();
+    chain.forces.push_back({testing::random_vector(5, generator), series, d});
+  }
+  return chain;
+}
+
+TEST(SeveralLoads, HaveSlopesByFrequencyAndScaleOfTheDifferenceQuotients) {
+  std::mt19937 generator(11);
+  const LinearStructure chain = driven_chain(generator);
+  const double frequency = 0.13, h = 1e-6;
+  for (TimePair& pair : testing::pair_kinds(16, 64)) {
+    CondensedProblem problem(std::move(pair), chain, testing::cosine_load());
+    problem.set_load_scale(0.7);
+    const auto at = [&](double f, double scale) {
+      problem.set_frequency(f);
+      problem.set_load_scale(scale);
+      return problem.contact_free_response();
+    };
+    const Eigen::VectorXd by_frequency = (at(frequency + h, 0.7) - at(frequency - h, 0.7)) / (2.0 * h);
+    const Eigen::VectorXd by_scale = at(frequency, 1.7) - at(frequency, 0.7);
+    at(frequency, 0.7);
+    const Eigen::VectorXd found = problem.contact_free_response_slope();
+    EXPECT_LE((found - by_frequency).norm(), 1e-6 * found.norm());
+    EXPECT_LE((problem.contact_free_response_by_scale() - by_scale).norm(), 1e-12 * by_scale.norm());
+  }
+}
+
+TEST(SeveralLoads, GiveTheMotionOfTheAssembledSystemWithContactInEveryKindOfPair) {
+  std::mt19937 generator(12);
+  const LinearStructure chain = driven_chain(generator);
+  const double frequency = 0.11, scale = 0.6;
+  constexpr int functions = 16, samples = 64;
+  const std::vector<TimePair> pairs = testing::pair_kinds(functions, samples);
+  for (const TimePair& pair : pairs) {
+    if (pair.drops_nyquist()) continue;
+    CondensedProblem problem(pair, chain, testing::cosine_load());
+    problem.set_load_scale(scale);
+    problem.set_frequency(frequency);
+    const LinearContact law{4.0, 0.3 * problem.contact_free_response().maxCoeff()};
+    const PeriodicResponse response = forced_response(problem, ContactLaws(law), {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
+    TimePairOptions options{pair.formulation(), pair.inner_products(), pair.points()};
+    options.sample_offset = pair.first_sample() * pair.points();
+    const auto discretised = [&](const Eigen::VectorXcd& harmonics) {
+      return dense::discretise(pair.trial(), pair.weight(), options, harmonics);
+    };
+    dense::DenseSystem oracle(chain, ContactLaws(law), discretised(scale * testing::cosine_load()));
+    for (const PeriodicForce& force : chain.forces) {
+      Eigen::VectorXcd amplitudes = force.amplitudes(frequency);
+      amplitudes.tail(amplitudes.size() - 1) *= scale;
+      oracle.add_load(force.shape, discretised(amplitudes).load);
+    }
+    oracle.set_frequency(frequency);
+    const Eigen::VectorXd expected =
+        oracle.contact_displacement(oracle.forced_response(response.contact_force));
+    EXPECT_LE((problem.displacement(response.contact_force) - expected).norm(), 1e-10 * expected.norm());
+    EXPECT_LE(oracle.relative_residual(oracle.forced_response(response.contact_force)), 1e-9);
+  }
+}
+
+// Pressed against its stop by a static force, lifted off it by others.
+LinearStructure pressed_oscillator() {
+  LinearStructure structure = driven_oscillator({.damping = 60.0, .load = 60.0});
+  structure.forces[0].harmonics[0] = 40.0;
+  return structure;
+}
+
+TEST(SeveralLoads, AgainstAStopGiveTheMotionOfShootingAndTimeStepping) {
+  const LinearStructure structure = pressed_oscillator();
+  const LinearContact stop{2e5, 2e-4};
+  CondensedProblem problem(testing::fourier_pair(255, 2048), structure, testing::cosine_load());
+  problem.set_frequency(25.0);
+  const PeriodicResponse response = forced_response(problem, stop, {});
+  ASSERT_TRUE(response.converged());
+  const double touching = (response.contact_force.array() > 0.0).cast<double>().mean();
+  EXPECT_GT(touching, 0.2);
+  EXPECT_LT(touching, 0.8);
+  ShootingOptions shooting;
+  shooting.output_points = 2048;
+  const ShootingResult shot = shoot(structure, stop, 25.0, shooting);
+  ASSERT_EQ(shot.status, ShootingStatus::converged);
+  const Eigen::VectorXd reference = shot.contacts.displacement.row(0).transpose();
+  EXPECT_LE((response.displacement - reference).norm(), 1e-5 * reference.norm());
+  TimeSteppingOptions stepping;
+  stepping.output_points = 2048;
+  const auto stepped = integrate_to_periodic(structure, stop, 25.0, stepping);
+  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+  EXPECT_LE((stepped.contacts.displacement.row(0).transpose() - reference).norm(), 1e-4 * reference.norm());
+}
+
+TEST(SeveralLoads, AgainstAStopSettleToTheMotionOfTheBalance) {
+  const LinearStructure structure = pressed_oscillator();
+  const LinearContact stop{2e5, 2e-4};
+  CondensedProblem problem(testing::fourier_pair(127, 1024), structure, testing::cosine_load());
+  problem.set_frequency(25.0);
+  const PeriodicResponse response = forced_response(problem, stop, {});
+  ASSERT_TRUE(response.converged());
+  const SettledMotion settled = settle(problem, stop, {});
+  ASSERT_EQ(settled.attractor_periods, 1);
+  const Eigen::VectorXd samples = resample(settled.displacement, 1024, settled.start);
+  EXPECT_LE((samples - response.displacement).norm(), 2e-2 * response.displacement.norm());
+}
+
+// A load that comes later gives the same motion later, in a basis whose points it moves onto each other.
+TEST(SeveralLoads, ThatComeLaterGiveTheSameMotionLater) {
+  LinearStructure structure = pressed_oscillator(), later = structure;
+  const int shift = 300;
+  constexpr int samples = 1024;
+  Eigen::VectorXcd cosine = testing::cosine_load(), delayed = cosine;
+  const auto delay = [&](Eigen::VectorXcd& series) {
+    for (Eigen::Index m = 0; m < series.size(); ++m)
+      series[m] *= std::polar(1.0, -two_pi * double(m) * shift / samples);
+  };
+  delay(delayed);
+  delay(later.forces[0].harmonics);
+  const auto solve = [&](const LinearStructure& one, const Eigen::VectorXcd& harmonics) {
+    CondensedProblem problem(testing::fourier_pair(63, samples), one, harmonics);
+    problem.set_frequency(25.0);
+    const PeriodicResponse response = forced_response(problem, LinearContact{2e5, 2e-4}, {});
+    EXPECT_TRUE(response.converged());
+    return response.displacement;
+  };
+  const Eigen::VectorXd first = solve(structure, cosine), second = solve(later, delayed);
+  for (int l = 0; l < samples; ++l)
+    EXPECT_NEAR(second[(l + shift) % samples], first[l], 1e-9 * first.cwiseAbs().maxCoeff());
+}
+
+TEST(SeveralLoads, OverTwoPeriodsHaveTheMotionOfOneTwice) {
+  const LinearStructure structure = pressed_oscillator();
+  CondensedProblem one(testing::fourier_pair(31, 128), structure, testing::cosine_load());
+  Eigen::VectorXcd twice = Eigen::VectorXcd::Zero(3);
+  twice[2] = 1.0;
+  CondensedProblem two(testing::fourier_pair(63, 256), structure, twice);
+  one.set_frequency(25.0);
+  two.set_frequency(12.5);
+  EXPECT_LE((two.contact_free_response() - one.contact_free_response().replicate(2, 1)).norm(),
+            1e-13 * two.contact_free_response().norm());
+}
+
+TEST(SeveralLoads, AScaleThatIsNotFiniteIsRefused) {
+  CondensedProblem problem(testing::fourier_pair(3, 8), Oscillator{}.structure(), testing::cosine_load());
+  EXPECT_EQ(testing::refusal([&] { problem.set_load_scale(std::nan("")); }),
+            "CondensedProblem::set_load_scale: scale is nan; it must be finite");
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "constants.hpp"
+#include "support/oscillator.hpp"
+#include "support/refusal.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/curve_stability.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// With one harmonic, u = a cos, and the equivalent stiffness k(a), balance is a closed form for the load:
+// F = a |k(a) - w^2 + i c w|.
+double load_of(double amplitude, double stiffness, double damping, double w) {
+  return amplitude * std::hypot(stiffness - w * w, damping * w);
+}
+
+struct Cubic {
+  double force(double u) const { return u * u * u; }
+  double tangent(double u) const { return 3.0 * u * u; }
+  double potential(double u) const { return 0.25 * u * u * u * u; }
+  double gap() const { return std::numeric_limits<double>::infinity(); }
+};
+
+TEST(AmplitudeSweep, PointsAndFoldsAreThoseOfTheClosedFormOfTheDuffingCurve) {
+  const double damping = 0.05, w = 1.6;
+  const auto load = [&](double a) { return load_of(a, 1.0 + 0.75 * a * a, damping, w); };
+  double highest = 0.0, a_highest = 0.0, lowest = 1e9;
+  for (double a = 0.0; a < 1.2; a += 1e-6)
+    if (load(a) > highest) highest = load(a_highest = a);
+  for (double a = a_highest; a < 2.5; a += 1e-6) lowest = std::min(lowest, load(a));
+  CondensedProblem problem(testing::fourier_pair(3, 16), testing::unit_oscillator(damping, 0.5),
+                           testing::cosine_load());
+  problem.set_frequency(w / two_pi);
+  FrequencySweepOptions options;
+  for (const bool rising : {true, false}) {
+    options.from = rising ? 0.1 : 3.0;
+    options.to = rising ? 3.0 : 0.1;
+    const FrequencySweep sweep = amplitude_sweep(problem, Cubic{}, options);
+    ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+    EXPECT_EQ(sweep.parameter, SweepParameter::load_scale);
+    for (const SweepPoint& point : sweep.points) {
+      const double a = std::sqrt(2.0) * point.rms_displacement;
+      EXPECT_NEAR(load(a), 0.5 * point.load_scale, 1e-8);
+      EXPECT_EQ(point.frequency, w / two_pi);
+    }
+    EXPECT_NEAR(sweep.points.back().load_scale, options.to, 1e-9);
+    ASSERT_EQ(sweep.turning_points.size(), 2u);
+    EXPECT_NEAR(0.5 * sweep.turning_points[rising ? 0 : 1].load_scale, highest, 1e-7);
+    EXPECT_NEAR(0.5 * sweep.turning_points[rising ? 1 : 0].load_scale, lowest, 1e-7);
+  }
+}
+
+// As in sweep_folds_test: in contact for |x| < b, with a mean beside the first harmonic.
+TEST(AmplitudeSweep, FoldsAtAStopAreThoseOfTheClosedForm) {
+  const double damping = 0.05, w = 1.15;
+  const testing::LinearContact stop{.stiffness = 2.0, .start = 1.0};
+  const auto load = [&](double b) {
+    const double share = stop.stiffness / std::numbers::pi;
+    const double amplitude = stop.start / (std::cos(b) - share * (std::sin(b) - b * std::cos(b)));
+    return load_of(amplitude, 1.0 + share * (b - std::sin(b) * std::cos(b)), damping, w);
+  };
+  double lowest = 1e9, b_lowest = 0.0, highest = 0.0;
+  for (double b = 0.0; b < 1.0; b += 1e-5)
+    if (load(b) < lowest) lowest = load(b_lowest = b);
+  for (double b = 0.0; b < b_lowest; b += 1e-5) highest = std::max(highest, load(b));
+  ASSERT_LT(lowest, 0.9 * highest);
+  CondensedProblem problem(testing::fourier_pair(3, 512), testing::unit_oscillator(damping, 1.0),
+                           testing::cosine_load());
+  problem.set_frequency(w / two_pi);
+  FrequencySweepOptions options;
+  options.from = 0.05;
+  options.to = 0.5;
+  const FrequencySweep sweep = amplitude_sweep(problem, stop, options);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  ASSERT_GE(sweep.turning_points.size(), 2u);
+  EXPECT_NEAR(sweep.turning_points.front().load_scale, highest, 1e-4);
+  EXPECT_NEAR(sweep.turning_points.back().load_scale, lowest, 1e-4);
+}
+
+// Folds of a sweep over the amplitude and over the frequency are the same points of one surface.
+TEST(AmplitudeSweep, LosesStabilityBetweenItsFoldsWhichAreThoseOfFrequencySweeps) {
+  const testing::LinearContact stop{.stiffness = 2.0, .start = 1.0};
+  const LinearStructure oscillator = testing::unit_oscillator(0.05, 1.0);
+  const ContactDynamics dynamics(oscillator);
+  CondensedProblem problem(testing::fourier_pair(31, 1024), oscillator, testing::cosine_load());
+  problem.set_frequency(1.15 / two_pi);
+  FrequencySweepOptions options;
+  options.from = 0.05;
+  options.to = 0.5;
+  options.keep_unknowns = true;
+  const FrequencySweep sweep = amplitude_sweep(problem, stop, options);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  const CurveStability stability = curve_stability(problem, stop, sweep, dynamics);
+  ASSERT_EQ(stability.points.size(), sweep.points.size());
+  std::vector<int> counts;
+  for (const PointStability& point : stability.points)
+    if (point.status == StabilityStatus::converged && (counts.empty() || counts.back() != point.unstable))
+      counts.push_back(point.unstable);
+  EXPECT_EQ(counts, (std::vector<int>{0, 1, 0}));
+  std::vector<SpecialPoint> folds;
+  for (const SpecialPoint& point : stability.special_points)
+    if (point.type == SpecialPointType::fold) folds.push_back(point);
+  ASSERT_FALSE(folds.empty());
+  const SpecialPoint& last = folds.back();
+  EXPECT_NEAR(last.load_scale, sweep.turning_points.back().load_scale, 1e-4);
+  EXPECT_EQ(last.frequency, 1.15 / two_pi);
+  EXPECT_LE(std::abs(last.multiplier - 1.0), 1e-3);
+  problem.set_load_scale(last.load_scale);
+  FrequencySweepOptions over_frequency;
+  over_frequency.from = 0.1;
+  over_frequency.to = 0.3;
+  const FrequencySweep curve = frequency_sweep(problem, stop, over_frequency);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  double nearest = 1.0;
+  for (const TurningPoint& turn : curve.turning_points)
+    nearest = std::min(nearest, std::abs(turn.frequency - last.frequency));
+  EXPECT_LT(nearest, 1e-4);
+}
+
+TEST(AmplitudeSweep, ScalesAllOfTheLoadButItsStaticPart) {
+  LinearStructure oscillator = testing::unit_oscillator(0.05, 1.0);
+  oscillator.forces = {{Eigen::VectorXd::Ones(1), Eigen::Vector3cd(0.25, 0.0, 0.5)}};
+  CondensedProblem problem(testing::fourier_pair(7, 32), oscillator, testing::cosine_load());
+  problem.set_frequency(0.3);
+  const testing::LinearContact far{1.0, 1e3};
+  FrequencySweepOptions options;
+  options.from = 1.0;
+  options.to = 3.0;
+  const FrequencySweep sweep = amplitude_sweep(problem, far, options);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  const SweepPoint &first = sweep.points.front(), &last = sweep.points.back();
+  const auto varying = [](const SweepPoint& point) {
+    return std::sqrt(point.rms_displacement * point.rms_displacement - 0.25 * 0.25);
+  };
+  EXPECT_NEAR(varying(last), 3.0 * varying(first), 1e-9);
+}
+
+TEST(AmplitudeSweep, OfAProblemWithoutAFrequencyIsRefused) {
+  CondensedProblem problem(testing::fourier_pair(3, 16), testing::unit_oscillator(0.1, 1.0),
+                           testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 1.0;
+  options.to = 2.0;
+  EXPECT_EQ(testing::refusal([&] { amplitude_sweep(problem, Cubic{}, options); }),
+            "amplitude_sweep: the problem has no frequency yet; call set_frequency first");
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
