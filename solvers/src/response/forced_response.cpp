@@ -164,10 +164,12 @@ Candidate try_residual(const Task& task, const Eigen::VectorXd& regularization, 
                       Strategy::residual_homotopy);
 }
 
-Candidate solve(const Task& task, const Start& first, int& attractor_periods) {
+Candidate solve(const Task& task, const Start& first, bool guessed, int& attractor_periods) {
   const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
   Candidate best = try_newton(task, form, first, Strategy::newton);
   if (best.ended() || !task.options.fallbacks) return best;
+  if (guessed && task.options.stay_near_guess)
+    return better(std::move(best), try_residual(task, form, first));
   if (task.laws.unilateral()) {
     for (const Eigen::VectorXd& tried : forms_of(task)) {
       best = better(std::move(best), try_gap(task, tried));
@@ -230,12 +232,13 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   options.validate();
   Start start{guess, guess_force};
   require_start(problem, start);
-  if (guess.size() == 0) start = {problem.contact_free_response(), {}};
+  const bool guessed = guess.size() > 0;
+  if (!guessed) start = {problem.contact_free_response(), {}};
   laws.require(problem.contacts());
   const DisplacementFormAtTheEnd restored(problem);
   const Task task{problem, laws, options};
   int attractor_periods = SettledMotion::not_integrated;
-  Candidate candidate = solve(task, start, attractor_periods);
+  Candidate candidate = solve(task, start, guessed, attractor_periods);
   PeriodicResponse response = response_of(task, std::move(candidate));
   response.attractor_periods = attractor_periods;
   return response;

@@ -217,6 +217,7 @@ class Tracker {
     point.bracket = std::abs(a.point.parameter - b.point.parameter);
     point.located = located;
     point.unknown = a.point.displacement;
+    point.unknown_parameter = a.point.parameter;
     const PeriodicResponse at = response(a.point);
     if (curve_.parameter == SweepParameter::load_scale) point.frequency = at.frequency;
     point.multiplier = type == SpecialPointType::grazing ? Complex(not_a_number, not_a_number)

@@ -14,6 +14,10 @@ struct ForcedResponseOptions {
   ContactForm form = ContactForm::automatic;
   /// Whether more than Newton's method from the start is tried, see Strategy.
   bool fallbacks = true;
+  /// Whether what is tried after Newton's method starts from the guess, too: a residual homotopy from there
+  /// in place of all other strategies, so that the response is one near the guess or none. Without effect
+  /// where there is no guess.
+  bool stay_near_guess = false;
   double max_fallback_operations = 1e10;  ///< of each further Newton run
   SettlingOptions settling;               ///< its observer is not used
   ResidualHomotopyOptions continuation;   ///< in the gaps and of residuals; its observer is not used

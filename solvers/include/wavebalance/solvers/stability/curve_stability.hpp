@@ -39,6 +39,7 @@ struct SpecialPoint {
   double max_abs_displacement = 0.0;  ///< m
   bool located = false;               ///< to the tolerance; otherwise no point within the bracket was found
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown at one end of the bracket
+  double unknown_parameter = 0.0;     ///< the frequency (Hz) or load scale at that end
   double load_scale = 1.0;            ///< in the middle of the bracket, whose width is then in its unit
 };
 

@@ -1,0 +1,196 @@
+#include "wavebalance/solvers/response/curve_responses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace wavebalance::solvers {
+namespace {
+
+/// Keeps a problem in the form of a curve, and leaves it in the displacement form.
+class FormOfCurve {
+ public:
+  FormOfCurve(CondensedProblem& problem, const FrequencySweep& curve) : problem_(problem) {
+    problem_.set_regularization(curve.regularization);
+  }
+  ~FormOfCurve() { problem_.set_regularization({}); }
+  FormOfCurve(const FormOfCurve&) = delete;
+  FormOfCurve& operator=(const FormOfCurve&) = delete;
+
+ private:
+  CondensedProblem& problem_;
+};
+
+void require_unknown(const CondensedProblem& problem, const Eigen::VectorXd& unknown) {
+  if (unknown.size() != problem.samples())
+    throw std::invalid_argument("curve_response: a point of the curve has " + std::to_string(unknown.size()) +
+                                " unknowns, but the problem has " + std::to_string(problem.samples()) +
+                                "; frequency_sweep() keeps them with keep_unknowns");
+}
+
+CurvePoint solution_of(const FrequencySweep& curve, std::size_t index) {
+  CurvePoint solution;
+  solution.displacement = curve.points[index].unknown;
+  solution.parameter = parameter_of(curve.points[index], curve.parameter);
+  return solution;
+}
+
+/// A curve over the load has one frequency.
+void set_frequency_of(const FrequencySweep& curve, CondensedProblem& problem) {
+  if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
+    problem.set_frequency(curve.points.front().frequency);
+}
+
+/// The scaled distances in which chords are perpendicular to planes.
+ArcLengthOptions scales_of(const FrequencySweep& curve) {
+  const auto value = [&](const SweepPoint& point) { return parameter_of(point, curve.parameter); };
+  const auto [low, high] =
+      std::minmax_element(curve.points.begin(), curve.points.end(),
+                          [&](const auto& a, const auto& b) { return value(a) < value(b); });
+  double largest = 0.0;
+  for (const SweepPoint& point : curve.points) largest = std::max(largest, point.max_abs_displacement);
+  const double interval = value(*high) - value(*low);
+  ArcLengthOptions scales;
+  scales.max_corrections = 32;
+  scales.displacement_scale = largest > 0.0 ? largest : 1.0;
+  scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
+  return scales;
+}
+
+/// The point nearest to `wanted` that bisection between two points on either side of it finds.
+CurvePoint nearest(ArcLength& path, CurvePoint before, CurvePoint after, double wanted) {
+  constexpr int most_halvings = 60;
+  constexpr double close_enough = 1e-9;
+  const auto distance = [&](const CurvePoint& point) { return std::abs(point.parameter - wanted); };
+  for (int i = 0; i < most_halvings; ++i) {
+    const CurvePoint& nearer = distance(before) < distance(after) ? before : after;
+    if (distance(nearer) <= close_enough * std::abs(wanted)) return nearer;
+    // The share of the chord at which it would have that parameter, away from its ends.
+    const double share =
+        std::clamp((wanted - before.parameter) / (after.parameter - before.parameter), 0.1, 0.9);
+    CurvePoint middle;
+    if (!path.between(before, after, share, middle)) return nearer;
+    const bool same_side = (middle.parameter - wanted) * (before.parameter - wanted) > 0.0;
+    (same_side ? before : after) = std::move(middle);
+  }
+  return distance(before) < distance(after) ? before : after;
+}
+
+/// Whether the curve may reach `wanted` and turn back between the points i and i + 1, which lie on one
+/// side of it: one of them is nearer to it than its neighbours are, and no farther than they are from it.
+bool may_turn_at(const FrequencySweep& curve, std::size_t i, double wanted) {
+  const auto& points = curve.points;
+  const auto distance = [&](std::size_t k) {
+    return std::abs(parameter_of(points[k], curve.parameter) - wanted);
+  };
+  const auto turns = [&](std::size_t k) {
+    if (k == 0 || k + 1 == points.size()) return false;
+    const double nearer = std::min(distance(k - 1), distance(k + 1)),
+                 farther = std::max(distance(k - 1), distance(k + 1));
+    return distance(k) <= nearer && distance(k) <= farther - distance(k);
+  };
+  return turns(i) || turns(i + 1);
+}
+
+class Crossings {
+ public:
+  Crossings(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve, double wanted)
+      : problem_(problem),
+        form_(problem, curve),
+        system_(problem, laws),
+        parameter_(curve_parameter(curve.parameter)),
+        path_(system_, parameter_, scales_of(curve)),
+        wanted_(wanted) {}
+
+  PeriodicResponse at(const SweepPoint& point) { return solved(point.unknown, {}); }
+
+  PeriodicResponse between(const CurvePoint& before, const CurvePoint& after) {
+    const CurvePoint found = nearest(path_, before, after, wanted_);
+    return solved(found.displacement, after.displacement - before.displacement);
+  }
+
+  // A point of the curve between two on one side of the wanted parameter that lies on the other side: that of
+  // a fold between them. By golden section of the chord.
+  std::optional<CurvePoint> beyond(const CurvePoint& before, const CurvePoint& after) {
+    constexpr int most_points = 24;
+    const double ratio = 0.5 * (std::sqrt(5.0) - 1.0), side = before.parameter < wanted_ ? 1.0 : -1.0;
+    double low = 0.0, high = 1.0;
+    for (int i = 0; i < most_points; ++i) {
+      std::array<double, 2> shares{high - ratio * (high - low), low + ratio * (high - low)};
+      std::array<CurvePoint, 2> points;
+      for (std::size_t k : {0u, 1u}) {
+        if (!path_.between(before, after, shares[k], points[k])) return std::nullopt;
+        if (side * (points[k].parameter - wanted_) > 0.0) return points[k];
+      }
+      const bool left = side * points[0].parameter > side * points[1].parameter;
+      (left ? high : low) = left ? shares[1] : shares[0];
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // From a start near by. A solution farther from it than the two points are from each other, `apart`, is
+  // that of another crossing.
+  PeriodicResponse solved(const Eigen::VectorXd& start, const Eigen::VectorXd& apart) {
+    parameter_.set(system_, wanted_);
+    Eigen::VectorXd unknown = start;
+    const NewtonResult result = newton(system_, unknown, {});
+    const bool here = apart.size() == 0 || (unknown - start).norm() <= apart.norm();
+    PeriodicResponse response = response_at(system_, std::move(unknown));
+    response.status = result.status == SolveStatus::converged && !here ? SolveStatus::stalled : result.status;
+    response.iterations = result.iterations;
+    response.condition = result.condition;
+    response.residual_history = result.residual_history;
+    if (response.converged()) response.strategy = Strategy::newton;
+    response.rounding_error = problem_.rounding_error(response.contact_force);
+    return response;
+  }
+
+  CondensedProblem& problem_;
+  FormOfCurve form_;
+  ContactSystem system_;
+  const CurveParameter& parameter_;
+  ArcLength path_;
+  double wanted_;
+};
+
+}  // namespace
+
+PeriodicResponse curve_response(CondensedProblem& problem, const ContactLaws& laws,
+                                const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown) {
+  require_unknown(problem, unknown);
+  set_frequency_of(curve, problem);
+  const FormOfCurve form(problem, curve);
+  ContactSystem system(problem, laws);
+  curve_parameter(curve.parameter).set(system, value);
+  return response_at(system, unknown);
+}
+
+std::vector<PeriodicResponse> responses_at(CondensedProblem& problem, const ContactLaws& laws,
+                                           const FrequencySweep& curve, double value) {
+  for (const SweepPoint& point : curve.points) require_unknown(problem, point.unknown);
+  std::vector<PeriodicResponse> responses;
+  if (curve.points.empty()) return responses;
+  set_frequency_of(curve, problem);
+  Crossings crossings(problem, laws, curve, value);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const CurvePoint here = solution_of(curve, i);
+    if (here.parameter == value) responses.push_back(crossings.at(curve.points[i]));
+    if (i + 1 == curve.points.size()) break;
+    const CurvePoint next = solution_of(curve, i + 1);
+    const double sides = (here.parameter - value) * (next.parameter - value);
+    if (sides < 0.0) responses.push_back(crossings.between(here, next));
+    if (sides <= 0.0 || !may_turn_at(curve, i, value)) continue;
+    if (const auto turn = crossings.beyond(here, next)) {
+      responses.push_back(crossings.between(here, *turn));
+      responses.push_back(crossings.between(*turn, next));
+    }
+  }
+  return responses;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,191 @@
+// Motions of a curve at asked frequencies, against the closed form of a Duffing oscillator.
+#include "wavebalance/solvers/response/curve_responses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "constants.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+struct Hardening {
+  double force(double u) const { return u * u * u; }
+  double tangent(double u) const { return 3.0 * u * u; }
+  double potential(double u) const { return 0.25 * u * u * u * u; }
+  double gap() const { return infinity; }
+};
+
+constexpr double load = 0.3, damping = 0.05;
+
+CondensedProblem duffing() {
+  return {testing::fourier_pair(3, 16), testing::unit_oscillator(damping, load), testing::cosine_load()};
+}
+
+FrequencySweep traced(CondensedProblem& problem, const ContactLaws& laws, double from, double to) {
+  FrequencySweepOptions options;
+  options.from = from;
+  options.to = to;
+  options.keep_unknowns = true;
+  return frequency_sweep(problem, laws, options);
+}
+
+// ((1 - w^2 + 3/4 A)^2 + (c w)^2) A - F^2 of the squared amplitude A.
+double closed_form(double squared, double frequency) {
+  const double w = two_pi * frequency, k = 1.0 + 0.75 * squared - w * w;
+  return (k * k + damping * damping * w * w) * squared - load * load;
+}
+
+// The amplitudes at a frequency, the largest first.
+std::vector<double> amplitudes(double frequency) {
+  std::vector<double> found;
+  constexpr double largest = 100.0, step = 1e-3;
+  for (double upper = largest; upper > step; upper -= step) {
+    double a = upper - step, b = upper;
+    if (closed_form(a, frequency) * closed_form(b, frequency) >= 0.0) continue;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (a + b);
+      (closed_form(middle, frequency) * closed_form(a, frequency) > 0.0 ? a : b) = middle;
+    }
+    found.push_back(std::sqrt(0.5 * (a + b)));
+  }
+  return found;
+}
+
+double amplitude_of(const PeriodicResponse& response) {
+  return response.displacement.norm() * std::sqrt(2.0 / double(response.displacement.size()));
+}
+
+TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
+  CondensedProblem problem = duffing();
+  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  for (const double frequency : {0.1, 0.26, 0.3, 0.42}) {
+    const std::vector<double> expected = amplitudes(frequency);
+    const auto found = responses_at(problem, Hardening{}, curve, frequency);
+    ASSERT_EQ(found.size(), expected.size()) << frequency;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_TRUE(found[i].converged());
+      EXPECT_EQ(found[i].frequency, frequency);
+      EXPECT_NEAR(amplitude_of(found[i]), expected[i], 1e-9 * expected[i]);
+    }
+  }
+  EXPECT_EQ(responses_at(problem, Hardening{}, curve, 0.3).size(), 3u);
+  EXPECT_EQ(problem.regularization().size(), 0);
+}
+
+// Over the load the curve of a frequency above resonance passes a load three times, too.
+TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
+  CondensedProblem problem = duffing();
+  constexpr double frequency = 0.3;
+  problem.set_frequency(frequency);
+  FrequencySweepOptions options;
+  options.from = 0.1;
+  options.to = 4.0;
+  options.keep_unknowns = true;
+  const FrequencySweep curve = amplitude_sweep(problem, Hardening{}, options);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  const std::vector<double> expected = amplitudes(frequency);  // of the whole load
+  const auto found = responses_at(problem, Hardening{}, curve, 1.0);
+  ASSERT_EQ(found.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(amplitude_of(found[i]), expected[2 - i], 1e-9);
+  EXPECT_EQ(problem.frequency(), frequency);
+}
+
+TEST(CurveResponses, AreApartOnTheTwoSidesOfAFold) {
+  CondensedProblem problem = duffing();
+  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);
+  ASSERT_EQ(curve.turning_points.size(), 2u);
+  for (const std::size_t turn : {0u, 1u}) {
+    const double fold = curve.turning_points[turn].frequency, inwards = turn == 0 ? -1.0 : 1.0;
+    for (const double apart : {1e-3, 1e-5, 1e-7}) {  // the last two lie between two points of the curve
+      const double frequency = fold * (1.0 + inwards * apart);
+      const auto found = responses_at(problem, Hardening{}, curve, frequency);
+      ASSERT_EQ(found.size(), 3u) << apart;
+      for (const auto& one : found) EXPECT_TRUE(one.converged()) << apart;
+      const double first = amplitude_of(found[turn]), second = amplitude_of(found[turn + 1]);
+      EXPECT_NEAR(closed_form(first * first, frequency), 0.0, 1e-9);
+      EXPECT_NEAR(closed_form(second * second, frequency), 0.0, 1e-9);
+      EXPECT_GT(first - second, 0.1 * std::sqrt(apart));
+      EXPECT_LT(first - second, 10.0 * std::sqrt(apart));
+    }
+    const double beside = fold * (1.0 - inwards * 1e-7);
+    EXPECT_EQ(responses_at(problem, Hardening{}, curve, beside).size(), 1u);
+  }
+}
+
+TEST(CurveResponses, AreNoneAtAFrequencyBesideTheCurve) {
+  CondensedProblem problem = duffing();
+  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.1);
+  EXPECT_TRUE(responses_at(problem, Hardening{}, curve, 0.2).empty());
+  EXPECT_EQ(responses_at(problem, Hardening{}, curve, 0.05).size(), 1u);
+  EXPECT_EQ(responses_at(problem, Hardening{}, curve, curve.points[3].frequency).size(), 1u);
+}
+
+TEST(CurveResponses, HoldTheForceOfARigidStop) {
+  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(damping, load),
+                           testing::cosine_load());
+  const testing::LinearContact stop{.stiffness = 1e6, .start = 1.0};  // as stiff: the force form
+  const FrequencySweep curve = traced(problem, stop, 0.1, 0.2);
+  ASSERT_EQ(curve.form, ContactForm::force);
+  ASSERT_FALSE(curve.points.empty());
+  const SweepPoint& last = curve.points.back();
+  const PeriodicResponse response = curve_response(problem, stop, curve, last.frequency, last.unknown);
+  EXPECT_LT(response.residual, 1e-8);
+  EXPECT_NEAR(response.contact_force.maxCoeff(), last.max_force, 1e-9 * last.max_force);
+  for (const auto& one : responses_at(problem, stop, curve, 0.15)) {
+    EXPECT_TRUE(one.converged());
+    EXPECT_EQ(one.regularization.size(), 1);
+  }
+}
+
+TEST(CurveResponses, RefuseACurveWithoutUnknowns) {
+  CondensedProblem problem = duffing();
+  FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.1);
+  for (SweepPoint& point : curve.points) point.unknown.resize(0);
+  EXPECT_THROW(responses_at(problem, Hardening{}, curve, 0.07), std::invalid_argument);
+}
+
+TEST(ForcedResponse, StaysOnTheUpperBranchFromAGuessThere) {
+  CondensedProblem problem = duffing();
+  constexpr double frequency = 0.3;
+  problem.set_frequency(frequency);
+  const std::vector<double> expected = amplitudes(frequency);
+  ASSERT_EQ(expected.size(), 3u);
+  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);
+  const auto neighbours = responses_at(problem, Hardening{}, curve, 0.28);
+  ForcedResponseOptions options;
+  options.stay_near_guess = true;
+  problem.set_frequency(frequency);
+  const PeriodicResponse upper =
+      forced_response(problem, Hardening{}, options, neighbours.front().displacement);
+  ASSERT_TRUE(upper.converged());
+  EXPECT_NEAR(amplitude_of(upper), expected[0], 1e-8);
+  const PeriodicResponse lower =
+      forced_response(problem, Hardening{}, options, neighbours.back().displacement);
+  EXPECT_NEAR(amplitude_of(lower), expected[2], 1e-8);
+}
+
+TEST(ForcedResponse, FollowsAResidualFromAGuessThatNewtonsMethodDoesNotConvergeFrom) {
+  CondensedProblem problem = duffing();
+  problem.set_frequency(0.3);
+  ForcedResponseOptions options;
+  options.stay_near_guess = true;
+  options.newton.min_step = 1.0;  // without a line search
+  Eigen::VectorXd guess(problem.samples());
+  for (int l = 0; l < guess.size(); ++l) guess[l] = 9.0 * std::sin(two_pi * l / double(guess.size()));
+  const PeriodicResponse near = forced_response(problem, Hardening{}, options, guess);
+  ASSERT_TRUE(near.converged());
+  EXPECT_EQ(near.strategy, Strategy::residual_homotopy);
+  EXPECT_NEAR(amplitude_of(near), amplitudes(0.3)[0], 1e-8);
+  options.fallbacks = false;
+  EXPECT_FALSE(forced_response(problem, Hardening{}, options, guess).converged());
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
