@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "analysis/mode_record.hpp"
 #include "analysis/motion_files.hpp"
@@ -16,6 +17,7 @@
 #include "analysis/summary_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
+#include "wavebalance/app/analysis/curve_motions.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
@@ -152,7 +154,8 @@ double frequency_of_peak(const solvers::FrequencySweep& curve) {
   return peak == curve.points.end() ? missing : peak->frequency;
 }
 
-Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
+Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
+                    const std::vector<CurveMotion>& motions) {
   Record record;
   record.converged = sweep.converged();
   record.interrupted = sweep.interrupted() || sweep.stability.cancelled ||
@@ -183,6 +186,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
+  append_motions(record, scene, model, motions);
   append_discretisation(record.summary, scene.time);
   record.summary.emplace_back("form", std::string(to_string(sweep.curve.form)));
   append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
@@ -192,23 +196,39 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   return record;
 }
 
-Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
+/// The first point of a sweep that starts near a motion, or that has several periods of the load.
+solvers::PeriodicResponse first_point(const Scene& scene, const StructureModel& model,
+                                      ComposedProblem& composed, solvers::ForcedResponseOptions how,
+                                      const StartMotion& start, double& distance) {
+  StartSamples samples;
+  if (!start.contacts.empty()) samples = start_samples(start, scene);
+  how.stay_near_guess = !start.contacts.empty();
+  auto& [problem, laws] = composed;
+  auto first = scene.analysis.subharmonic == 1
+                   ? solvers::forced_response(problem, laws, how, samples.displacement, samples.force)
+                   : several_periods(problem, laws, model.structure, how, samples.displacement);
+  distance = relative_distance(first.displacement, samples.displacement);
+  return first;
+}
+
+Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                       const StartMotion& start) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = of_load(observer, scene.analysis.subharmonic);
-  options.keep_unknowns = scene.analysis.stability;
+  options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
   Sweep sweep;
   ComposedProblem composed = compose_problem(scene, model);
-  if (scene.analysis.subharmonic == 1) {
+  if (scene.analysis.subharmonic == 1 && start.contacts.empty()) {
     sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
     return sweep;
   }
   composed.problem.set_frequency(options.from);
   options.start.observer = options.observer;
-  const auto first = several_periods(composed.problem, composed.laws, model.structure, options.start);
+  const auto first = first_point(scene, model, composed, options.start, start, sweep.start_distance);
   sweep.periods = scene.analysis.subharmonic;
   sweep.motion_periods = solvers::motion_periods(composed.problem, first);
   sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options, {first, {}, {}});
-  scale_frequencies(sweep.curve, sweep.periods);
+  if (sweep.periods > 1) scale_frequencies(sweep.curve, sweep.periods);
   return sweep;
 }
 
@@ -224,24 +244,72 @@ Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
   return frequency_sweep(scene, make_model(scene), observer);
 }
 
-Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
-  Sweep sweep = arc_length_sweep(scene, model, observer);
-  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                      const StartMotion& start) {
+  require_start_fits(start, scene);
+  const auto begin = std::chrono::steady_clock::now();
+  Sweep sweep = arc_length_sweep(scene, model, observer, start);
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sweep;
 }
 
 namespace {
 
-Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  Sweep sweep = frequency_sweep(scene, model, observer);
+Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                   const StartMotion& start) {
+  Sweep sweep = frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
   return sweep;
+}
+
+/// Where the solution started, and what to do if that led nowhere.
+void append_start(Record& record, const StartMotion& start, bool found, double distance) {
+  if (start.contacts.empty()) return;
+  record.summary.emplace_back("start_from", start.source);
+  record.summary.emplace_back("start_distance", found ? distance : missing);
+  constexpr double as_large_as_the_start = 0.9;
+  if (found && distance > as_large_as_the_start)
+    record.warnings.push_back(fmt::format(
+        "The motion found differs from the start by {:.2g} times the start: it may lie on another branch.",
+        distance));
+  if (!found && !record.interrupted)
+    record.warnings.push_back(
+        "No response was found near the start. One closer to the scene, or a sweep that begins at it, may lead "
+        "there; without a start other ways of finding a response are tried.");
+}
+
+Record stable_sweep_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
+                           const Observer& observer) {
+  Sweep sweep = stable_sweep(scene, model, observer, start);
+  const auto motions = curve_motions(scene, model, sweep);
+  Record record = sweep_record(scene, model, sweep, motions);
+  append_start(record, start, !sweep.curve.points.empty(), sweep.start_distance);
+  return record;
+}
+
+Record forced_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
+                     ResponseOptions options) {
+  options.stability = scene.analysis.stability;
+  if (!start.contacts.empty()) {
+    StartSamples samples = start_samples(start, scene);
+    options.guess = std::move(samples.displacement);
+    options.guess_force = std::move(samples.force);
+    options.stay_near_guess = true;
+  }
+  const Response response = weighted_residual_response(scene, model, options);
+  Record record = response_record(scene, model, response);
+  append_start(record, start, response.converged, response.start_distance);
+  return record;
 }
 
 }  // namespace
 
 Record analyse(const Scene& scene, const Observer& observer) {
+  return analyse(scene, StartMotion{}, observer);
+}
+
+Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer) {
+  require_start_fits(start, scene);
   if (scene.structure.kept_modes >= 0) goes_on(observer, {"reduction of the structure"});
   const StructureModel model = make_model(scene);
   ResponseOptions options;
@@ -249,7 +317,7 @@ Record analyse(const Scene& scene, const Observer& observer) {
   options.structure_points = structure_points(scene);
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
-      return sweep_record(scene, model, stable_sweep(scene, model, observer));
+      return stable_sweep_record(scene, model, start, observer);
     case AnalysisType::nonlinear_mode:
       return mode_record(scene, model, observer);
     case AnalysisType::time_stepping:
@@ -257,8 +325,7 @@ Record analyse(const Scene& scene, const Observer& observer) {
     case AnalysisType::forced_response:
       break;
   }
-  options.stability = scene.analysis.stability;
-  return response_record(scene, model, weighted_residual_response(scene, model, options));
+  return forced_record(scene, model, start, std::move(options));
 }
 
 }  // namespace wavebalance::app

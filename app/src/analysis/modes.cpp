@@ -306,7 +306,22 @@ Table empty_backbone(bool elastic = false) {
       "status",       "residual",     "virial_residual", "max_penetration_over_gap", "min_contact_force_N",
       "tongue",       "tongue_share"};
   if (elastic) columns.emplace_back("modal_energy_ratio");
+  columns.insert(columns.end(), {"max_displacement_m", "min_displacement_m", "rms_displacement_m",
+                                 "max_abs_displacement_m"});
   return Table(columns);
+}
+
+/// The extremes and the rms of the contacts' displacements, each that of the contact where it is largest;
+/// missing without a motion.
+void append_amplitudes(std::vector<Cell>& row, const solvers::Motion& contacts) {
+  if (contacts.empty()) {
+    row.insert(row.end(), 4, missing);
+    return;
+  }
+  const Eigen::MatrixXd& u = contacts.displacement;
+  const double rms = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
+  for (const double value : {u.maxCoeff(), u.minCoeff(), rms, u.cwiseAbs().maxCoeff()})
+    row.emplace_back(value);
 }
 
 }  // namespace
@@ -314,15 +329,24 @@ Table empty_backbone(bool elastic = false) {
 Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch) {
   Table table = empty_backbone();
   const double linear = study.mode().linear_omega();
-  table.append_row(
-      {0.0, study.linear_frequency(), 1.0, 1.0, 0.0, "linear", missing, 0.0, -1.0, 0.0, "none", 0.0});
+  table.append_row({0.0, study.linear_frequency(), 1.0, 1.0, 0.0, "linear", missing, 0.0, -1.0, 0.0, "none",
+                    0.0, 0.0, 0.0, 0.0, 0.0});
   for (const auto& point : branch) {
     const auto value = [&](double number) { return point.accepted() ? number : missing; };
-    table.append_row({point.prescribed_ratio, value(point.omega / (2.0 * std::numbers::pi)),
-                      value(point.omega / linear), value(std::sqrt(point.rayleigh) / linear), missing,
-                      std::string(to_string(point.status)), value(point.equation_residual),
-                      value(point.virial_residual), value(point.max_penetration), value(point.min_force),
-                      "none", missing});
+    std::vector<Cell> row{point.prescribed_ratio,
+                          value(point.omega / (2.0 * std::numbers::pi)),
+                          value(point.omega / linear),
+                          value(std::sqrt(point.rayleigh) / linear),
+                          missing,
+                          std::string(to_string(point.status)),
+                          value(point.equation_residual),
+                          value(point.virial_residual),
+                          value(point.max_penetration),
+                          value(point.min_force),
+                          "none",
+                          missing};
+    append_amplitudes(row, study.contact_motion(point, study.scene().analysis.output_points));
+    table.append_row(std::move(row));
   }
   return table;
 }
@@ -348,6 +372,7 @@ Table backbone_table(const ModeStudy& study, const Backbone& curve) {
         point.resonance.harmonic > 0 ? resonance_name(point.resonance) : std::string("none"),
         value(point.resonance.share)};
     if (elastic) row.emplace_back(value(point.gamma_ratio));
+    append_amplitudes(row, study.contact_motion(point, study.scene().analysis.output_points));
     table.append_row(std::move(row));
   };
   for (int i = 0; i < linear_points; ++i) {

@@ -11,7 +11,7 @@
 namespace wavebalance::app {
 namespace {
 
-std::string frame_name(Eigen::Index frame) { return fmt::format("motion_{:04}.vtu", frame); }
+constexpr const char* about_motion = "motion of the whole structure";
 
 std::string vtu_text(const fem::SolidModel& solid, const Eigen::VectorXd& unknowns) {
   const Eigen::Matrix3Xd displacement = solid.displacements(unknowns);
@@ -22,16 +22,18 @@ std::string vtu_text(const fem::SolidModel& solid, const Eigen::VectorXd& unknow
   return std::move(text).str();
 }
 
-std::vector<RecordFile> mesh_files(const fem::SolidModel& solid, const Eigen::MatrixXd& whole) {
+std::vector<RecordFile> mesh_files(const fem::SolidModel& solid, const Eigen::MatrixXd& whole,
+                                   const std::string& name) {
   std::vector<RecordFile> files;
   std::vector<fem::PvdEntry> entries;
   for (Eigen::Index frame = 0; frame < whole.cols(); ++frame) {
-    files.push_back({frame_name(frame), vtu_text(solid, whole.col(frame))});
+    files.push_back(
+        {fmt::format("{}_{:04}.vtu", name, frame), vtu_text(solid, whole.col(frame)), about_motion});
     entries.push_back({static_cast<double>(frame) / static_cast<double>(whole.cols()), files.back().name});
   }
   std::ostringstream series;
   fem::write_pvd(series, entries);
-  files.push_back({"motion.pvd", std::move(series).str()});
+  files.push_back({name + ".pvd", std::move(series).str(), about_motion});
   return files;
 }
 
@@ -45,11 +47,12 @@ std::string array_text(const Eigen::MatrixXd& whole) {
 
 }  // namespace
 
-std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates) {
+std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
+                                     const std::string& name) {
   if (coordinates.cols() == 0) return {};
   const Eigen::MatrixXd whole = model.recover(coordinates);
-  if (model.blade) return mesh_files(model.blade->model, whole);
-  return {{"motion.mtx", array_text(whole)}};
+  if (model.blade) return mesh_files(model.blade->model, whole, name);
+  return {{name + ".mtx", array_text(whole), about_motion}};
 }
 
 }  // namespace wavebalance::app

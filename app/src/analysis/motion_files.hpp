@@ -9,7 +9,9 @@ namespace wavebalance::app {
 
 /// The motion of the whole structure from that of the reduced one (r x frames, uniform over the period):
 /// with a mesh a series for ParaView, whose times are fractions of the period, with displacement and stress;
-/// without one motion.mtx, a Matrix Market array of a column an instant. Nothing for no frames.
-std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates);
+/// without one motion.mtx, a Matrix Market array of a column an instant. Nothing for no frames. `name` stands
+/// in place of "motion" in the names of the files.
+std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
+                                     const std::string& name = "motion");
 
 }  // namespace wavebalance::app

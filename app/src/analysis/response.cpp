@@ -47,11 +47,13 @@ void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem&
   solvers::ForcedResponseOptions solver;
   solver.observer = options.observer;
   solver.form = scene.contact.form;
+  solver.stay_near_guess = options.stay_near_guess;
   auto& [problem, laws] = composed;
   const auto found = scene.analysis.subharmonic == 1
-                         ? solvers::forced_response(problem, laws, solver, options.guess)
+                         ? solvers::forced_response(problem, laws, solver, options.guess, options.guess_force)
                          : several_periods(problem, laws, model.structure, solver, options.guess);
   note_solution(result, problem, found, scene, model);
+  result.start_distance = relative_distance(found.displacement, options.guess);
   note_motion(problem, found, laws, scene, model, options, result);
 }
 
@@ -104,6 +106,11 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   if (scene.contact.law != ContactLawType::rigid) return;
   const auto held = solvers::complementarity(found.displacement, found.contact_force, model.gaps);
   result.rigid = {held.max_penetration, held.min_force, held.product};
+}
+
+double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& start) {
+  if (start.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  return (found - start).norm() / start.norm();
 }
 
 std::string inaccurate_status(double rounding_error) {

@@ -14,6 +14,9 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
 /// `time` with the pair, functions and points that a response to a tolerance chose.
 Time solved_time(Time time, const Response& response);
 
+/// rms of `found` less `start` over that of `start`; NaN if that is empty.
+double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& start);
+
 /// The status of a result whose rounding error is above largest_rounding_error.
 std::string inaccurate_status(double rounding_error);
 

@@ -30,6 +30,7 @@ void scale_frequencies(solvers::FrequencySweep& curve, double factor) {
 void scale_frequencies(solvers::CurveStability& stability, double factor) {
   for (auto& point : stability.special_points) {
     point.frequency *= factor;
+    point.unknown_parameter *= factor;
     point.bracket *= factor;
   }
 }

@@ -59,8 +59,7 @@ std::vector<ResultFile> result_files(const Scene& scene, const Record& record, b
                "motion of the leading contact degree of freedom over one period");
   append_table(files, "contacts.csv", record.contacts,
                "every contact degree of freedom over one period; displacements towards the obstacles");
-  for (const RecordFile& file : record.files)
-    files.push_back({file.name, file.contents, "motion of the whole structure"});
+  for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
   append_table(files, "sweep.csv", record.sweep, "periodic responses along the frequency response curve");
   append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
   append_picture(files, record, report);
@@ -137,9 +136,9 @@ void check_memory(const Scene& scene, double max_gigabytes) {
 }
 
 /// Solves with a progress bar, unless `quiet`, until the guard has noted a signal.
-Record solve(const Scene& scene, const InterruptGuard& guard, bool quiet) {
+Record solve(const Scene& scene, const StartMotion& start, const InterruptGuard& guard, bool quiet) {
   ProgressBar bar;
-  return analyse(scene, [&](const Progress& progress) {
+  return analyse(scene, start, [&](const Progress& progress) {
     if (!quiet) bar.show(progress);
     return guard.signal() == 0;
   });
@@ -162,9 +161,12 @@ int run_scene(const RunArguments& arguments) {
         "--output is \"\"; expected the name of a folder, which is made if it is missing");
   const Scene scene = load_scene(arguments.scene, arguments.overrides, arguments.removed);
   check_memory(scene, arguments.max_memory);
+  const StartMotion start =
+      arguments.start_from.empty() ? StartMotion{} : read_start_motion(arguments.start_from);
+  require_start_fits(start, scene);
   OutputFiles files(arguments.output);
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep);
-  const Record record = solve(scene, guard, arguments.quiet);
+  const Record record = solve(scene, start, guard, arguments.quiet);
   if (record.interrupted && record.sweep.empty()) guard.end_program();
   std::vector<ResultFile> results = result_files(scene, record, arguments.report);
   const Summary summary = whole_summary(arguments, record, results);

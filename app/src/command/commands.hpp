@@ -15,6 +15,7 @@ struct RunArguments {
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"
+  std::filesystem::path start_from;    ///< a motion to start near, see read_start_motion(); empty: none
   double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
   bool quiet = false;
   bool report = true;  ///< whether report.html is written

@@ -9,6 +9,7 @@
 
 #include "command/commands.hpp"
 #include "command/compare_command.hpp"
+#include "command/overlay_command.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -31,6 +32,7 @@ std::string footer() {
          "  wavebalance run case.toml --output results/case\n"
          "  wavebalance run case.toml --output results/haar --set time.trial=haar --set time.functions=64\n"
          "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n"
+         "  wavebalance run case.toml --output results/next --start-from results/case --set forcing.frequency=155\n"
          "  wavebalance compare case.toml --output results/compare     # which basis, how many functions?\n"
          "  wavebalance run case.toml --output results/rigid --set contact.law=rigid \\\n"
          "    --unset contact.constant --unset contact.exponent\n\n"
@@ -70,10 +72,22 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
                   "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
+  command.add_flag("!--no-report", arguments.run.report, "write no report.html");
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
 
-/// "run, check, compare, keys"
+void add_overlay(CLI::App& command, OverlayArguments& arguments) {
+  command.add_option("DIR", arguments.folders, "folders of results of `wavebalance run`, of one structure")
+      ->required();
+  command.add_option("--output,-o", arguments.output, "folder of the picture, made if missing")->required();
+  command
+      .add_option("--quantity", arguments.quantity,
+                  "max, min, max_abs or rms of the displacement; max without it")
+      ->type_name("NAME");
+  command.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
+}
+
+/// "run, check, compare, overlay, keys"
 std::string names_of_commands(const CLI::App& app) {
   std::string names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -99,6 +113,9 @@ int dispatch(int argc, char** argv) {
   CLI::App& run = *app.add_subcommand("run", "solve a scene and write its results");
   add_scene(run, arguments);
   run.add_option("--output,-o", arguments.output, "folder of the results, made if missing")->required();
+  run.add_option("--start-from", arguments.start_from,
+                 "start near a motion of an earlier run: its folder, or DIR/motion_peak.csv of a sweep")
+      ->type_name("DIR");
   run.add_option("--max-memory", arguments.max_memory,
                  "refuse a scene that is expected to take more; without it, more than the machine has")
       ->type_name("GB")
@@ -110,6 +127,10 @@ int dispatch(int argc, char** argv) {
   CompareArguments comparison;
   CLI::App& compare = *app.add_subcommand("compare", "which basis and how many functions for this scene");
   add_compare(compare, comparison);
+  OverlayArguments drawing;
+  CLI::App& overlay =
+      *app.add_subcommand("overlay", "draw responses and modes of one structure over each other");
+  add_overlay(overlay, drawing);
   CLI::App& keys = *app.add_subcommand("keys", "list every key of a scene: meaning, unit, range, default");
   check_command(app, argc, argv);
   try {
@@ -119,6 +140,7 @@ int dispatch(int argc, char** argv) {
   }
   if (keys.parsed()) return print(describe_scene_keys());
   if (compare.parsed()) return compare_scene(comparison);
+  if (overlay.parsed()) return overlay_results(drawing);
   return check.parsed() ? check_scene(arguments) : run_scene(arguments);
 }
 

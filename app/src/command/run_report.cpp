@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "command/report_parts.hpp"
 #include "command/run_words.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -32,86 +33,18 @@ double one_gap(const Contact& contact) {
   return one ? contact.gap : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string paragraph(const std::vector<std::string>& sentences) {
-  return sentences.empty()
-             ? ""
-             : fmt::format("<p>{}</p>\n", escaped(fmt::format("{}", fmt::join(sentences, " "))));
-}
-
-std::string list(const std::vector<std::string>& items) {
-  std::string text = "<ul>\n";
-  for (const auto& item : items) text += "<li>" + escaped(item) + "</li>\n";
-  return text + "</ul>\n";
-}
-
-std::string section(const std::string& title, const std::string& body) {
-  return body.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escaped(title), body);
-}
-
-std::string folded(const std::string& title, const std::string& body) {
-  return fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title), body);
-}
-
-/// An argument as a shell takes it.
-std::string shell_word(const std::string& text) {
-  const bool ordinary = !text.empty() && text.find_first_not_of(
-                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                             "0123456789_-+=./:,@%") == std::string::npos;
-  if (ordinary) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string command_of(const RunArguments& arguments) {
   std::string text = "wavebalance run " + shell_word(arguments.scene.string());
   for (const auto& one : arguments.overrides) text += " --set " + shell_word(one);
   for (const auto& one : arguments.removed) text += " --unset " + shell_word(one);
+  if (!arguments.start_from.empty()) text += " --start-from " + shell_word(arguments.start_from.string());
   return text + " --output " + shell_word(arguments.output.string());
 }
 
-std::string value_text(const SummaryValue& value) {
-  if (const auto* list = std::get_if<std::vector<double>>(&value))
-    return fmt::format("{}", fmt::join(*list, ", "));
-  if (const auto* words = std::get_if<std::vector<std::string>>(&value))
-    return fmt::format("{}", fmt::join(*words, "; "));
-  if (const auto* number = std::get_if<double>(&value)) return cell_text(*number);
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return cell_text(*count);
-  if (const auto* truth = std::get_if<bool>(&value)) return cell_text(*truth);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return fmt::format("{} rows", std::get<Table>(value).rows());
-}
-
-std::string values_table(const Summary& summary) {
-  std::vector<std::vector<std::string>> rows{{"name", "value"}};
-  for (const auto& [name, value] : summary) rows.push_back({name, value_text(value)});
-  return table_html(rows);
-}
-
-/// The cells of a table as text below the names of its columns.
-std::vector<std::vector<std::string>> text_rows(const Table& table) {
-  std::vector<std::vector<std::string>> rows{table.columns()};
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    rows.emplace_back();
-    for (const Cell& cell : table.row(i)) rows.back().push_back(cell_text(cell));
-  }
-  return rows;
-}
-
-std::string special_points_table(const Summary& summary) {
-  for (const auto& [name, value] : summary)
-    if (const auto* table = std::get_if<Table>(&value);
-        table != nullptr && name == "special_points" && !table->empty())
-      return folded("Special points", table_html(text_rows(*table)));
-  return "";
-}
-
-std::string files_list(const std::vector<ResultFile>& files) {
-  std::string text = "<ul>\n<li><a href=\"summary.json\">summary.json</a>: all values</li>\n";
-  for (const auto& file : files)
-    if (!file.name.ends_with(".vtu"))
-      text += fmt::format("<li><a href=\"{0}\">{0}</a>: {1}</li>\n", escaped(file.name), escaped(file.about));
-  return text + "</ul>\n";
+/// A table of the summary, folded below its title.
+std::string folded_table(const Summary& summary, const std::string& name, const std::string& title) {
+  const Table* table = table_of(summary, name);
+  return table == nullptr ? "" : folded(title, table_html(text_rows(*table)));
 }
 
 /// The picture that `files` holds, with curves that zoom where its data are among them.
@@ -138,11 +71,9 @@ std::string motion(const std::vector<ResultFile>& files) {
 }
 
 std::string asked(const RunArguments& arguments, const Scene& scene) {
-  return "<p>The command:</p>\n<pre><code>" + escaped(command_of(arguments)) +
-         "</code></pre>\n<p>What it solves:</p>\n<pre><code>" + escaped(describe_scene(scene)) +
-         "</code></pre>\n" +
-         folded("The scene as it was solved",
-                "<pre><code>" + escaped(write_scene(scene)) + "</code></pre>\n");
+  return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>What it solves:</p>\n" +
+         code_html(describe_scene(scene)) +
+         folded("The scene as it was solved", code_html(write_scene(scene)));
 }
 
 }  // namespace
@@ -157,13 +88,14 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.scripts = {"motion.js"};
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section("What came out", paragraph(outcome_sentences(summary, one_gap(scene.contact))) +
-                                   picture(files, heading) + motion(files)) +
-      section("Stability",
-              paragraph(stability_sentences(summary, record.sweep)) + special_points_table(summary)) +
-      section("Warnings", record.warnings.empty() ? "" : list(record.warnings)) +
-      section("What was asked", asked(arguments, scene)) +
-      section("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
+      section_html("What came out", paragraph(outcome_sentences(summary, one_gap(scene.contact))) +
+                                        picture(files, heading) + motion(files) +
+                                        folded_table(summary, "motions", "Motions at points of the curve")) +
+      section_html("Stability", paragraph(stability_sentences(summary, record.sweep)) +
+                                    folded_table(summary, "special_points", "Special points")) +
+      section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
+      section_html("What was asked", asked(arguments, scene)) +
+      section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
       fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
   return page_html(page);
 }

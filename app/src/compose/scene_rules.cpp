@@ -1,5 +1,6 @@
 #include "compose/scene_rules.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <initializer_list>
@@ -113,6 +114,24 @@ void check_branches(const Document& document, const Scene& scene) {
     fail_rule(document, {"analysis.branches", "analysis.stability"},
               "not with analysis.stability = false, by which branches are found; expected false, or "
               "analysis.stability = true");
+}
+
+/// Motions of a sweep lie on its curve.
+void check_motions(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  const auto [low, high] = std::minmax(analysis.frequency_from, analysis.frequency_to);
+  for (const double frequency : analysis.motion_at.frequencies)
+    if (frequency < low || frequency > high)
+      fail_rule(document, {"analysis.motion_at"},
+                toml_text(frequency) + " Hz is outside the sweep; expected a frequency from " +
+                    toml_text(low) + " to " + toml_text(high) + " Hz");
+  if (analysis.motion_at.special && !analysis.stability)
+    fail_rule(document, {"analysis.motion_at", "analysis.stability"},
+              "\"special\" not with analysis.stability = false, by which special points are found; expected "
+              "analysis.stability = true");
+  if (analysis.motion_points > 0 && analysis.motion_at.empty())
+    fail_rule(document, {"analysis.motion_points", "analysis.type"},
+              "a sweep writes no motion without analysis.motion_at; expected 0, or motion_at = \"peak\"");
 }
 
 void check_sweep(const Document& document, const Analysis& analysis) {
@@ -250,6 +269,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
+  if (type == AnalysisType::frequency_sweep) check_motions(document, scene);
   if (!stepping && !mode) check_subharmonic(document, scene);
   check_branches(document, scene);
   check_dense_size(document, scene);

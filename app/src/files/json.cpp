@@ -1,3 +1,4 @@
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "wavebalance/app/files/output.hpp"
@@ -31,6 +32,27 @@ std::string json_text(const Summary& summary) {
     std::visit([&, &key = name](const auto& content) { object[key] = json_value(content); }, value);
   // Text that is no UTF-8 (a file's name) must not cost the record.
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Summary read_summary(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return {};
+  const auto object = nlohmann::ordered_json::parse(read_file(file), nullptr, false);
+  if (!object.is_object()) throw IoError(file, "is no JSON object; expected the summary of a run");
+  Summary summary;
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_boolean())
+      summary.emplace_back(name, value.get<bool>());
+    else if (value.is_number_integer())
+      summary.emplace_back(name, value.get<std::int64_t>());
+    else if (value.is_number())
+      summary.emplace_back(name, value.get<double>());
+    else if (value.is_null())
+      summary.emplace_back(name, std::numeric_limits<double>::quiet_NaN());
+    else if (value.is_string())
+      summary.emplace_back(name, value.get<std::string>());
+  }
+  return summary;
 }
 
 std::vector<std::string> files_of_record(const std::filesystem::path& summary) {

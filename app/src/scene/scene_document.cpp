@@ -22,12 +22,25 @@ std::string shortened(std::string text) {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-/// A list of texts and integers as texts; monostate if there is another entry or no text.
+/// A list of texts and numbers; monostate if there is another entry.
+DocumentValue mixed_list_of(const toml::array& array) {
+  std::vector<NumberOrText> entries;
+  for (const auto& node : array) {
+    if (!node.is_string() && !node.is_number()) return std::monostate{};
+    if (node.is_string())
+      entries.emplace_back(node.as_string()->get());
+    else
+      entries.emplace_back(*node.value<double>());
+  }
+  return entries;
+}
+
+/// A list of texts and integers as texts; one of texts and numbers where there are others.
 DocumentValue texts_of(const toml::array& array) {
   std::vector<std::string> texts;
   bool any = false;
   for (const auto& node : array) {
-    if (!node.is_string() && !node.is_integer()) return std::monostate{};
+    if (!node.is_string() && !node.is_integer()) return mixed_list_of(array);
     any = any || node.is_string();
     texts.push_back(node.is_string() ? node.as_string()->get() : std::to_string(node.as_integer()->get()));
   }

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 
 /// A TOML value of a type that scenes use, lists of integers, of numbers or of texts (and integers, as texts)
-/// included; monostate is any other value (another array, table, date).
-using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                                   std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
+/// included, and of texts and numbers; monostate is any other value (another array, table, date).
+using DocumentValue =
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
+                 std::vector<double>, std::vector<std::string>, std::vector<NumberOrText>>;
 
 /// One `key = value` of a scene file or of an override.
 struct DocumentEntry {

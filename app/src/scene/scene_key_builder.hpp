@@ -3,9 +3,11 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "scene/enum_names.hpp"
@@ -29,13 +31,35 @@ inline constexpr bool is_list_of<std::vector<Number>> = true;
 template <class Number, std::size_t Size>
 inline constexpr bool is_list_of<std::array<Number, Size>> = true;
 
+/// The entries of analysis.motion_at, and what they mean.
+inline std::vector<NumberOrText> entries_of(const MotionAt& at) {
+  std::vector<NumberOrText> entries(at.frequencies.begin(), at.frequencies.end());
+  if (at.special) entries.insert(entries.begin(), "special");
+  if (at.peak) entries.insert(entries.begin(), "peak");
+  return entries;
+}
+inline MotionAt motion_at(const std::vector<NumberOrText>& entries) {
+  MotionAt at;
+  for (const NumberOrText& entry : entries) {
+    const auto* frequency = std::get_if<double>(&entry);
+    const auto known = std::find(at.frequencies.begin(), at.frequencies.end(), frequency ? *frequency : 0.0);
+    if (frequency == nullptr)
+      (std::get<std::string>(entry) == "peak" ? at.peak : at.special) = true;
+    else if (known == at.frequencies.end())
+      at.frequencies.push_back(*frequency);
+  }
+  return at;
+}
+
 /// The type that SceneValue has for a number of a Scene.
 template <class Number>
 using Stored = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
 
 template <class Field>
 SceneValue value_of(const Field& field) {
-  if constexpr (std::is_enum_v<Field>)
+  if constexpr (std::is_same_v<Field, MotionAt>)
+    return entries_of(field);
+  else if constexpr (std::is_enum_v<Field>)
     return enum_name(field);
   else if constexpr (is_list_of<Field>)
     return std::vector<Stored<typename Field::value_type>>(field.begin(), field.end());
@@ -47,7 +71,9 @@ SceneValue value_of(const Field& field) {
 
 template <class Field>
 void assign(Field& field, const SceneValue& value) {
-  if constexpr (std::is_enum_v<Field>) {
+  if constexpr (std::is_same_v<Field, MotionAt>) {
+    field = motion_at(std::get<std::vector<NumberOrText>>(value));
+  } else if constexpr (std::is_enum_v<Field>) {
     field = enum_value<Field>(std::get<std::string>(value));
   } else if constexpr (is_list_of<Field>) {
     using Number = typename Field::value_type;
@@ -73,6 +99,9 @@ template <class Field>
 void describe(SceneKey& key) {
   if constexpr (std::is_same_v<Field, bool>) {
     key.type = SceneKey::Type::boolean;
+  } else if constexpr (std::is_same_v<Field, MotionAt>) {
+    key.form = SceneKey::Form::mixed;
+    key.choices = {"peak", "special"};
   } else if constexpr (std::is_arithmetic_v<Field>) {
     describe_number<Field>(key);
   } else if constexpr (is_list_of<Field>) {

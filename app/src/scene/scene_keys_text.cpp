@@ -73,10 +73,16 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-template <class Number>
-std::string list_text(const std::vector<Number>& list) {
+SceneValue value_of_entry(double number) { return number; }
+SceneValue value_of_entry(std::int64_t number) { return number; }
+SceneValue value_of_entry(const NumberOrText& entry) {
+  return std::visit([](const auto& content) { return SceneValue(content); }, entry);
+}
+
+template <class Entry>
+std::string list_text(const std::vector<Entry>& list) {
   std::string text;
-  for (const Number one : list) text += (text.empty() ? "" : ", ") + toml_text(one);
+  for (const Entry& one : list) text += (text.empty() ? "" : ", ") + toml_text(value_of_entry(one));
   return "[" + text + "]";
 }
 
@@ -115,6 +121,7 @@ std::string pairs_text(int width) {
 std::string toml_text(const SceneValue& value) {
   if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value)) return list_text(*integers);
   if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return list_text(*numbers);
+  if (const auto* entries = std::get_if<std::vector<NumberOrText>>(&value)) return list_text(*entries);
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
   if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value)) return "\"" + escaped(*text) + "\"";
@@ -144,15 +151,19 @@ std::string SceneKey::expected() const {
   std::string text = number_words(*this);
   if (!unit.empty()) text += " in " + std::string(unit);
   const std::string range = bounds.text();
-  return range.empty() ? text : text + ", " + range;
+  if (!range.empty()) text += ", " + range;
+  if (form != Form::mixed) return text;
+  std::string names = alternatives(choices);
+  return names.replace(names.find(" or "), 4, ", ") + " or " + text + ", or a list of these";
 }
 
 std::string SceneKey::default_text() const {
   switch (fallback) {
     case Default::value: {
       const SceneValue value = get(Scene{});
-      const bool unset =
-          value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
+      const bool unset = value == SceneValue(std::string()) ||
+                         value == SceneValue(std::vector<std::int64_t>()) ||
+                         value == SceneValue(std::vector<NumberOrText>());
       return unset ? "none" : toml_text(value);
     }
     case Default::derived:

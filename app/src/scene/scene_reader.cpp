@@ -1,6 +1,7 @@
 #include "scene/scene_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -127,6 +128,45 @@ SceneValue checked_list(const Document& document, const DocumentEntry& entry, co
   return numbers;
 }
 
+/// An entry as TOML has it, or as an element of a list of texts and integers.
+NumberOrText entry_of_text(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size()) return number;
+  return text;
+}
+
+/// A number, a text or a list as a list of both; empty for anything else.
+std::vector<NumberOrText> entries_of(const DocumentValue& value) {
+  if (const auto* entries = std::get_if<std::vector<NumberOrText>>(&value)) return *entries;
+  if (const auto* text = std::get_if<std::string>(&value)) return {entry_of_text(*text)};
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*integer)};
+  if (const auto* number = std::get_if<double>(&value)) return {*number};
+  std::vector<NumberOrText> entries;
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+    for (const std::string& text : *texts) entries.push_back(entry_of_text(text));
+  if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value))
+    for (const std::int64_t one : *integers) entries.emplace_back(static_cast<double>(one));
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+    entries.assign(numbers->begin(), numbers->end());
+  return entries;
+}
+
+SceneValue checked_mixed(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
+  std::vector<NumberOrText> entries = entries_of(entry.value);
+  if (entries.empty()) fail_at(document, entry, "expected " + key.expected());
+  for (const NumberOrText& one : entries) {
+    if (const auto* number = std::get_if<double>(&one)) {
+      check_number(document, entry, key, *number);
+      continue;
+    }
+    const std::string& text = std::get<std::string>(one);
+    if (std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end()) continue;
+    fail_at(document, entry, toml_text(text) + " is none of them; expected " + key.expected());
+  }
+  return entries;
+}
+
 SceneValue checked_path(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
   const auto* text = std::get_if<std::string>(&entry.value);
   if (text == nullptr || text->empty()) fail_at(document, entry, "expected " + key.expected());
@@ -145,6 +185,7 @@ SceneValue checked_truth(const Document& document, const DocumentEntry& entry, c
 
 SceneValue checked(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
   using Form = SceneKey::Form;
+  if (key.form == Form::mixed) return checked_mixed(document, entry, key);
   if (key.form == Form::list || (key.form == Form::single_or_list && is_list(entry.value)))
     return checked_list(document, entry, key);
   if (key.form == Form::single_or_list && (std::holds_alternative<std::monostate>(entry.value) ||

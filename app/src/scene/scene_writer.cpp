@@ -6,7 +6,8 @@ namespace wavebalance::app {
 namespace {
 
 bool is_empty(const SceneValue& value) {
-  return value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>());
+  return value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>()) ||
+         value == SceneValue(std::vector<NumberOrText>());
 }
 
 /// Whether a key was not given and has no default, or a default that cannot be derived. It is not written:

@@ -1,8 +1,10 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -18,6 +20,7 @@ struct Sweep {
   solvers::CurveStability stability;      ///< set by add_stability(); without points otherwise
   std::vector<solvers::Branch> branches;  ///< set by add_stability() with analysis.branches
   int periods = 1;                        ///< of the load, over which its motions are solved for
+  double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
   int motion_periods =
       1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()
   double wall_seconds = 0.0;
@@ -35,8 +38,10 @@ struct Sweep {
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
 /// length as a change of displacement by the gap. analysis.first_step and analysis.largest_step are in Hz.
 Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
-/// The same for the scene's structure composed before.
-Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
+/// The same for the scene's structure composed before. Its first point is sought near `start` unless that is
+/// empty, as weighted_residual_response() does.
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
+                      const StartMotion& start = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
 /// is false or the structure's modes cannot be computed, and with analysis.branches its branches. An observer
@@ -48,6 +53,7 @@ void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep
 struct RecordFile {
   std::string name;
   std::string contents;
+  std::string about;  ///< one sentence without its full stop
 };
 
 /// The results of an analysis: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
@@ -62,7 +68,8 @@ struct Record {
   Table sweep;      ///< see sweep_table(); empty otherwise
   Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
   Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
-  /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx.
+  /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx; of a sweep the motions
+  /// of its points, see curve_motions.hpp.
   std::vector<RecordFile> files;
   /// Displacements of the nodes of a bar from its clamp on (rows) at uniform instants of the period, m; empty
   /// for other structures and after a curve.
@@ -73,6 +80,9 @@ struct Record {
 /// Solves `scene`. A failure to converge is reported in the record. Throws std::invalid_argument or
 /// solvers::InadmissiblePair for scenes that load_scene() would have rejected.
 Record analyse(const Scene& scene, const Observer& observer = {});
+/// The same near a motion, see require_start_fits(): a response, or the first point of a sweep. What is not
+/// found near it is not sought elsewhere.
+Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer = {});
 
 /// The table of a sweep's record; those of a motion are in contact_motion.hpp.
 Table sweep_table(const solvers::FrequencySweep& curve);

@@ -105,7 +105,9 @@ std::string resonance_name(const solvers::InternalResonance& resonance);
 
 /// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,
 /// virial_residual, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
-/// and the curve; with an elastic law also modal_energy_ratio. Values of points that are not solutions are
+/// and the curve; with an elastic law also modal_energy_ratio; then max_, min_, rms_ and
+/// max_abs_displacement_m of the contacts at analysis.output_points times, each that of the contact where it
+/// is largest (least). Values of points that are not solutions are
 /// missing.
 Table backbone_table(const ModeStudy& study, const Backbone& curve);
 /// The same columns for a published branch, energies those prescribed; contact fractions and tongues are

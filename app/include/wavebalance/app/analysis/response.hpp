@@ -59,7 +59,10 @@ struct Response {
   int motion_periods = 1;      ///< of the load, after which it repeats: solvers::motion_periods()
   double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
   std::string strategy;  ///< solvers::Strategy that found it; empty for time stepping and shooting
-  std::string form;      ///< solvers::ContactForm in which it was solved; empty for references
+  /// rms of the displacements at the quadrature points less those of ResponseOptions::guess, over the rms of
+  /// the guess; NaN without one.
+  double start_distance = std::numeric_limits<double>::quiet_NaN();
+  std::string form;  ///< solvers::ContactForm in which it was solved; empty for references
   /// The unknown of the force form, solvers::PeriodicResponse::unknown_coefficients, and its 1 / epsilon of
   /// each contact (m/N); empty in the displacement form.
   Eigen::MatrixXcd unknown_coefficients;
@@ -93,7 +96,9 @@ struct ResponseOptions {
                              ///< shooting 0 or analysis.output_points
   Eigen::VectorXd guess;     ///< displacement at the quadrature points, m; empty: the contact-free response.
                              ///< Not used with time.tolerance
-  bool stability = false;    ///< of weighted_residual_response() alone
+  Eigen::VectorXd guess_force;   ///< its contact force there, N; may be empty
+  bool stay_near_guess = false;  ///< solvers::ForcedResponseOptions::stay_near_guess
+  bool stability = false;        ///< of weighted_residual_response() alone
   Observer observer;
 };
 

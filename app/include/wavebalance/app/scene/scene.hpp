@@ -172,6 +172,16 @@ struct Time {
   bool operator==(const Time&) const = default;
 };
 
+/// The points of a sweep whose motions are written, analysis.motion_at.
+struct MotionAt {
+  bool peak = false;                     ///< the point of the largest displacement
+  bool special = false;                  ///< the special points of the curve
+  std::vector<double> frequencies = {};  ///< Hz, > 0: each point at which the curve passes one of them
+
+  bool empty() const { return !peak && !special && frequencies.empty(); }
+  bool operator==(const MotionAt&) const = default;
+};
+
 /// What is computed, and how finely it is written down.
 struct Analysis {
   AnalysisType type = AnalysisType::forced_response;
@@ -189,6 +199,7 @@ struct Analysis {
   double first_step = 0.0;      ///< Hz, frequency_sweep: first step along the branch
   double largest_step = 0.0;    ///< Hz, frequency_sweep: no step along the branch is larger
   int max_points = 20000;       ///< frequency_sweep: the branch is given up after so many points
+  MotionAt motion_at = {};      ///< frequency_sweep
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods

@@ -12,9 +12,12 @@
 
 namespace wavebalance::app {
 
+/// An entry of a list that mixes numbers and texts.
+using NumberOrText = std::variant<double, std::string>;
+
 /// The value of a scene's key.
-using SceneValue =
-    std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>, std::vector<double>>;
+using SceneValue = std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>,
+                                std::vector<double>, std::vector<NumberOrText>>;
 
 /// The numbers that a key admits.
 struct Bounds {
@@ -63,7 +66,8 @@ class Condition {
 /// One key of a scene file; the loader, the writer and the help all use this description.
 struct SceneKey {
   enum class Type { integer, number, text, boolean, path };
-  enum class Form { single, list, single_or_list };  ///< lists are of integers or numbers
+  /// Lists are of integers or numbers; `mixed` is a number, one of the choices, or a list of both.
+  enum class Form { single, list, single_or_list, mixed };
   /// What a missing key means: an error, the value that its member is initialised with, or one derived from
   /// other keys. Where `needed` holds, the key is required even if it has a derived default.
   enum class Default { required, value, derived };

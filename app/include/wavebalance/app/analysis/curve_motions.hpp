@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/analysis/analysis.hpp"
+
+namespace wavebalance::app {
+
+/// The motion of one point of a sweep.
+struct CurveMotion {
+  std::string name;  ///< "motion_peak", "motion_fold_1", "motion_150Hz_2": its files without their ending
+  std::string at;    ///< "peak", the solvers::SpecialPointType, or "frequency"
+  double frequency = 0.0;       ///< Hz, of the load
+  bool converged = true;        ///< of one at a frequency asked for: whether Newton's method solved for it
+  double residual = 0.0;        ///< relative
+  solvers::Motion contacts;     ///< of all contacts, analysis.output_points points
+  int contact = 0;              ///< the leading one, see leading_contact()
+  Eigen::MatrixXd structure;    ///< of the reduced structure at analysis.motion_points instants, m; or empty
+  ResponseStability stability;  ///< with analysis.stability; else its status is empty
+};
+
+/// The motions of analysis.motion_at: that of the point with the largest displacement, those of the special
+/// points in their order along the curve, and at each frequency those of all its points, in the same order
+/// and numbered if there are several. Those of the branches are left out. A frequency that the curve does not
+/// pass has none. `sweep` is one of the scene with motion_at. A response and its stability for each.
+std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep);
+
+/// The files of the motions, their table `motions` in the summary, and a warning for each frequency without
+/// one and each motion that was not solved for.
+void append_motions(Record& record, const Scene& scene, const StructureModel& model,
+                    const std::vector<CurveMotion>& motions);
+
+}  // namespace wavebalance::app

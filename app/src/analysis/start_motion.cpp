@@ -1,0 +1,163 @@
+#include "wavebalance/app/analysis/start_motion.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/response/settling.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* contacts_suffix = "_contacts.csv";
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// The motions of a sweep's points in a folder, sorted.
+std::vector<std::string> motions_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("motion_") && name.ends_with(".csv") && !name.ends_with(contacts_suffix))
+      names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The file of all contacts of the motion in `file`, where there is one, else the file itself.
+fs::path motion_file(const fs::path& file) {
+  if (file.filename() == "response.csv" && is_file(file.parent_path() / "contacts.csv"))
+    return file.parent_path() / "contacts.csv";
+  const fs::path all = file.parent_path() / (file.stem().string() + contacts_suffix);
+  return is_file(all) ? all : file;
+}
+
+fs::path motion_of_folder(const fs::path& folder) {
+  for (const char* name : {"contacts.csv", "response.csv"})
+    if (is_file(folder / name)) return folder / name;
+  const std::vector<std::string> motions = motions_in(folder);
+  if (motions.size() == 1) return motion_file(folder / motions.front());
+  if (motions.empty())
+    throw IoError(folder,
+                  "holds no motion to start from; expected response.csv or contacts.csv of a forced "
+                  "response, or motion_*.csv of a sweep with analysis.motion_at");
+  throw IoError(folder,
+                fmt::format("holds several motions; name the one to start from, as in {}; there are {}",
+                            (folder / motions.front()).string(), fmt::join(motions, ", ")));
+}
+
+double number_of(const Table& table, std::size_t row, const char* column, const fs::path& file) {
+  const Cell& cell = table.at(row, column);
+  const auto* integer = std::get_if<std::int64_t>(&cell);
+  const auto* number = std::get_if<double>(&cell);
+  const double value = integer ? double(*integer) : number ? *number : std::nan("");
+  if (!std::isfinite(value))
+    throw IoError(
+        file, fmt::format("row {}: {} is {}; expected a finite number", row + 1, column, cell_text(cell)));
+  return value;
+}
+
+/// The number of contacts of a table of all of them, which stand from 1 on at each time.
+std::size_t contacts_of(const Table& table, const fs::path& file) {
+  if (!table.has_column("contact")) return 1;
+  double most = 0.0;
+  for (std::size_t i = 0; i < table.rows(); ++i) most = std::max(most, number_of(table, i, "contact", file));
+  const auto contacts = static_cast<std::size_t>(std::max(most, 1.0));
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    if (number_of(table, i, "contact", file) != double(i % contacts + 1) || table.rows() % contacts != 0)
+      throw IoError(file, fmt::format("row {}: expected the contacts 1 to {} at each time, in this order",
+                                      i + 1, contacts));
+  return contacts;
+}
+
+solvers::Motion motion_of(const Table& table, const fs::path& file) {
+  for (const char* column : {"time_fraction", "displacement_m", "contact_force_N"})
+    if (!table.has_column(column))
+      throw IoError(
+          file,
+          fmt::format("has no column {}; expected the columns of response.csv or contacts.csv", column));
+  const std::size_t contacts = contacts_of(table, file);
+  const std::size_t points = table.rows() / contacts;
+  if (points < 2) throw IoError(file, "holds fewer than two instants");
+  solvers::Motion motion;
+  motion.displacement.resize(Eigen::Index(contacts), Eigen::Index(points));
+  motion.force.resizeLike(motion.displacement);
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto row = Eigen::Index(i % contacts), column = Eigen::Index(i / contacts);
+    const double time = number_of(table, i, "time_fraction", file);
+    if (std::abs(time - double(column) / double(points)) > 1e-6)
+      throw IoError(
+          file, fmt::format("row {}: time_fraction is {}; expected {} uniform instants of one period", i + 1,
+                            time, points));
+    motion.displacement(row, column) = number_of(table, i, "displacement_m", file);
+    motion.force(row, column) = number_of(table, i, "contact_force_N", file);
+  }
+  return motion;
+}
+
+std::string count_text(int count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+StartMotion read_start_motion(const fs::path& place) {
+  std::error_code ignored;
+  if (!fs::exists(place, ignored)) throw IoError(place, "does not exist; expected the results of a run");
+  const fs::path file = fs::is_directory(place, ignored) ? motion_of_folder(place) : motion_file(place);
+  StartMotion start;
+  start.source = file.string();
+  start.contacts = motion_of(read_csv(file), file);
+  for (const auto& [name, value] : read_summary(file.parent_path() / "summary.json"))
+    if (const auto* periods = std::get_if<std::int64_t>(&value); periods != nullptr && name == "subharmonic")
+      start.periods = static_cast<int>(*periods);
+  return start;
+}
+
+void require_start_fits(const StartMotion& start, const Scene& scene) {
+  if (start.contacts.empty()) return;
+  const bool balanced = scene.analysis.type == AnalysisType::forced_response ||
+                        scene.analysis.type == AnalysisType::frequency_sweep;
+  if (!balanced)
+    throw std::invalid_argument("--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
+                                "\" has no start; expected forced_response or frequency_sweep");
+  if (scene.time.tolerance > 0.0)
+    throw std::invalid_argument(
+        "--start-from: not with time.tolerance, which starts from coarser motions of its own; expected "
+        "time.functions");
+  if (start.contacts.rows() != contact_count(scene))
+    throw std::invalid_argument(fmt::format("--start-from: {} has the motion of {}, but the scene has {}",
+                                            start.source, count_text(start.contacts.rows(), "contact"),
+                                            count_text(contact_count(scene), "contact")));
+  if (start.periods < 1 || scene.analysis.subharmonic % start.periods != 0)
+    throw std::invalid_argument(fmt::format(
+        "--start-from: {} is a motion of {} of the load, and analysis.subharmonic is {}; expected "
+        "a multiple of {}",
+        start.source, count_text(start.periods, "period"), scene.analysis.subharmonic, start.periods));
+}
+
+StartSamples start_samples(const StartMotion& start, const Scene& scene) {
+  const int times = scene.analysis.subharmonic / start.periods;
+  const int points = scene.time.quadrature_points;
+  // resample() counts from its start on, the points of the scene from sample_offset / points after it.
+  const double shift = -scene.time.sample_offset / points;
+  return {solvers::resample(start.contacts.displacement.replicate(1, times), points, shift),
+          solvers::resample(start.contacts.force.replicate(1, times), points, shift)};
+}
+
+}  // namespace wavebalance::app

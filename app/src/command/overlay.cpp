@@ -1,0 +1,275 @@
+#include "command/overlay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct QuantityNames {
+  const char* name;
+  const char* column;
+  const char* words;
+};
+
+const QuantityNames& names_of(OverlayQuantity quantity) {
+  static const std::array<QuantityNames, 4> names{
+      {{"max", "max_displacement_m", "Largest displacement"},
+       {"min", "min_displacement_m", "Least displacement"},
+       {"max_abs", "max_abs_displacement_m", "Largest absolute displacement"},
+       {"rms", "rms_displacement_m", "rms displacement"}}};
+  return names[static_cast<std::size_t>(quantity)];
+}
+
+bool holds(const fs::path& folder, const char* name) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / name, ignored);
+}
+
+Scene scene_in(const fs::path& folder) {
+  if (!holds(folder, "scene.toml"))
+    throw IoError(folder, "holds no scene.toml; expected the folder of the results of `wavebalance run`");
+  return load_scene(folder / "scene.toml");
+}
+
+/// Keys of the structure that a nonlinear mode or another reduction may have otherwise.
+bool may_differ(std::string_view key) {
+  static const std::set<std::string_view> keys{"damping", "stiffness_damping", "modal_damping", "kept_modes",
+                                               "massless_tip"};
+  return keys.contains(key);
+}
+
+void require_same_directions(const Scene& first, const Scene& scene, const fs::path& place) {
+  const auto& a = first.contact.pairs;
+  const auto& b = scene.contact.pairs;
+  const auto same = [](const ContactPair& one, const ContactPair& other) {
+    return one.dofs == other.dofs && one.coefficients == other.coefficients && one.side == other.side;
+  };
+  if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same))
+    throw std::invalid_argument(place.string() +
+                                " has other [[contact.pairs]] than the first folder; expected the same "
+                                "structure in all of them");
+}
+
+void require_same_structure(const Scene& first, const Scene& scene, const fs::path& place) {
+  for (const SceneKey& key : scene_keys()) {
+    if (key.section != "structure" || may_differ(key.name)) continue;
+    const SceneValue here = key.get(scene), there = key.get(first);
+    if (here != there)
+      throw std::invalid_argument(
+          fmt::format("{} is of another structure than the first folder: {} is {} and not {}", place.string(),
+                      key.full_name(), toml_text(here), toml_text(there)));
+  }
+  require_same_directions(first, scene, place);
+}
+
+/// The one gap of a scene; NaN where there are several or none.
+double gap_in(const Scene& scene) {
+  if (scene.contact.law == ContactLawType::none || !scene.contact.gaps.empty()) return unknown;
+  const auto& pairs = scene.contact.pairs;
+  const bool one = std::all_of(pairs.begin(), pairs.end(),
+                               [&](const ContactPair& pair) { return pair.gap == pairs.front().gap; });
+  return one ? scene.contact.gap_of(0) : unknown;
+}
+
+/// The names of folders where they tell them apart, else the paths.
+std::vector<std::string> labels_of(std::span<const fs::path> folders) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders) {
+    const fs::path plain_path = folder.lexically_normal();
+    names.push_back((plain_path.has_filename() ? plain_path : plain_path.parent_path()).filename().string());
+  }
+  if (std::set<std::string>(names.begin(), names.end()).size() == names.size()) return names;
+  names.clear();
+  for (const fs::path& folder : folders) names.push_back(folder.string());
+  return names;
+}
+
+std::vector<double> column_of(const Table& table, const std::string& name, const fs::path& file) {
+  if (!table.has_column(name))
+    throw IoError(file, "has no column " + name + "; an earlier version wrote it: run its scene again");
+  return table.numbers(name);
+}
+
+std::vector<double> unstable_of(const Table& table) {
+  return table.has_column("unstable") ? table.numbers("unstable")
+                                      : std::vector<double>(table.rows(), unknown);
+}
+
+void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
+               const std::string& column) {
+  const Table all = read_csv(file);
+  const bool branches = all.has_column("branch");
+  for (int branch = 0;; ++branch) {
+    const Table table = branches ? all.where("branch", std::to_string(branch)) : all;
+    if (table.empty()) return;
+    const std::string name = branch == 0 ? label : fmt::format("{}, branch {}", label, branch);
+    curves.push_back({name, branch == 0 ? "frequency_sweep" : "branch",
+                      column_of(table, "frequency_Hz", file), column_of(table, column, file),
+                      unstable_of(table)});
+    if (!branches) return;
+  }
+}
+
+void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
+              const std::string& column) {
+  const Table table = read_csv(file);
+  OverlayCurve curve{label, "nonlinear_mode", column_of(table, "frequency_Hz", file),
+                     column_of(table, column, file), unstable_of(table)};
+  const std::vector<std::string> statuses = table.texts("status");
+  for (std::size_t i = 0; i < statuses.size(); ++i)
+    if (statuses[i] != "converged" && statuses[i] != "linear") curve.displacement[i] = unknown;
+  curves.push_back(std::move(curve));
+}
+
+double number_in(const Summary& summary, const std::string& wanted) {
+  for (const auto& [name, value] : summary)
+    if (const auto* number = std::get_if<double>(&value); number != nullptr && name == wanted) return *number;
+  return unknown;
+}
+
+/// The displacements of all contacts where there are several.
+void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
+                  OverlayQuantity quantity) {
+  const Table table = read_csv(folder / (holds(folder, "contacts.csv") ? "contacts.csv" : "response.csv"));
+  const std::vector<double> u = column_of(table, "displacement_m", folder / "response.csv");
+  const Summary summary = read_summary(folder / "summary.json");
+  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+  double value = unknown;
+  if (!u.empty() && quantity == OverlayQuantity::max) value = *high;
+  if (!u.empty() && quantity == OverlayQuantity::min) value = *low;
+  if (!u.empty() && quantity == OverlayQuantity::max_abs) value = std::max(-*low, *high);
+  if (quantity == OverlayQuantity::rms) value = number_in(summary, "rms_displacement_m");
+  curves.push_back({label, "response", {number_in(summary, "frequency_Hz")}, {value}, {unknown}});
+}
+
+void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
+                OverlayQuantity quantity) {
+  const std::string column = names_of(quantity).column;
+  if (holds(folder, "sweep.csv"))
+    add_sweep(curves, folder / "sweep.csv", label, column);
+  else if (holds(folder, "backbone.csv"))
+    add_mode(curves, folder / "backbone.csv", label, column);
+  else if (holds(folder, "response.csv"))
+    add_response(curves, folder, label, quantity);
+  else
+    throw IoError(folder,
+                  "holds neither sweep.csv, backbone.csv nor response.csv; expected the results of a run");
+}
+
+/// A curve without the lines of which an end is unstable, or with these alone.
+Series part_of(const OverlayCurve& curve, bool unstable_part, double factor) {
+  Series series;
+  const auto is_unstable = [&](std::size_t i) { return curve.unstable[i] > 0.0; };
+  const std::size_t size = curve.frequency.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool before = i > 0 && (is_unstable(i - 1) || is_unstable(i));
+    const bool after = i + 1 < size && (is_unstable(i) || is_unstable(i + 1));
+    const bool single = size == 1;
+    const bool shown =
+        unstable_part ? before || after : single || (i > 0 && !before) || (i + 1 < size && !after);
+    series.x.push_back(curve.frequency[i]);
+    series.y.push_back(shown ? factor * curve.displacement[i] : unknown);
+  }
+  return series;
+}
+
+bool any_number(const Series& series) {
+  return std::any_of(series.y.begin(), series.y.end(), [](double value) { return std::isfinite(value); });
+}
+
+void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor) {
+  Series stable = part_of(curve, false, factor), unstable = part_of(curve, true, factor);
+  stable.label = plain(curve.label);
+  stable.colour = unstable.colour = colour;
+  if (curve.kind == "response") stable.style = SeriesStyle::points;
+  if (curve.kind == "nonlinear_mode") stable.width = unstable.width = 2.4;
+  unstable.dash = Dash::dashed;
+  if (any_number(stable) || !any_number(unstable)) panel.add(std::move(stable));
+  if (!any_number(unstable)) return;
+  unstable.label = plain(curve.label + ", unstable");
+  panel.add(std::move(unstable));
+}
+
+}  // namespace
+
+OverlayQuantity overlay_quantity(const std::string& name) {
+  for (const auto quantity :
+       {OverlayQuantity::max, OverlayQuantity::min, OverlayQuantity::max_abs, OverlayQuantity::rms})
+    if (names_of(quantity).name == name) return quantity;
+  throw std::invalid_argument("--quantity is \"" + name + "\"; expected max, min, max_abs or rms");
+}
+
+Overlay read_overlay(std::span<const fs::path> folders, OverlayQuantity quantity) {
+  Overlay overlay;
+  const std::vector<std::string> labels = labels_of(folders);
+  const Scene first = scene_in(folders.front());
+  overlay.gap = gap_in(first);
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const Scene scene = scene_in(folders[i]);
+    require_same_structure(first, scene, folders[i]);
+    add_curves(overlay.curves, folders[i], labels[i], quantity);
+    const double gap = gap_in(scene);
+    if (gap == overlay.gap || (std::isnan(gap) && std::isnan(overlay.gap))) continue;
+    if (scene.contact.law != ContactLawType::none && first.contact.law != ContactLawType::none)
+      overlay.warnings.push_back(fmt::format(
+          "{} has another gap than the first folder: their curves are those of different contacts",
+          folders[i].string()));
+    overlay.gap = unknown;
+  }
+  return overlay;
+}
+
+Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
+  constexpr std::array colours{Colour::blue,   Colour::orange,   Colour::green,
+                               Colour::purple, Colour::sky_blue, Colour::vermillion};
+  double largest = 0.0;
+  for (const OverlayCurve& curve : overlay.curves)
+    for (const double value : curve.displacement)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  const bool micro = largest < 1e-3, milli = !micro && largest < 1.0;
+  const double factor = micro ? 1e6 : milli ? 1e3 : 1.0;
+  Figure figure;
+  figure.panel_width = 640;
+  figure.panel_height = 420;
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Frequency (Hz)";
+  panel.y.label = fmt::format("{} ({}m)", names_of(quantity).words, micro ? "µ" : milli ? "m" : "");
+  panel.legend = Legend::below_panel;
+  std::size_t next = 0;
+  for (const OverlayCurve& curve : overlay.curves) {
+    const bool mode = curve.kind == "nonlinear_mode";
+    draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], factor);
+  }
+  figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
+  if (std::isfinite(overlay.gap) && quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min)
+    panel.mark_y(factor * overlay.gap, "gap");
+  return figure;
+}
+
+Table overlay_table(const Overlay& overlay) {
+  Table table({"curve", "kind", "frequency_Hz", "displacement_m", "unstable"});
+  for (const OverlayCurve& curve : overlay.curves)
+    for (std::size_t i = 0; i < curve.frequency.size(); ++i)
+      table.append_row(
+          {curve.label, curve.kind, curve.frequency[i], curve.displacement[i], curve.unstable[i]});
+  return table;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,107 @@
+#include "command/overlay_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "command/commands.hpp"
+#include "command/overlay.hpp"
+#include "command/run_report.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/page/html.hpp"
+#include "wavebalance/app/plot/figure_script.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check(const OverlayArguments& arguments) {
+  if (arguments.output.empty())
+    throw std::invalid_argument(
+        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  std::error_code ignored;
+  for (const fs::path& folder : arguments.folders)
+    if (fs::equivalent(folder, arguments.output, ignored))
+      throw std::invalid_argument("--output " + arguments.output.string() +
+                                  " holds results that are to be drawn; expected another folder");
+}
+
+std::string page_text(const OverlayArguments& arguments, const Overlay& overlay, bool drawn) {
+  FigureBlock block{"overlay"};
+  block.alternative = "Displacement over the frequency, of all folders";
+  block.curves = drawn;
+  std::string list;
+  for (const fs::path& folder : arguments.folders) list += "<li>" + escaped(folder.string()) + "</li>\n";
+  std::string warnings;
+  for (const std::string& one : overlay.warnings) warnings += "<p>" + escaped(one) + ".</p>\n";
+  PageParts page;
+  page.title = "Responses and modes, Wavebalance";
+  page.assets = "";
+  page.libraries = {Library::d3};
+  page.body = "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
+              (drawn ? figure_html(block) : "<p>There is no picture: gnuplot was not found.</p>\n") +
+              "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n" + list +
+              "</ul>\n<p><a href=\"overlay.csv\">overlay.csv</a> holds their points.</p>\n" +
+              fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
+  return page_html(page);
+}
+
+std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overlay& overlay,
+                                 OverlayQuantity quantity) {
+  const Figure figure = overlay_figure(overlay, quantity);
+  std::vector<ResultFile> files;
+  bool drawn = true;
+  try {
+    files.push_back({"overlay.svg", render(figure, PictureFormat::svg), "the picture"});
+    files.push_back({"overlay.png", render(figure, PictureFormat::png), "the picture"});
+    files.push_back({"overlay.figure.js", figure_script(figure, "overlay"), "the curves of overlay.html"});
+  } catch (const PlotError& error) {
+    std::fprintf(stderr, "wavebalance: no picture: %s\n", error.what());
+    drawn = false;
+  }
+  files.push_back(
+      {"overlay.html", page_text(arguments, overlay, drawn), "the picture, with curves that zoom"});
+  files.push_back({"overlay.csv", csv_text(overlay_table(overlay)), "the points of all curves"});
+  return files;
+}
+
+std::string summary_of(const OverlayArguments& arguments, const Overlay& overlay,
+                       const std::vector<ResultFile>& files) {
+  std::vector<std::string> folders;
+  for (const fs::path& folder : arguments.folders) folders.push_back(folder.string());
+  Summary summary{{"folders", folders},
+                  {"quantity", arguments.quantity},
+                  {"curves", static_cast<std::int64_t>(overlay.curves.size())},
+                  {"warnings", overlay.warnings},
+                  {"version", std::string(version())}};
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
+  return json_text(summary);
+}
+
+}  // namespace
+
+int overlay_results(const OverlayArguments& arguments) {
+  check(arguments);
+  const OverlayQuantity quantity = overlay_quantity(arguments.quantity);
+  const Overlay overlay = read_overlay(arguments.folders, quantity);
+  OutputFiles output(arguments.output);
+  const std::vector<ResultFile> files = files_of(arguments, overlay, quantity);
+  output.replace(files_of_record(output.directory() / "summary.json"));
+  for (const ResultFile& file : files) output.add(file.name, file.contents);
+  output.add("summary.json", summary_of(arguments, overlay, files));
+  output.commit();
+  for (const std::string& warning : overlay.warnings)
+    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  if (arguments.quiet) return solved;
+  std::string list = "summary.json";
+  for (const ResultFile& file : files) list += ", " + file.name;
+  return print(
+      fmt::format("{} curves written to {}: {}\n", overlay.curves.size(), arguments.output.string(), list));
+}
+
+}  // namespace wavebalance::app

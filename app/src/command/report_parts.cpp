@@ -1,0 +1,93 @@
+#include "command/report_parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "wavebalance/app/page/html.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::string value_text(const SummaryValue& value) {
+  if (const auto* list = std::get_if<std::vector<double>>(&value))
+    return fmt::format("{}", fmt::join(*list, ", "));
+  if (const auto* words = std::get_if<std::vector<std::string>>(&value))
+    return fmt::format("{}", fmt::join(*words, "; "));
+  if (const auto* number = std::get_if<double>(&value)) return cell_text(*number);
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return cell_text(*count);
+  if (const auto* truth = std::get_if<bool>(&value)) return cell_text(*truth);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return fmt::format("{} rows", std::get<Table>(value).rows());
+}
+
+}  // namespace
+
+std::string paragraph(const std::vector<std::string>& sentences) {
+  return sentences.empty()
+             ? ""
+             : fmt::format("<p>{}</p>\n", escaped(fmt::format("{}", fmt::join(sentences, " "))));
+}
+
+std::string list_html(const std::vector<std::string>& items) {
+  std::string text = "<ul>\n";
+  for (const auto& item : items) text += "<li>" + escaped(item) + "</li>\n";
+  return text + "</ul>\n";
+}
+
+std::string section_html(const std::string& title, const std::string& body) {
+  return body.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escaped(title), body);
+}
+
+std::string folded(const std::string& title, const std::string& body) {
+  return fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title), body);
+}
+
+std::string code_html(const std::string& text) { return "<pre><code>" + escaped(text) + "</code></pre>\n"; }
+
+std::string shell_word(const std::string& text) {
+  const bool ordinary = !text.empty() && text.find_first_not_of(
+                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                             "0123456789_-+=./:,@%") == std::string::npos;
+  if (ordinary) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string values_table(const Summary& summary) {
+  std::vector<std::vector<std::string>> rows{{"name", "value"}};
+  for (const auto& [name, value] : summary) rows.push_back({name, value_text(value)});
+  return table_html(rows);
+}
+
+std::vector<std::vector<std::string>> text_rows(const Table& table) {
+  std::vector<std::vector<std::string>> rows{table.columns()};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    rows.emplace_back();
+    for (const Cell& cell : table.row(i)) rows.back().push_back(cell_text(cell));
+  }
+  return rows;
+}
+
+const Table* table_of(const Summary& summary, const std::string& name) {
+  for (const auto& [key, value] : summary)
+    if (const auto* table = std::get_if<Table>(&value); table != nullptr && key == name && !table->empty())
+      return table;
+  return nullptr;
+}
+
+std::string files_list(const std::vector<ResultFile>& files) {
+  std::string text = "<ul>\n<li><a href=\"summary.json\">summary.json</a>: all values</li>\n";
+  for (const auto& file : files)
+    if (!file.name.ends_with(".vtu"))
+      text += fmt::format("<li><a href=\"{0}\">{0}</a>: {1}</li>\n", escaped(file.name), escaped(file.about));
+  return text + "</ul>\n";
+}
+
+bool holds_file(const std::vector<ResultFile>& files, const std::string& name) {
+  return std::any_of(files.begin(), files.end(), [&](const ResultFile& file) { return file.name == name; });
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "command/run_report.hpp"
+#include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/files/table.hpp"
+
+/// Parts that the pages of all commands share, as HTML.
+namespace wavebalance::app {
+
+/// Sentences as one paragraph, with their characters escaped; empty without any.
+std::string paragraph(const std::vector<std::string>& sentences);
+/// Items of a list, escaped.
+std::string list_html(const std::vector<std::string>& items);
+/// A section with its heading; empty without a body, which is HTML.
+std::string section_html(const std::string& title, const std::string& body);
+/// A body of HTML that opens below its title.
+std::string folded(const std::string& title, const std::string& body);
+/// Text in a box of its own, as it is.
+std::string code_html(const std::string& text);
+
+/// An argument as a shell takes it.
+std::string shell_word(const std::string& text);
+
+/// The cells of a table as text below the names of its columns.
+std::vector<std::vector<std::string>> text_rows(const Table& table);
+/// The table `name` of a summary; null if there is none or it is empty.
+const Table* table_of(const Summary& summary, const std::string& name);
+/// All values of a summary, lists in one cell.
+std::string values_table(const Summary& summary);
+/// Links to summary.json and to the files, each with its sentence.
+std::string files_list(const std::vector<ResultFile>& files);
+/// Whether one of the files has this name.
+bool holds_file(const std::vector<ResultFile>& files, const std::string& name);
+
+}  // namespace wavebalance::app
