@@ -5,12 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "command/compare_report.hpp"
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
 #include "command/run_report.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/plot/figure_script.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -22,23 +24,30 @@ ComparisonOptions options_of(const CompareArguments& arguments) {
   return options;
 }
 
-std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& record) {
+/// All files but the summary; with `report` first the report, still without contents.
+std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& record, bool report) {
   std::vector<ResultFile> files;
+  if (report)
+    files.push_back({"report.html", "", "what to take and how each pair did, to read in a browser"});
   files.push_back({"scene.toml", write_scene(scene), "the scene that was compared"});
   if (!record.table.empty())
     files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
   files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
   try {
-    for (const RecordPicture& picture : record.pictures)
+    for (const RecordPicture& picture : record.pictures) {
       files.push_back({picture.stem + ".svg", render(picture.figure, PictureFormat::svg), picture.about});
+      if (report && has_curves(picture.figure))
+        files.push_back({picture.stem + ".figure.js", figure_script(picture.figure, picture.stem),
+                         "the curves of report.html"});
+    }
   } catch (const PlotError& error) {
     std::fprintf(stderr, "wavebalance: no picture: %s\n", error.what());
   }
   return files;
 }
 
-std::string summary_of(const CompareArguments& arguments, const ComparisonRecord& record,
-                       const std::vector<ResultFile>& files) {
+Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord& record,
+                      const std::vector<ResultFile>& files) {
   Summary summary = record.summary;
   summary.emplace_back("budget_seconds", arguments.budget);
   summary.emplace_back("scene", arguments.run.scene.string());
@@ -48,7 +57,7 @@ std::string summary_of(const CompareArguments& arguments, const ComparisonRecord
   Table list({"name", "about"});
   for (const ResultFile& file : files) list.append_row({file.name, file.about});
   summary.emplace_back("files", std::move(list));
-  return json_text(summary);
+  return summary;
 }
 
 void write_all(OutputFiles& output, const std::vector<ResultFile>& files, const std::string& summary) {
@@ -93,9 +102,12 @@ int compare_scene(const CompareArguments& arguments) {
   });
   bar.finish();
   if (record.interrupted && record.table.empty()) guard.end_program();
-  const std::vector<ResultFile> files = files_of(scene, record);
+  std::vector<ResultFile> files = files_of(scene, record, arguments.run.report);
+  const Summary summary = whole_summary(arguments, record, files);
+  if (arguments.run.report)
+    files.front().contents = comparison_report(arguments, scene, record, summary, files);
   guard.defer();
-  write_all(output, files, summary_of(arguments, record, files));
+  write_all(output, files, json_text(summary));
   say(arguments, record, files);
   if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

@@ -1,9 +1,11 @@
 #include "compose/structure_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
@@ -59,11 +61,38 @@ std::string_view key_of(fem::StructureMatrix matrix) {
   return matrix == fem::StructureMatrix::damping ? damping_key : stiffness_key;
 }
 
+/// Rows from 1 without an entry other than zero, as rotations have none where mass is lumped.
+std::vector<int> rows_without_mass(const Eigen::SparseMatrix<double>& mass) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(mass.rows());
+  for (int column = 0; column < mass.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, column); entry; ++entry)
+      largest[entry.row()] = std::max(largest[entry.row()], std::abs(entry.value()));
+  std::vector<int> rows;
+  for (Eigen::Index row = 0; row < largest.size(); ++row)
+    if (largest[row] == 0.0) rows.push_back(static_cast<int>(row) + 1);
+  return rows;
+}
+
+/// What to do about rows without mass; empty where there are none.
+std::string advice_on(const std::vector<int>& rows) {
+  constexpr std::size_t shown = 5;
+  if (rows.empty()) return "";
+  return fmt::format(
+      ". Of its rows {} {} no mass: {}{}. Expected the matrices without them, with the stiffness K_aa - K_ab "
+      "K_bb^-1 K_ba of the rows a with mass, b those without, or a consistent mass matrix",
+      rows.size(), rows.size() == 1 ? "has" : "have",
+      fmt::join(std::span(rows).first(std::min(shown, rows.size())), ", "),
+      rows.size() > shown ? ", ..." : "");
+}
+
 void check_matrices(const fem::Matrices& matrices) {
   try {
     fem::check_structure(matrices, {.first_index = 1});
   } catch (const fem::StructureFault& fault) {
-    throw StructureFault(std::string(key_of(fault.matrix())), "the matrix " + fault.reason());
+    const bool mass = fault.matrix() == fem::StructureMatrix::mass;
+    throw StructureFault(
+        std::string(key_of(fault.matrix())),
+        "the matrix " + fault.reason() + (mass ? advice_on(rows_without_mass(matrices.mass)) : ""));
   }
 }
 

@@ -29,9 +29,15 @@ TEST(CommandCompare, WritesItsFilesAndSaysWhatToTake) {
   const Outcome outcome = compare(folder, {"--pairs", "fourier:fourier,haar:fourier", "--budget", "2"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   for (const char* name : {"summary.json", "comparison.csv", "comparison.md", "error_over_time.svg",
-                           "error_over_functions.svg", "scene.toml"})
+                           "error_over_functions.svg", "scene.toml", "report.html",
+                           "error_over_time.figure.js", "error_over_functions.figure.js"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 6);
+  EXPECT_EQ(TemporaryFolder::count(folder / "out"), 9);
+  const std::string page = read_file(folder / "out" / "report.html");
+  for (const char* part : {"For an error of 1e-4", "[time]\ntrial = ", "Errors are those against shooting.",
+                           "How each pair did", "Its motion is stable.", "error_over_time.figure.js",
+                           "wavebalance compare ", "--pairs fourier:fourier,haar:fourier --budget 2"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_NE(outcome.output.find("The reference is shooting"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("For an error of 1e-2 the cheapest is "), std::string::npos)
       << outcome.output;
@@ -46,6 +52,18 @@ TEST(CommandCompare, WritesItsFilesAndSaysWhatToTake) {
   EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(folder / "case.toml"));
 }
 
+TEST(CommandCompare, LeavesTheReportOutAndSaysWhichPairsAreNone) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(compare(folder, {"--budget", "1"}).exit_code, 0);
+  EXPECT_NE(read_file(folder / "out" / "report.html").find("Not admissible"), std::string::npos);
+  const Outcome without =
+      compare(folder, {"--pairs", "fourier:fourier", "--budget", "1", "--no-report", "--quiet"});
+  EXPECT_EQ(without.exit_code, 0) << without.errors;
+  EXPECT_FALSE(fs::exists(folder / "out" / "report.html"));
+  EXPECT_FALSE(fs::exists(folder / "out" / "error_over_time.figure.js"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "error_over_time.svg"));
+}
+
 TEST(CommandCompare, OfASweepDrawsTheCurvesOverEachOther) {
   const TemporaryFolder folder;
   const Outcome outcome =
@@ -53,8 +71,10 @@ TEST(CommandCompare, OfASweepDrawsTheCurvesOverEachOther) {
                        "analysis.type=frequency_sweep", "--set", "analysis.frequency_from=100", "--set",
                        "analysis.frequency_to=110"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const char* name : {"summary.json", "comparison.csv", "comparison.md", "sweeps.svg", "scene.toml"})
+  for (const char* name : {"summary.json", "comparison.csv", "comparison.md", "sweeps.svg", "scene.toml",
+                           "report.html", "sweeps.figure.js"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_NE(read_file(folder / "out" / "report.html").find("distance from the finest"), std::string::npos);
   const Table table = read_csv(folder / "out" / "comparison.csv");
   EXPECT_GT(table.where("status", "reached_end").rows(), 2u);
 }

@@ -106,10 +106,28 @@ TEST_F(ChainScene, IndefiniteMassAndSingularStiffnessAreErrors) {
   folder_.write("no_mass.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 2\n1 1 2\n3 3 2\n");
   expect_error(with(chain_scene, "m.mtx", "no_mass.mtx"), 3, "structure.mass",
                "not positive definite: its diagonal entry 2 is 0");
+  expect_error(
+      with(chain_scene, "m.mtx", "no_mass.mtx"), 3, "structure.mass",
+      "Of its rows 1 has no mass: 2. Expected the matrices without them, with the stiffness K_aa - ");
   folder_.write(
       "free.mtx",
       "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 1\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n");
   expect_error(with(chain_scene, "k.mtx", "free.mtx"), 4, "structure.stiffness", "free to move");
+}
+
+TEST_F(ChainScene, DenseMatricesAndASparseLoadAreTakenAsTheOthersAre) {
+  folder_.write(
+      "k_dense.mtx",
+      "%%MatrixMarket matrix array real general\n3 3\n2e6\n-1e6\n0\n-1e6\n2e6\n-1e6\n0\n-1e6\n1e6\n");
+  folder_.write("m_dense.mtx", "%%MatrixMarket matrix array real symmetric\n3 3\n2\n0\n0\n2\n0\n2\n");
+  folder_.write("f_sparse.mtx", "%%MatrixMarket matrix coordinate real general\n3 1 1\n3 1 1\n");
+  const std::string vector = with(chain_scene, "load_dofs = [3] ", "load = \"f.mtx\"");
+  const StructureModel sparse = make_model(load(vector));
+  const StructureModel dense = make_model(load(
+      with(with(with(vector, "k.mtx", "k_dense.mtx"), "m.mtx", "m_dense.mtx"), "f.mtx", "f_sparse.mtx")));
+  EXPECT_EQ(Eigen::MatrixXd(dense.structure.stiffness), Eigen::MatrixXd(sparse.structure.stiffness));
+  EXPECT_EQ(Eigen::MatrixXd(dense.structure.mass), Eigen::MatrixXd(sparse.structure.mass));
+  EXPECT_EQ(dense.structure.load, sparse.structure.load);
 }
 
 TEST_F(ChainScene, ContactDofsAreInRangeAndOnce) {

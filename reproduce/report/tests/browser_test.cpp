@@ -248,6 +248,30 @@ TEST_F(Browser, TheReportOfARunIsSoundAndMovesTheBarAsItsResponseSays) {
   }
 }
 
+TEST_F(Browser, TheReportsOfAComparisonAndOfAnOverlayAreSound) {
+  const TemporaryFolder folder;
+  const std::string scenes = WAVEBALANCE_SCENES "/jones_legrand_2014/", here = folder.path().string();
+  const std::string few = " --pairs fourier:fourier,haar:fourier --budget 2 --quiet --output '" + here;
+  const std::string sweep = scenes + "case2_sweep.toml'", one = "'" WAVEBALANCE_COMMAND "' ";
+  for (const std::string& command :
+       {one + "compare '" + scenes + "case1.toml'" + few + "/forced'",
+        one + "compare '" + sweep + few + "/sweep'",
+        one + "run '" + sweep + " --quiet --set time.functions=15 --set analysis.motion_at=peak --output '" +
+            here + "/curve'",
+        one + "overlay '" + here + "/curve' --quiet --output '" + here + "/picture'"})
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  std::vector<Path> pages;
+  for (const char* page :
+       {"forced/report.html", "sweep/report.html", "curve/report.html", "picture/overlay.html"}) {
+    pages.push_back(folder.path() / page);
+    EXPECT_EQ(broken_links(pages.back()), std::set<std::string>{}) << page;
+  }
+  std::string log;
+  const auto found = probed(pages, folder.path(), log);
+  ASSERT_EQ(found.size(), 12u) << found.back();
+  expect_sound(found, log);
+}
+
 TEST_F(Browser, TheResultsOfTheRunAreSound) {
   const Path results = WAVEBALANCE_RESULTS;
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";

@@ -1,0 +1,185 @@
+#include "command/compare_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "command/report_parts.hpp"
+#include "wavebalance/app/page/html.hpp"
+#include "wavebalance/app/scene/scene_writer.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+template <class Value>
+Value value_in(const Summary& summary, const std::string& wanted, Value otherwise) {
+  for (const auto& [name, value] : summary)
+    if (const auto* found = std::get_if<Value>(&value); found != nullptr && name == wanted) return *found;
+  return otherwise;
+}
+
+std::string command_of(const CompareArguments& arguments) {
+  std::string text = "wavebalance compare " + shell_word(arguments.run.scene.string());
+  if (!arguments.pairs.empty()) text += " --pairs " + shell_word(arguments.pairs);
+  text += fmt::format(" --budget {}", arguments.budget);
+  for (const auto& one : arguments.run.overrides) text += " --set " + shell_word(one);
+  for (const auto& one : arguments.run.removed) text += " --unset " + shell_word(one);
+  return text + " --output " + shell_word(arguments.run.output.string());
+}
+
+std::string short_text(const Cell& cell) {
+  const auto* number = std::get_if<double>(&cell);
+  if (number == nullptr) return cell_text(cell);
+  return std::isfinite(*number) ? fmt::format("{:.3g}", *number) : "";
+}
+
+/// "1e-2"
+std::string error_text(double error) {
+  std::string text = fmt::format("{:.0e}", error);
+  const auto zero = text.find("e-0");
+  return zero == std::string::npos ? text : text.erase(zero + 2, 1);
+}
+
+/// A sentence from what a picture shows.
+std::string sentence(std::string about) {
+  if (!about.empty()) about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
+  return about + ".";
+}
+
+/// Columns of a table under other names, numbers with three digits.
+std::string columns_html(const Table& table,
+                         const std::vector<std::pair<std::string, std::string>>& columns) {
+  std::vector<std::vector<std::string>> rows(1);
+  for (const auto& [column, name] : columns) rows.front().push_back(name);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    rows.emplace_back();
+    for (const auto& [column, name] : columns) rows.back().push_back(short_text(table.at(row, column)));
+  }
+  return table_html(rows);
+}
+
+/// Two sentences for each error, with the table to paste where it is not that of the error before.
+std::string recommendations(const Summary& summary) {
+  const Table* table = table_of(summary, "recommendations");
+  if (table == nullptr) return "";
+  std::string html, before;
+  for (std::size_t row = 0; row < table->rows(); ++row) {
+    const std::string paste = cell_text(table->at(row, "time_table"));
+    html +=
+        fmt::format("<h3>For an error of {}</h3>\n", error_text(std::get<double>(table->at(row, "error"))));
+    html += paragraph({cell_text(table->at(row, "sentences"))});
+    const std::string stability = cell_text(table->at(row, "stability"));
+    if (stability == "stable" || stability == "unstable")
+      html += paragraph({"Its motion is " + stability + "."});
+    if (paste.empty()) continue;
+    html += paste == before ? "<p>The [time] table is the one above.</p>\n" : code_html(paste);
+    before = paste;
+  }
+  const std::vector<std::pair<std::string, std::string>> columns{
+      {"error", "error asked for"},
+      {"trial", "trial"},
+      {"weight", "weight"},
+      {"functions", "functions"},
+      {"quadrature_points", "points"},
+      {"seconds", "time (s)"},
+      {"displacement_error", "error"},
+      {"force_error", "error of the force"},
+      {"fourier_time_ratio", "time of Fourier:Fourier over it"}};
+  return html + "<h3>Side by side</h3>\n" + columns_html(*table, columns);
+}
+
+std::string pictures(const ComparisonRecord& record, const std::vector<ResultFile>& files) {
+  std::string html;
+  for (const RecordPicture& picture : record.pictures) {
+    if (!holds_file(files, picture.stem + ".svg")) continue;
+    FigureBlock block{picture.stem};
+    block.alternative = picture.about;
+    block.caption = escaped(sentence(picture.about));
+    block.curves = holds_file(files, picture.stem + ".figure.js");
+    html += figure_html(block);
+  }
+  const bool missing = html.empty() && !record.pictures.empty();
+  return missing ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;
+}
+
+std::string pairs(const Summary& summary) {
+  const Table* table = table_of(summary, "pairs");
+  if (table == nullptr) return "";
+  const Table admissible = table->where("admissible", "true"), others = table->where("admissible", "false");
+  std::string html = columns_html(admissible, {{"trial", "trial"},
+                                               {"weight", "weight"},
+                                               {"solves", "solves"},
+                                               {"converged", "converged"},
+                                               {"largest_functions", "most functions"},
+                                               {"smallest_error", "smallest error"},
+                                               {"order", "order"},
+                                               {"force_order", "order of the force"},
+                                               {"failures", "what failed"}});
+  if (!others.empty())
+    html += "<h3>Not admissible</h3>\n" +
+            columns_html(others, {{"trial", "trial"}, {"weight", "weight"}, {"failures", "why"}});
+  return html;
+}
+
+std::string curves(const ComparisonRecord& record, const Summary& summary) {
+  if (table_of(summary, "curves") == nullptr) return "";
+  return columns_html(record.table, {{"trial", "trial"},
+                                     {"weight", "weight"},
+                                     {"functions", "functions"},
+                                     {"seconds", "time (s)"},
+                                     {"curve_points", "points of the curve"},
+                                     {"max_displacement_m", "peak (m)"},
+                                     {"frequency_at_max_displacement_Hz", "at (Hz)"},
+                                     {"turning_points", "turns"},
+                                     {"distance_from_finest", "distance from the finest"},
+                                     {"status", "status"}});
+}
+
+std::string reference(const Summary& summary) {
+  const std::string text = value_in<std::string>(summary, "reference_text", "");
+  if (text.empty()) return "";
+  const double error = value_in<double>(summary, "reference_error", std::numeric_limits<double>::quiet_NaN());
+  if (!std::isfinite(error)) return paragraph({"No reference was found within its share of the budget."});
+  std::vector<std::string> sentences{
+      fmt::format("Errors are those against {}. Its own error is about {:.0e}; smaller differences from it "
+                  "say nothing.",
+                  text, error)};
+  const std::string stability = value_in<std::string>(summary, "reference_stability", "");
+  if (stability == "stable" || stability == "unstable")
+    sentences.push_back("Its motion is " + stability + ".");
+  else if (!stability.empty())
+    sentences.push_back("Whether its motion is stable is not known (" + stability + ").");
+  return paragraph(sentences);
+}
+
+}  // namespace
+
+std::string comparison_report(const CompareArguments& arguments, const Scene& scene,
+                              const ComparisonRecord& record, const Summary& summary,
+                              const std::vector<ResultFile>& files) {
+  const bool sweep = table_of(summary, "curves") != nullptr;
+  std::string outcome = record.converged
+                            ? recommendations(summary)
+                            : paragraph({"Nothing was compared to the end: " + record.status + "."});
+  if (sweep) outcome += paragraph({record.text.substr(0, record.text.find("\n\n"))});
+  PageParts page;
+  page.title = "Which basis? Wavebalance";
+  page.assets = "";
+  page.libraries = {Library::d3};
+  page.body =
+      "<main>\n<h1>Which basis for this scene?</h1>\n" + section_html("What to take", outcome) +
+      section_html("Pictures", pictures(record, files)) +
+      section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
+      section_html("The reference", reference(summary)) +
+      section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
+      section_html("What was asked",
+                   "<p>The command:</p>\n" + code_html(command_of(arguments)) +
+                       folded("The scene that was compared", code_html(write_scene(scene)))) +
+      section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
+      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
+  return page_html(page);
+}
+
+}  // namespace wavebalance::app
