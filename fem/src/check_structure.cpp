@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,8 @@ void require_symmetric(StructureMatrix name, const Sparse& matrix, const Structu
 Sparse scaled(const Sparse& matrix, const Eigen::VectorXd& factors) {
   return factors.asDiagonal() * matrix * factors.asDiagonal();
 }
+
+Sparse symmetric_part(const Sparse& matrix) { return 0.5 * (matrix + Sparse(matrix.transpose())); }
 
 void require_positive_definite(StructureMatrix name, const Sparse& matrix, int first_index,
                                const char* advice) {
@@ -69,13 +72,16 @@ void check_structure(const Matrices& matrices, const StructureChecks& checks) {
   require_size(stiffness, matrices.stiffness, size);
   require_size(mass, matrices.mass, size);
   if (damped) require_size(damping, matrices.damping, size);
-  require_symmetric(stiffness, matrices.stiffness, checks);
+  StructureChecks finite = checks;
+  if (checks.unsymmetric) finite.symmetry_tolerance = std::numeric_limits<double>::infinity();
+  require_symmetric(stiffness, matrices.stiffness, finite);
   require_symmetric(mass, matrices.mass, checks);
-  if (damped) require_symmetric(damping, matrices.damping, checks);
+  if (damped) require_symmetric(damping, matrices.damping, finite);
   require_positive_definite(mass, matrices.mass, checks.first_index, "");
   if (!checks.allow_free)
-    require_positive_definite(stiffness, matrices.stiffness, checks.first_index,
-                              "; is the structure free to move without being strained?");
+    require_positive_definite(stiffness,
+                              checks.unsymmetric ? symmetric_part(matrices.stiffness) : matrices.stiffness,
+                              checks.first_index, "; is the structure free to move without being strained?");
 }
 
 bool positive_semidefinite(const Sparse& matrix, double tolerance) {

@@ -320,6 +320,23 @@ TEST(DenseOracle, EqualsTheSymbolsForRigidObstaclesOnBothSidesOfRandomDirections
   }
 }
 
+// Gyroscopic and circulatory: neither the assembled matrix nor the compliance is symmetric.
+TEST(DenseOracle, EqualsTheSymbolsForDampingAndStiffnessWithoutSymmetry) {
+  for (const Setting& setting : admissible_settings()) {
+    Contacts contacts = many_contacts(2);
+    for (auto* matrix : {&contacts.structure.damping, &contacts.structure.stiffness}) {
+      const double part = 0.05 * matrix->coeff(0, 0);
+      for (int i = 0; i + 2 < 7; ++i) {
+        matrix->coeffRef(i, i + 2) += part;
+        matrix->coeffRef(i + 2, i) -= part;
+      }
+    }
+    SCOPED_TRACE(describe(setting));
+    Oracle oracle(setting, contacts.structure, contacts.laws, cases[0].frequency_hz, 16, 64);
+    EXPECT_TRUE(oracle.expect_equal());
+  }
+}
+
 // The points need not be a multiple of the functions, odd or even, when both bases are Fourier.
 TEST(DenseOracle, EqualsTheSymbolsForAnyNumberOfFourierFunctionsAndPoints) {
   for (const auto formulation : {Formulation::strong, Formulation::weak, Formulation::distributional})

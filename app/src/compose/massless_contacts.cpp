@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compose/symmetric_part.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::app {
@@ -60,6 +61,7 @@ Eigen::MatrixXd transformation(const fem::EigenmodesResult& modes,
 Eigen::SparseMatrix<double> transformed(const Eigen::SparseMatrix<double>& matrix,
                                         const Eigen::MatrixXd& transformation) {
   const Eigen::MatrixXd product = transformation.transpose() * (matrix * transformation);
+  if (!solvers::is_symmetric(matrix)) return product.sparseView();
   return (0.5 * (product + product.transpose())).sparseView();
 }
 
@@ -73,8 +75,8 @@ double frequency_change(const solvers::LinearStructure& from, const solvers::Lin
   };
   if (from.size() > most) return std::numeric_limits<double>::quiet_NaN();
   const int count = std::min({first, moving(from), moving(to)});
-  const Eigen::VectorXd before = fem::eigenmodes(from.stiffness, from.mass, count).omega;
-  const Eigen::VectorXd after = fem::eigenmodes(to.stiffness, to.mass, count).omega;
+  const Eigen::VectorXd before = fem::eigenmodes(symmetric_part(from.stiffness), from.mass, count).omega;
+  const Eigen::VectorXd after = fem::eigenmodes(symmetric_part(to.stiffness), to.mass, count).omega;
   return ((after - before).cwiseAbs().array() / before.array()).maxCoeff();
 }
 
@@ -85,7 +87,7 @@ void make_contacts_massless(StructureModel& model, int modes) {
     throw std::invalid_argument("contact.mass = \"redistribute\": " + std::to_string(structure.size()) +
                                 " degrees of freedom, " + std::to_string(contacts) +
                                 " contacts; expected more degrees of freedom than contacts");
-  const auto all = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
+  const auto all = fem::eigenmodes(symmetric_part(structure.stiffness), structure.mass, structure.size());
   if (all.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("contact.mass = \"redistribute\": the eigenvalue solver did not find all modes");
   const Eigen::MatrixXd basis = transformation(all, structure.contact_directions, modes);

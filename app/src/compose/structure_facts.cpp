@@ -7,8 +7,10 @@
 #include <cstdlib>
 
 #include "compose/structure_files.hpp"
+#include "compose/symmetric_part.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/static_displacements.hpp"
+#include "wavebalance/solvers/structure/condensation.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -33,6 +35,20 @@ Scene with_one_side(Scene scene) {
   return scene;
 }
 
+/// The diagonal of S K^-1 S^T by an LU.
+Eigen::VectorXd circulatory_compliances(const fem::Matrices& matrices,
+                                        const solvers::ContactDirections& directions) {
+  const Eigen::Index size = matrices.stiffness.rows();
+  solvers::LinearStructure structure;
+  structure.mass = matrices.mass;
+  structure.damping.resize(size, size);
+  structure.stiffness = matrices.stiffness;
+  structure.load = Eigen::VectorXd::Zero(size);
+  structure.contact_directions = directions;
+  solvers::Condensation condensation(structure, solvers::CondensationMethod::sparse);
+  return condensation.dynamic_compliance({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}).compliance.diagonal().real();
+}
+
 std::vector<std::string> names_of_contacts(const Scene& scene, const StructureFiles& files) {
   std::vector<std::string> names;
   for (const int dof : scene.structure.matrices.contact_dofs)
@@ -51,14 +67,19 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   const auto files = structure_files(scene);
   const fem::Matrices& matrices = files->matrices;
   const auto size = static_cast<int>(matrices.stiffness.rows());
-  const auto found = fem::eigenmodes(matrices.stiffness, matrices.mass, std::min(modes, size));
+  const Eigen::SparseMatrix<double> elastic = symmetric_part(matrices.stiffness);
+  const auto found = fem::eigenmodes(elastic, matrices.mass, std::min(modes, size));
   StructureFacts facts;
   facts.frequencies_hz = found.frequencies_hz;
   facts.damping_ratios = damping_ratios_of(scene, *files, found);
   const solvers::ContactDirections directions = contact_directions(with_one_side(scene), size);
   const Eigen::MatrixXd loads = directions.transpose();
-  const Eigen::MatrixXd displacements = fem::static_displacements(matrices.stiffness, loads);
-  facts.compliances = loads.cwiseProduct(displacements).colwise().sum().transpose();
+  if (solvers::is_symmetric(matrices.stiffness)) {
+    const Eigen::MatrixXd displacements = fem::static_displacements(matrices.stiffness, loads);
+    facts.compliances = loads.cwiseProduct(displacements).colwise().sum().transpose();
+  } else {
+    facts.compliances = circulatory_compliances(matrices, directions);
+  }
   facts.contacts = names_of_contacts(scene, *files);
   return facts;
 }

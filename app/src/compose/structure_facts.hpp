@@ -9,7 +9,8 @@ namespace wavebalance::app {
 
 /// What tells a user of matrices whether units, boundary conditions and files are right.
 struct StructureFacts {
-  Eigen::VectorXd frequencies_hz;  ///< of the first linear modes without contact
+  Eigen::VectorXd
+      frequencies_hz;  ///< of the first linear modes without contact, by M and the symmetric part of K
   Eigen::VectorXd damping_ratios;  ///< phi^T C phi / (2 omega) of each
   Eigen::VectorXd compliances;  ///< m/N: static displacement along each direction of contact per force there
   std::vector<std::string> contacts;  ///< one per compliance: "node 7 z", "row 20", "node 7 z, node 9 z"

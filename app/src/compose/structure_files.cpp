@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "compose/symmetric_part.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
@@ -85,20 +86,24 @@ std::string advice_on(const std::vector<int>& rows) {
       rows.size() > shown ? ", ..." : "");
 }
 
-void check_matrices(const fem::Matrices& matrices) {
+void check_matrices(const fem::Matrices& matrices, bool unsymmetric) {
   try {
-    fem::check_structure(matrices, {.first_index = 1});
+    fem::check_structure(matrices, {.unsymmetric = unsymmetric, .first_index = 1});
   } catch (const fem::StructureFault& fault) {
     const bool mass = fault.matrix() == fem::StructureMatrix::mass;
-    throw StructureFault(
-        std::string(key_of(fault.matrix())),
-        "the matrix " + fault.reason() + (mass ? advice_on(rows_without_mass(matrices.mass)) : ""));
+    const bool may_be = !unsymmetric && !mass && fault.reason().find("is not symmetric") == 0;
+    throw StructureFault(std::string(key_of(fault.matrix())),
+                         "the matrix " + fault.reason() +
+                             (mass     ? advice_on(rows_without_mass(matrices.mass))
+                              : may_be ? ", or say structure.unsymmetric = true if it is meant"
+                                       : ""));
   }
 }
 
-StructureFiles read_files(const std::array<std::string, 5>& paths) {
+StructureFiles read_files(const std::array<std::string, 5>& paths, bool unsymmetric) {
   StructureFiles files;
   files.paths = paths;
+  files.unsymmetric = unsymmetric;
   fem::Matrices& matrices = files.matrices;
   matrices.stiffness = read_matrix(paths[1], stiffness_key);
   const Eigen::Index size = matrices.stiffness.rows();
@@ -110,8 +115,8 @@ StructureFiles read_files(const std::array<std::string, 5>& paths) {
     require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
   }
   if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
-  check_matrices(matrices);
-  files.damping_adds_energy = !fem::positive_semidefinite(matrices.damping);
+  check_matrices(matrices, unsymmetric);
+  files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
   if (paths[3].empty()) return files;
   files.load = read(paths[3], load_key,
                     [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
@@ -183,8 +188,10 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   const std::array<std::string, 5> paths{structure.mass, structure.stiffness, structure.damping,
                                          scene.forcing.load, structure.dof_map};
-  if (structure.files.contents && structure.files.contents->paths == paths) return structure.files.contents;
-  return std::make_shared<const StructureFiles>(read_files(paths));
+  if (structure.files.contents && structure.files.contents->paths == paths &&
+      structure.files.contents->unsymmetric == structure.unsymmetric)
+    return structure.files.contents;
+  return std::make_shared<const StructureFiles>(read_files(paths, structure.unsymmetric));
 }
 
 void check_against_files(const Scene& scene, const StructureFiles& files) {

@@ -21,6 +21,7 @@ struct StructureFiles {
   Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
   std::optional<fem::DofMap> dof_map;
   bool damping_adds_energy = false;  ///< it is not positive semidefinite
+  bool unsymmetric = false;          ///< damping and stiffness were allowed to be
 
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;

@@ -8,6 +8,7 @@
 
 #include "compose/massless_contacts.hpp"
 #include "compose/structure_files.hpp"
+#include "compose/symmetric_part.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
@@ -62,15 +63,31 @@ void set_structure(StructureModel& model, fem::Matrices matrices, const Eigen::V
   model.structure.load = load;
 }
 
+/// T^T A T of the skew part of A, nothing where A is symmetric.
+Sparse projected_skew_part(const Sparse& matrix, const Eigen::MatrixXd& transformation) {
+  const Eigen::Index size = transformation.cols();
+  if (matrix.size() == 0 || solvers::is_symmetric(matrix)) return Sparse(size, size);
+  const Sparse skew = matrix - symmetric_part(matrix);
+  return Eigen::MatrixXd(transformation.transpose() * (skew * transformation)).sparseView();
+}
+
+/// The modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
+/// gyroscopic and circulatory forces, are projected on them.
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::VectorXd& load,
             const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes) {
-  fem::CraigBampton reduced = fem::craig_bampton(matrices, boundary, {.modes = kept_modes, .solver = {}});
+  const fem::Matrices symmetric{
+      .mass = matrices.mass,
+      .damping = matrices.damping.size() > 0 ? symmetric_part(matrices.damping) : matrices.damping,
+      .stiffness = symmetric_part(matrices.stiffness)};
+  fem::CraigBampton reduced = fem::craig_bampton(symmetric, boundary, {.modes = kept_modes, .solver = {}});
   if (reduced.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
                              ": the eigenvalue solver did not find them all");
   model.structure.mass = reduced.mass.sparseView();
   model.structure.damping = reduced.damping.sparseView();
   model.structure.stiffness = reduced.stiffness.sparseView();
+  model.structure.damping += projected_skew_part(matrices.damping, reduced.transformation);
+  model.structure.stiffness += projected_skew_part(matrices.stiffness, reduced.transformation);
   model.structure.load = reduced.project_load(load);
   model.structure.contact_directions = reduced.project_directions(directions);
   model.recovery = std::move(reduced.transformation);
@@ -79,7 +96,7 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::V
 /// C = M Phi diag(2 ratio omega) Phi^T M with all modes Phi. O(size^3).
 void add_modal_damping(solvers::LinearStructure& structure, double ratio) {
   if (ratio == 0.0) return;
-  const auto modes = fem::eigenmodes(structure.stiffness, structure.mass, structure.size());
+  const auto modes = fem::eigenmodes(symmetric_part(structure.stiffness), structure.mass, structure.size());
   const Eigen::MatrixXd momenta = structure.mass * modes.shapes;
   const Eigen::MatrixXd damping = momenta * (2.0 * ratio * modes.omega).asDiagonal() * momenta.transpose();
   structure.damping = (0.5 * (damping + damping.transpose())).sparseView();

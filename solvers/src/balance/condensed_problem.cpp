@@ -233,9 +233,12 @@ void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd
   apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance_slope, pair_.trial_spectrum(), slope);
 }
 
-// The compliance is symmetric: exchanging the two bases transposes K.
+// Exchanging the two bases and the contacts transposes K; a symmetric compliance needs no exchange of these.
 void CondensedProblem::apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result) {
-  apply_kernel(values, pair_.trial_spectrum(), kernel_.conjugate(), pair_.weight_spectrum(), result);
+  Eigen::MatrixXcd transposed = kernel_.conjugate();
+  for (int c = 0; c < contacts() && !condensation_.symmetric(); ++c)
+    for (int d = 0; d < c; ++d) transposed.col(c + contacts() * d).swap(transposed.col(d + contacts() * c));
+  apply_kernel(values, pair_.trial_spectrum(), transposed, pair_.weight_spectrum(), result);
 }
 
 Eigen::MatrixXcd CondensedProblem::harmonic_response(int n) const {

@@ -27,6 +27,8 @@ class Lu {
   /// A^-1 right. O(n^2) per column.
   Matrix solve(const Matrix& right) const;
   Vector solve(const Vector& right) const;
+  /// A^-T right, without conjugation. O(n^2) per column.
+  Matrix solve_transposed(const Matrix& right) const;
   /// A^-1, of a real matrix. O(n^3).
   Matrix inverse() const requires std::same_as<Scalar, double>;
 

@@ -19,13 +19,14 @@ void factorize(lapack_int n, std::complex<double>* matrix, lapack_int* pivots) {
   LAPACKE_zgetrf_work(LAPACK_COL_MAJOR, n, n, matrix, n, pivots);
 }
 
-void substitute(lapack_int n, lapack_int columns, const double* lu, const lapack_int* pivots, double* right) {
-  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, columns, lu, n, pivots, right, n);
+void substitute(char form, lapack_int n, lapack_int columns, const double* lu, const lapack_int* pivots,
+                double* right) {
+  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, form, n, columns, lu, n, pivots, right, n);
 }
 
-void substitute(lapack_int n, lapack_int columns, const std::complex<double>* lu, const lapack_int* pivots,
-                std::complex<double>* right) {
-  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, 'N', n, columns, lu, n, pivots, right, n);
+void substitute(char form, lapack_int n, lapack_int columns, const std::complex<double>* lu,
+                const lapack_int* pivots, std::complex<double>* right) {
+  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, form, n, columns, lu, n, pivots, right, n);
 }
 
 }  // namespace
@@ -40,8 +41,8 @@ struct Lu<Scalar>::Factors {
   lapack_int rows() const { return static_cast<lapack_int>(lu.rows()); }
 
   template <class Result>
-  Result solve(Result right) const {
-    substitute(rows(), static_cast<lapack_int>(right.cols()), lu.data(), pivots.data(), right.data());
+  Result solve(Result right, char form = 'N') const {
+    substitute(form, rows(), static_cast<lapack_int>(right.cols()), lu.data(), pivots.data(), right.data());
     return right;
   }
 
@@ -76,6 +77,11 @@ typename Lu<Scalar>::Matrix Lu<Scalar>::solve(const Matrix& right) const {
 template <class Scalar>
 typename Lu<Scalar>::Vector Lu<Scalar>::solve(const Vector& right) const {
   return factors_ ? factors_->solve(right) : right;
+}
+
+template <class Scalar>
+typename Lu<Scalar>::Matrix Lu<Scalar>::solve_transposed(const Matrix& right) const {
+  return factors_ ? factors_->solve(right, 'T') : right;
 }
 
 template <class Scalar>

@@ -30,6 +30,10 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
+  if (!is_symmetric(structure.stiffness))
+    throw std::invalid_argument(
+        "shoot: stiffness is not symmetric, so that no real modes decouple the structure; "
+        "integrate_to_periodic takes any damping and stiffness");
   const auto modes = symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
   if (!modes)
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");

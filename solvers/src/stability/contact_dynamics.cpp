@@ -31,42 +31,78 @@ struct Parts {
   std::vector<ContactDynamics::Section> sections;
 };
 
+// Modes of the quadratic eigenvalue problem with Im exponent >= 0: exponents lambda, x in the columns of
+// `shapes` and, without symmetry, y in those of `left`, such that (s^2 M + s C + K)^-1 is the sum of x y^T /
+// (s
+// - lambda) and of its conjugate where Im lambda > 0.
 struct ComplexModes {
   Eigen::VectorXcd exponents;
-  Eigen::MatrixXcd shapes;  // n x modes
+  Eigen::MatrixXcd shapes, left;  // n x modes
 };
 
-// Eigenvalues of the first-order form, by its inverse where K is definite, so that the lowest modes are the
-// accurate ones.
-ComplexModes complex_modes(const LinearStructure& structure) {
+struct FirstOrderForm {
+  Eigen::MatrixXd matrix;  // 2n x 2n
+  bool inverse;            // its eigenvalues are the reciprocals of the exponents
+  detail::Lu<double> metric;
+};
+
+// By the inverse where K is definite, so that the lowest modes are the accurate ones, and without symmetry
+// where it is regular.
+FirstOrderForm first_order_form(const LinearStructure& structure) {
   const Eigen::MatrixXd mass(structure.mass), damping(structure.damping), stiffness(structure.stiffness);
   const Eigen::Index n = mass.rows();
-  const bool inverse = detail::cholesky(stiffness).has_value();
-  const detail::Lu<double> metric(inverse ? stiffness : mass);
-  if (metric.is_singular(1e-14))
+  const bool inverse = structure.symmetric() ? detail::cholesky(stiffness).has_value()
+                                             : !detail::Lu<double>(stiffness).is_singular(1e-12);
+  FirstOrderForm form{Eigen::MatrixXd::Zero(2 * n, 2 * n), inverse,
+                      detail::Lu<double>(inverse ? stiffness : mass)};
+  if (form.metric.is_singular(1e-14))
     throw std::invalid_argument(
         "ContactDynamics: neither mass nor stiffness is positive definite; one of them must be");
-  Eigen::MatrixXd first_order = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   if (inverse) {
-    first_order.topLeftCorner(n, n) = -metric.solve(damping);
-    first_order.topRightCorner(n, n) = -metric.solve(mass);
-    first_order.bottomLeftCorner(n, n).setIdentity();
+    form.matrix.topLeftCorner(n, n) = -form.metric.solve(damping);
+    form.matrix.topRightCorner(n, n) = -form.metric.solve(mass);
+    form.matrix.bottomLeftCorner(n, n).setIdentity();
   } else {
-    first_order.topRightCorner(n, n).setIdentity();
-    first_order.bottomLeftCorner(n, n) = -metric.solve(stiffness);
-    first_order.bottomRightCorner(n, n) = -metric.solve(damping);
+    form.matrix.topRightCorner(n, n).setIdentity();
+    form.matrix.bottomLeftCorner(n, n) = -form.metric.solve(stiffness);
+    form.matrix.bottomRightCorner(n, n) = -form.metric.solve(damping);
   }
-  const auto eigen = detail::general_eigen(first_order);
+  return form;
+}
+
+// The columns y, by the rows w of the inverse of all eigenvectors: y^T is the part of w^T that belongs to the
+// accelerations times M^-1 or, of the inverse form, that of the first rows times -K^-1.
+Eigen::MatrixXcd left_modes(const FirstOrderForm& form, const Eigen::MatrixXcd& vectors) {
+  const Eigen::Index n = vectors.rows() / 2;
+  const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(2 * n, 2 * n);
+  const Eigen::MatrixXcd rows = detail::Lu<Complex>(vectors).solve(identity).transpose();
+  const Eigen::MatrixXcd part = form.inverse ? rows.topRows(n) : rows.bottomRows(n);
+  const Eigen::MatrixXd real = form.metric.solve_transposed(part.real()),
+                        imaginary = form.metric.solve_transposed(part.imag());
+  return (form.inverse ? -1.0 : 1.0) * (real + Complex(0.0, 1.0) * imaginary);
+}
+
+ComplexModes complex_modes(const LinearStructure& structure) {
+  const Eigen::Index n = structure.size();
+  const FirstOrderForm form = first_order_form(structure);
+  const auto eigen = detail::general_eigen(form.matrix);
   if (!eigen) throw std::invalid_argument("ContactDynamics: no modes found; matrices must be finite");
-  ComplexModes modes{Eigen::VectorXcd(2 * n), eigen->vectors.topRows(n)};
+  const bool unsymmetric = !structure.symmetric();
+  ComplexModes modes{Eigen::VectorXcd(2 * n), eigen->vectors.topRows(n), {}};
+  if (unsymmetric) {
+    // The lower half of an eigenvector of the inverse form is a displacement, as the upper one of the other.
+    if (form.inverse) modes.shapes = eigen->vectors.bottomRows(n);
+    modes.left = left_modes(form, eigen->vectors);
+  }
   Eigen::Index count = 0;
   const double largest = eigen->values.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const Complex value = eigen->values[i];
-    if (value.imag() < 0.0 || (inverse && std::abs(value) <= 1e-13 * largest)) continue;
-    const Complex exponent = inverse ? 1.0 / value : value;
+    if (value.imag() < 0.0 || (form.inverse && std::abs(value) <= 1e-13 * largest)) continue;
+    const Complex exponent = form.inverse ? 1.0 / value : value;
     modes.exponents[count] = exponent;
-    modes.shapes.col(count++) = eigen->vectors.col(i).head(n);
+    if (unsymmetric) modes.left.col(count) = modes.left.col(i).eval();
+    modes.shapes.col(count++) = modes.shapes.col(i).eval();
   }
   modes.exponents.conservativeResize(count);
   modes.shapes.conservativeResize(Eigen::NoChange, count);
@@ -75,6 +111,7 @@ ComplexModes complex_modes(const LinearStructure& structure) {
     if (modes.exponents[i].imag() < 0.0) {
       modes.exponents[i] = std::conj(modes.exponents[i]);
       modes.shapes.col(i) = modes.shapes.col(i).conjugate().eval();
+      if (unsymmetric) modes.left.col(i) = modes.left.col(i).conjugate().eval();
     }
   return modes;
 }
@@ -82,7 +119,7 @@ ComplexModes complex_modes(const LinearStructure& structure) {
 // The poles of 1 / (m s^2 + c s + k), m and c not both zero.
 void add_poles(double m, double c, double k, const Eigen::VectorXd& shape, std::vector<ContactPole>& poles) {
   if (m == 0.0) {
-    poles.push_back({-k / c, 1.0 / c, shape});
+    poles.push_back({-k / c, 1.0 / c, shape, shape});
     return;
   }
   double discriminant = 0.25 * c * c - m * k;
@@ -91,13 +128,13 @@ void add_poles(double m, double c, double k, const Eigen::VectorXd& shape, std::
   if (std::abs(discriminant) < least) discriminant = -least;
   if (discriminant < 0.0) {
     const Complex exponent(-0.5 * c / m, std::sqrt(-discriminant) / m);
-    poles.push_back({exponent, 1.0 / (2.0 * m * Complex(0.0, exponent.imag())), shape});
+    poles.push_back({exponent, 1.0 / (2.0 * m * Complex(0.0, exponent.imag())), shape, shape});
     return;
   }
   const double sum = 0.5 * std::abs(c) + std::sqrt(discriminant), sign = c < 0.0 ? 1.0 : -1.0;
   const double fast = sign * sum / m, slow = sign * k / sum;
-  poles.push_back({fast, 1.0 / (m * (fast - slow)), shape});
-  poles.push_back({slow, 1.0 / (m * (slow - fast)), shape});
+  poles.push_back({fast, 1.0 / (m * (fast - slow)), shape, shape});
+  poles.push_back({slow, 1.0 / (m * (slow - fast)), shape, shape});
 }
 
 Parts decoupled_parts(const LinearStructure& structure, const ModalForm& modes) {
@@ -117,7 +154,7 @@ Parts decoupled_parts(const LinearStructure& structure, const ModalForm& modes) 
   return parts;
 }
 
-// An exponent lambda of the shape x has the residue 1 / x^T (2 lambda M + C) x.
+// An exponent lambda of the shape x has the residue 1 / x^T (2 lambda M + C) x; left modes include it.
 Parts complex_parts(const LinearStructure& structure) {
   StaticCondensation condensed = without_massless(structure);
   const LinearStructure& own = condensed.structure;
@@ -125,12 +162,17 @@ Parts complex_parts(const LinearStructure& structure) {
   Parts parts{std::move(condensed.compliance), {}, {}};
   for (Eigen::Index j = 0; j < modes.exponents.size(); ++j) {
     const Complex exponent = modes.exponents[j];
-    const Eigen::VectorXcd mode = modes.shapes.col(j);
-    const Eigen::VectorXcd momentum = own.mass * (2.0 * exponent * mode) + own.damping * mode;
-    const Complex residue = 1.0 / (mode.transpose() * momentum).value();
-    const Eigen::VectorXcd shape = own.contact_directions * mode;
-    parts.poles.push_back({exponent, residue, shape});
-    const Eigen::MatrixXcd matrix = residue * shape * shape.transpose();
+    const Eigen::VectorXcd mode = modes.shapes.col(j), shape = own.contact_directions * mode;
+    Eigen::VectorXcd left = shape;
+    Complex residue = 1.0;
+    if (modes.left.size() > 0) {
+      left = condensed.left_directions * modes.left.col(j);
+    } else {
+      const Eigen::VectorXcd momentum = own.mass * (2.0 * exponent * mode) + own.damping * mode;
+      residue = 1.0 / (mode.transpose() * momentum).value();
+    }
+    parts.poles.push_back({exponent, residue, shape, left});
+    const Eigen::MatrixXcd matrix = residue * shape * left.transpose();
     if (exponent.imag() == 0.0)
       parts.sections.push_back({{0.0, 1.0, -exponent.real()}, matrix.real(), {}});
     else

@@ -1,6 +1,7 @@
 #include "stability/contact_dynamics_reduced.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
@@ -32,24 +33,52 @@ LinearStructure projected(const LinearStructure& structure, const Eigen::MatrixX
   const auto project = [&](const Eigen::SparseMatrix<double>& matrix) -> Eigen::SparseMatrix<double> {
     return detail::transposed_product(basis, matrix * basis).sparseView();
   };
-  LinearStructure result{project(structure.mass),
-                         project(structure.damping),
-                         Eigen::MatrixXd(Eigen::MatrixXd::Identity(basis.cols(), basis.cols())).sparseView(),
-                         basis.transpose() * structure.load,
-                         {}};
+  LinearStructure result{
+      project(structure.mass),
+      project(structure.damping),
+      structure.symmetric()
+          ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(basis.cols(), basis.cols())).sparseView()
+          : project(structure.stiffness),
+      basis.transpose() * structure.load,
+      {}};
   const Eigen::MatrixXd directions = structure.contact_directions * basis;
   result.contact_directions = directions.sparseView();
   return result;
 }
 
+// Of a structure without symmetry, whose `metric` is the symmetric part of its stiffness.
+LinearStructure unsymmetric_reduction(const LinearStructure& structure,
+                                      const Eigen::SparseMatrix<double>& metric, int vectors) {
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor;
+  factor.compute(structure.stiffness);  // not singular, since its symmetric part is definite
+  Eigen::MatrixXd basis(structure.size(), std::min<Eigen::Index>(vectors, structure.size()));
+  const Eigen::MatrixXd forces = structure.contact_directions.transpose();
+  Eigen::MatrixXd block(structure.size(), 2 * forces.cols());
+  block << factor.solve(forces), factor.transpose().solve(forces);
+  Eigen::Index count = append_orthonormal(metric, block, basis, 0), start = 0;
+  while (count < basis.cols() && count > start) {
+    const auto last = basis.middleCols(start, count - start);
+    block.resize(structure.size(), 2 * last.cols());
+    block << factor.solve(Eigen::MatrixXd(structure.mass * last)),
+        factor.solve(Eigen::MatrixXd(structure.damping * last));
+    start = count;
+    count = append_orthonormal(metric, block, basis, count);
+  }
+  return projected(structure, basis.leftCols(count));
+}
+
 }  // namespace
 
 LinearStructure krylov_reduction(const LinearStructure& structure, int vectors) {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(structure.stiffness);
+  const bool symmetric = structure.symmetric();
+  Eigen::SparseMatrix<double> metric = structure.stiffness;
+  if (!symmetric) metric = 0.5 * (metric + Eigen::SparseMatrix<double>(metric.transpose()));
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(metric);
   if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0))
     throw std::invalid_argument("ContactDynamics: stiffness (" + std::to_string(structure.size()) +
                                 " degrees of freedom) is not positive definite; a structure that is reduced "
                                 "must be held, or max_size must be at least its size");
+  if (!symmetric) return unsymmetric_reduction(structure, metric, vectors);
   Eigen::MatrixXd basis(structure.size(), std::min<Eigen::Index>(vectors, structure.size()));
   Eigen::MatrixXd block = factor.solve(Eigen::MatrixXd(structure.contact_directions.transpose()));
   Eigen::Index count = append_orthonormal(structure.stiffness, block, basis, 0), start = 0;
@@ -65,8 +94,10 @@ StaticCondensation without_massless(const LinearStructure& structure) {
   const Eigen::MatrixXd mass(structure.mass), damping(structure.damping), stiffness(structure.stiffness);
   std::vector<int> kept, removed;
   for (int i = 0; i < structure.size(); ++i)
-    (mass.row(i).isZero(0.0) && damping.row(i).isZero(0.0) ? removed : kept).push_back(i);
-  StaticCondensation result{structure, Eigen::MatrixXd::Zero(structure.contacts(), structure.contacts())};
+    (mass.row(i).isZero(0.0) && damping.row(i).isZero(0.0) && damping.col(i).isZero(0.0) ? removed : kept)
+        .push_back(i);
+  StaticCondensation result{structure, Eigen::MatrixXd(structure.contact_directions),
+                            Eigen::MatrixXd::Zero(structure.contacts(), structure.contacts())};
   if (removed.empty()) return result;
   const detail::Lu<double> held(stiffness(removed, removed));
   if (held.is_singular(1e-14))
@@ -87,6 +118,9 @@ StaticCondensation without_massless(const LinearStructure& structure) {
   rest.load = Eigen::VectorXd(structure.load(kept));
   const Eigen::MatrixXd seen = directions(Eigen::all, kept) - detail::product(on_removed, coupling);
   rest.contact_directions = seen.sparseView();
+  const Eigen::MatrixXd force_coupling =
+      held.solve_transposed(Eigen::MatrixXd(stiffness(kept, removed).transpose()));
+  result.left_directions = directions(Eigen::all, kept) - detail::product(on_removed, force_coupling);
   return result;
 }
 

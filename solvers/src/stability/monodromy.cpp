@@ -61,7 +61,7 @@ Eigen::MatrixXd lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& po
   return values;
 }
 
-// The states of a structure: of each pole its amplitude a, a' = lambda a - shape^T f, as one real number or
+// The states of a structure: of each pole its amplitude a, a' = lambda a - left^T f, as one real number or
 // as its real and imaginary part. The contacts are displaced by sum Re(weight residue shape a), weight 2 for
 // a pair.
 class States {
@@ -110,7 +110,7 @@ class States {
     Eigen::MatrixXd states(size_, dynamics_.contacts());
     for (std::size_t l = 0; l < begins_.size(); ++l) {
       const ContactPole& pole = dynamics_.poles()[l];
-      const Eigen::RowVectorXcd row = std::exp(pole.exponent * time * period_) * pole.shape.transpose();
+      const Eigen::RowVectorXcd row = std::exp(pole.exponent * time * period_) * pole.left.transpose();
       states.row(begins_[l]) = row.real();
       if (pole.exponent.imag() != 0.0) states.row(begins_[l] + 1) = row.imag();
     }
@@ -290,7 +290,7 @@ double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& st
   Eigen::VectorXd jump = Eigen::VectorXd::Zero(contacts), rise = jump;
   for (const ContactPole& pole : dynamics.poles()) {
     const double times = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
-    const Eigen::VectorXcd squares = times * pole.residue * pole.shape.cwiseProduct(pole.shape);
+    const Eigen::VectorXcd squares = times * pole.residue * pole.shape.cwiseProduct(pole.left);
     jump += squares.real();
     rise += (pole.exponent * squares).real();
   }

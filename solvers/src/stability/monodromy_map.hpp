@@ -4,7 +4,7 @@
 namespace wavebalance::solvers {
 
 /// The map of a perturbation over one period from t = 0, whose eigenvalues monodromy() has. Its states are
-/// those of dynamics.poles() in their order: of each pole l the amplitude a, a' = lambda_l a - shape_l^T f
+/// those of dynamics.poles() in their order: of each pole l the amplitude a, a' = lambda_l a - left_l^T f
 /// with the contact forces f, as its real part and, where Im lambda_l > 0, its imaginary part. The contacts
 /// are displaced by sum_l Re(w_l residue_l shape_l a), w_l = 2 for a pair. NaN where the contact is so stiff
 /// that max_pieces do not resolve it. A tangent may be infinite, that of a rigid obstacle, where the contact

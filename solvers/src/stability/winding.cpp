@@ -72,7 +72,7 @@ std::vector<double> first_points(const FloquetDeterminant& determinant) {
   std::vector<double> points{0.0, 0.25 * half, 0.5 * half, 0.75 * half, half};
   for (const ContactPole& pole : determinant.dynamics().poles()) {
     if (pole.exponent.imag() == 0.0 || pole.exponent.imag() > highest_frequency(determinant) ||
-        pole.shape.isZero(0.0))
+        pole.shape.isZero(0.0) || pole.left.isZero(0.0))
       continue;
     const double rest = std::fmod(pole.exponent.imag(), omega), folded = std::min(rest, omega - rest);
     for (const double distance : {-2.0, -0.7, 0.7, 2.0}) {

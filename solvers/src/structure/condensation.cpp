@@ -27,14 +27,22 @@ double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
   return largest;
 }
 
-void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name) {
-  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
-  const double asymmetry = largest_entry(matrix - transposed), size = largest_entry(matrix);
-  constexpr double tolerance = 1e-12;
-  if (asymmetry <= tolerance * size) return;
+void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name, const char* reason) {
+  if (is_symmetric(matrix)) return;
   throw std::invalid_argument("Condensation: " + std::string(name) +
-                              " is not symmetric (relative asymmetry " + std::to_string(asymmetry / size) +
-                              ")");
+                              " is not symmetric (relative asymmetry " + std::to_string(asymmetry(matrix)) +
+                              ")" + reason);
+}
+
+// Whether the structure is symmetric. Its mass must be, and for two of the methods all matrices.
+bool require_symmetry(const LinearStructure& structure, CondensationMethod method) {
+  require_symmetric(structure.mass, "mass", "");
+  if (method != CondensationMethod::tridiagonal && method != CondensationMethod::modal)
+    return is_symmetric(structure.damping) && is_symmetric(structure.stiffness);
+  const char* reason = "; the tridiagonal and the modal method need symmetric matrices, an LU does not";
+  require_symmetric(structure.damping, "damping", reason);
+  require_symmetric(structure.stiffness, "stiffness", reason);
+  return true;
 }
 
 bool is_tridiagonal(const LinearStructure& structure) {
@@ -56,23 +64,24 @@ CondensationMethod elimination(const LinearStructure& structure) {
 using MethodPointer = std::unique_ptr<Condensation::Method>;
 
 // Sets `chosen` to the method taken.
-MethodPointer choose_method(const LinearStructure& structure, CondensationMethod& chosen) {
+MethodPointer choose_method(const LinearStructure& structure, bool symmetric, CondensationMethod& chosen) {
   constexpr int modal_limit = 1000;  // beyond it the modes cost more than a sweep by elimination
-  if (is_tridiagonal(structure)) {
+  if (symmetric && is_tridiagonal(structure)) {
     chosen = CondensationMethod::tridiagonal;
     return make_tridiagonal_method(structure);
   }
   chosen = CondensationMethod::modal;
-  if (structure.size() <= modal_limit)
+  if (symmetric && structure.size() <= modal_limit)
     if (MethodPointer method = make_modal_method(structure)) return method;
   chosen = elimination(structure);
   return chosen == CondensationMethod::dense ? make_dense_method(structure) : make_sparse_method(structure);
 }
 
-MethodPointer make_unscaled_method(const LinearStructure& structure, CondensationMethod& method) {
+MethodPointer make_unscaled_method(const LinearStructure& structure, bool symmetric,
+                                   CondensationMethod& method) {
   switch (method) {
     case CondensationMethod::automatic:
-      return choose_method(structure, method);
+      return choose_method(structure, symmetric, method);
     case CondensationMethod::tridiagonal:
       if (is_tridiagonal(structure)) return make_tridiagonal_method(structure);
       throw std::invalid_argument("Condensation: the matrices are not tridiagonal");
@@ -89,14 +98,13 @@ MethodPointer make_unscaled_method(const LinearStructure& structure, Condensatio
   throw std::invalid_argument("Condensation: unknown method");
 }
 
-// Sets `method` to the method taken.
-MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method) {
+// Sets `method` to the method taken, and `symmetric`.
+MethodPointer make_method(const LinearStructure& structure, CondensationMethod& method, bool& symmetric) {
   structure.validate();
-  require_symmetric(structure.mass, "mass");
-  require_symmetric(structure.damping, "damping");
-  require_symmetric(structure.stiffness, "stiffness");
-  return make_scaled_method(
-      structure, [&method](const LinearStructure& scaled) { return make_unscaled_method(scaled, method); });
+  symmetric = require_symmetry(structure, method);
+  return make_scaled_method(structure, [&](const LinearStructure& scaled) {
+    return make_unscaled_method(scaled, symmetric, method);
+  });
 }
 
 // The column of contact c in the sum of all loads with their amplitudes (K x L), or with 1 if there are none.
@@ -174,7 +182,7 @@ double StiffnessScale::require_regular(const ImpedanceCoefficients& factors, dou
 }
 
 Condensation::Condensation(const LinearStructure& structure, CondensationMethod method)
-    : chosen_(method), loads_(structure.load_count()), method_(make_method(structure, chosen_)) {
+    : chosen_(method), loads_(structure.load_count()), method_(make_method(structure, chosen_, symmetric_)) {
   if (method == CondensationMethod::automatic && chosen_ == CondensationMethod::modal)
     structure_ = std::make_unique<LinearStructure>(structure);
 }
@@ -196,7 +204,7 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
   constexpr double largest_modal_error = 1e-8;
   if (!structure_ || !(rounding_.load_response > largest_modal_error)) return;
   chosen_ = elimination(*structure_);
-  method_ = make_method(*std::exchange(structure_, nullptr), chosen_);
+  method_ = make_method(*std::exchange(structure_, nullptr), chosen_, symmetric_);
   condense_by_method(factors, derivatives, result, load);
 }
 

@@ -13,6 +13,9 @@ class DenseMethod final : public DirectMethod {
     solver_.compute(Eigen::MatrixXcd(combine(factors)));
   }
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const override { return solver_.solve(right); }
+  Eigen::MatrixXcd solve_transposed(const Eigen::MatrixXcd& right) override {
+    return solver_.solve_transposed(right);
+  }
 
   detail::Lu<std::complex<double>> solver_;
 };

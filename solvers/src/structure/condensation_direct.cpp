@@ -15,32 +15,40 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
   right.rightCols(loads) = loads_.cast<std::complex<double>>();
   const Eigen::MatrixXcd response = solve(right);
   for (int c = 0; c < count; ++c) record(scale_.require_regular(factors, response.col(c), lengths_[c]));
-  const Eigen::MatrixXcd slope = -response.leftCols(count).transpose() * (combine(derivatives) * response);
+  const Eigen::MatrixXcd left =
+      symmetric_ ? response.leftCols(count) : solve_transposed(right.leftCols(count));
+  const Eigen::MatrixXcd slope = -left.transpose() * (combine(derivatives) * response);
   const Eigen::MatrixXcd at_contacts = structure_.contact_directions * response;
   CondensedPoint point{at_contacts.leftCols(count), at_contacts.rightCols(loads).reshaped(),
                        slope.leftCols(count), slope.rightCols(loads).reshaped()};
-  set_errors(factors, response, point);
+  set_errors(factors, response, left, point);
   return point;
 }
 
 // A factorisation solves (Z + E) x = b with |E| <= eps A, A = |s2| |M| + |s1| |C| + |s0| |K|, so that the
-// part s^T x along a direction s has the error |y|^T |E| |x| with y = Z^-1 s, which is a response to a unit
-// force [Skeel]. It exceeds the rounding of the sum s^T x too, because |s| is at most A |y|. With y in place
-// of x the row sums of A are an upper bound by Cauchy and Schwarz.
+// part s^T x along a direction s has the error |y|^T |E| |x| with y = Z^-T s, for a symmetric Z the response
+// to a unit force [Skeel]. It exceeds the rounding of the sum s^T x too, because |s| is at most A^T |y|. With
+// the row sums r and the column sums c of A, |y|^T A |x| is at most the geometric mean of y^2 r and x^2 c by
+// Cauchy and Schwarz.
 void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
-                              CondensedPoint& point) const {
+                              const Eigen::MatrixXcd& left, CondensedPoint& point) const {
   const int count = contacts();
   const Eigen::Vector3d size(std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2]));
   const Eigen::MatrixXd squares = response.cwiseAbs2(), moduli = squares.cwiseSqrt();
+  const Eigen::MatrixXd left_squares = left.cwiseAbs2(), left_moduli = left_squares.cwiseSqrt();
   point.load_response_error.resize(count * loads_.cols());
   for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
     const auto loaded = moduli.col(count + l);
     Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
     for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Eigen::Index(d)] * loaded);
     point.load_response_error.segment(count * l, count) =
-        rounding_unit * (moduli.leftCols(count).transpose() * perturbed);
+        rounding_unit * (left_moduli.transpose() * perturbed);
   }
-  point.compliance_error = rounding_unit * (squares.leftCols(count).transpose() * (row_sums_ * size));
+  const Eigen::VectorXd by_rows = left_squares.transpose() * (row_sums_ * size);
+  point.compliance_error = rounding_unit * by_rows;
+  if (symmetric_) return;
+  const Eigen::VectorXd by_columns = squares.leftCols(count).transpose() * (column_sums_ * size);
+  point.compliance_error = rounding_unit * by_rows.cwiseMax(by_columns);
 }
 
 Eigen::VectorXcd DirectMethod::recover(const ImpedanceCoefficients& factors,

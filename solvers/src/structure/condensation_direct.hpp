@@ -13,12 +13,16 @@ class DirectMethod : public Condensation::Method {
   explicit DirectMethod(const LinearStructure& structure)
       : structure_(structure),
         loads_(structure.load_shapes()),
+        symmetric_(structure.symmetric()),
         scale_(structure),
         magnitudes_{structure.mass.cwiseAbs(), structure.damping.cwiseAbs(), structure.stiffness.cwiseAbs()},
         row_sums_(structure.size(), 3),
+        column_sums_(symmetric_ ? 0 : structure.size(), 3),
         lengths_(direction_lengths(structure)) {
-    for (std::size_t d = 0; d < 3; ++d)
-      row_sums_.col(Eigen::Index(d)) = magnitudes_[d] * Eigen::VectorXd::Ones(structure.size());
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(structure.size());
+    for (std::size_t d = 0; d < 3; ++d) row_sums_.col(Eigen::Index(d)) = magnitudes_[d] * ones;
+    for (std::size_t d = 0; d < 3 && !symmetric_; ++d)
+      column_sums_.col(Eigen::Index(d)) = magnitudes_[d].transpose() * ones;
   }
 
   int size() const override { return structure_.size(); }
@@ -35,16 +39,21 @@ class DirectMethod : public Condensation::Method {
  private:
   virtual void factorize(const ImpedanceCoefficients& factors) = 0;
   virtual Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const = 0;
+  /// Z^-T right, without conjugation, for the same factorisation.
+  virtual Eigen::MatrixXcd solve_transposed(const Eigen::MatrixXcd& right) = 0;
 
-  // Errors of the responses to unit forces of the contacts and, in the last columns, to the loads.
+  // Errors of the responses to unit forces of the contacts and, in the last columns, to the loads, with
+  // `left` = Z^-T S^T, n x C.
   void set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
-                  CondensedPoint& point) const;
+                  const Eigen::MatrixXcd& left, CondensedPoint& point) const;
 
   LinearStructure structure_;
   Eigen::MatrixXd loads_;  // n x L
+  bool symmetric_;
   StiffnessScale scale_;
   std::array<Eigen::SparseMatrix<double>, 3> magnitudes_;  // absolute values of M, C, K
   Eigen::MatrixX3d row_sums_;                              // of magnitudes_
+  Eigen::MatrixX3d column_sums_;                           // of magnitudes_, if they are not symmetric
   Eigen::VectorXd lengths_;                                // of the contact directions
 };
 

@@ -75,9 +75,9 @@ std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStruct
 /// For symmetric M, C, K whose undamped modes decouple them, K or M positive definite; null for any other.
 /// O(n^3).
 std::unique_ptr<Condensation::Method> make_modal_method(const LinearStructure& structure);
-/// For any symmetric M, C, K, by dense LU.
+/// For any M, C, K, by dense LU.
 std::unique_ptr<Condensation::Method> make_dense_method(const LinearStructure& structure);
-/// For any symmetric M, C, K, by sparse LU.
+/// For any M, C, K, by sparse LU.
 std::unique_ptr<Condensation::Method> make_sparse_method(const LinearStructure& structure);
 
 }  // namespace wavebalance::solvers

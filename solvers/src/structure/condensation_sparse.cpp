@@ -18,6 +18,9 @@ class SparseMethod final : public DirectMethod {
       throw SingularSystem("the dynamic stiffness is singular: " + solver_.lastErrorMessage());
   }
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const override { return solver_.solve(right); }
+  Eigen::MatrixXcd solve_transposed(const Eigen::MatrixXcd& right) override {
+    return solver_.transpose().solve(right);
+  }
 
   Eigen::SparseLU<SparseComplex, Eigen::COLAMDOrdering<int>> solver_;
 };

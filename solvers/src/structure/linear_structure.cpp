@@ -16,6 +16,14 @@ void require_square(const Eigen::SparseMatrix<double>& matrix, Eigen::Index size
                               " entries, so it must be square of that size");
 }
 
+double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
+  double largest = 0.0;
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
+      largest = std::max(largest, std::abs(entry.value()));
+  return largest;
+}
+
 void require_directions(const ContactDirections& directions, Eigen::Index size) {
   const std::string name = "LinearStructure: contact_directions";
   if (directions.rows() < 1 || directions.cols() != size)
@@ -50,6 +58,18 @@ void require_force(const PeriodicForce& force, std::size_t index, Eigen::Index s
 }
 
 }  // namespace
+
+double asymmetry(const Eigen::SparseMatrix<double>& matrix) {
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  const double difference = largest_entry(matrix - transposed), size = largest_entry(matrix);
+  return difference > 0.0 ? difference / size : 0.0;
+}
+
+bool is_symmetric(const Eigen::SparseMatrix<double>& matrix) { return asymmetry(matrix) <= 1e-12; }
+
+bool LinearStructure::symmetric() const {
+  return is_symmetric(mass) && is_symmetric(damping) && is_symmetric(stiffness);
+}
 
 void LinearStructure::validate() const {
   if (load.size() < 1)

@@ -16,13 +16,14 @@ Eigen::MatrixXd with_mass_everywhere(Eigen::MatrixXd mass) {
   return mass;
 }
 
-// First-order form of q'' + damping q' + stiffness q = input f, of y = (sigma q, q').
+// First-order form of q'' + damping q' + (diag(stiffness) + skew) q = input f, of y = (sigma q, q').
 Eigen::MatrixXd first_order(const Eigen::VectorXd& sigma, const Eigen::VectorXd& stiffness,
-                            const Eigen::MatrixXd& damping) {
+                            const std::optional<Eigen::MatrixXd>& skew, const Eigen::MatrixXd& damping) {
   const Eigen::Index m = sigma.size();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * m, 2 * m);
   matrix.topRightCorner(m, m) = sigma.asDiagonal();
   matrix.bottomLeftCorner(m, m) = (-stiffness.cwiseQuotient(sigma)).asDiagonal();
+  if (skew) matrix.bottomLeftCorner(m, m) -= *skew * sigma.cwiseInverse().asDiagonal();
   matrix.bottomRightCorner(m, m) = -damping;
   return matrix;
 }
@@ -32,7 +33,10 @@ Eigen::MatrixXd first_order(const Eigen::VectorXd& sigma, const Eigen::VectorXd&
 std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, double frequency, double step,
                                          int max_modes) {
   const Eigen::MatrixXd mass = with_mass_everywhere(Eigen::MatrixXd(structure.mass));
-  const auto eigen = detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), mass);
+  const bool circulatory = !is_symmetric(structure.stiffness);
+  Eigen::MatrixXd elastic(structure.stiffness);
+  if (circulatory) elastic = (0.5 * (elastic + elastic.transpose())).eval();
+  const auto eigen = detail::symmetric_eigen(elastic, mass);
   if (!eigen) return std::nullopt;
   const Eigen::Index all = eigen->values.size(), m = std::min<Eigen::Index>(all, max_modes);
   const Eigen::Index contacts = structure.contacts();
@@ -44,10 +48,14 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   const Eigen::MatrixXd contact = structure.contact_directions * eigen->vectors;
   flow.contact_ = contact.leftCols(m);
   const Eigen::MatrixXd damping = detail::transposed_product(flow.shapes_, structure.damping * flow.shapes_);
+  std::optional<Eigen::MatrixXd> skew;
+  if (circulatory)
+    skew = detail::transposed_product(flow.shapes_,
+                                      (Eigen::MatrixXd(structure.stiffness) - elastic) * flow.shapes_);
   // Van Loan's block matrix for a force that is linear in time.
   const Eigen::Index states = 2 * m, size = states + 2 * contacts;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
-  block.topLeftCorner(states, states) = step * first_order(flow.sigma_, stiffness, damping);
+  block.topLeftCorner(states, states) = step * first_order(flow.sigma_, stiffness, skew, damping);
   block.block(m, states, m, contacts) = -step * flow.contact_.transpose();
   block.block(states, states + contacts, contacts, contacts).setIdentity();
   // In the energy norm of a damped structure the powers do not grow.

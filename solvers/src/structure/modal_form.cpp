@@ -49,6 +49,7 @@ bool solve_modes(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denomi
 // If K is positive definite the ratios M/K are computed rather than K/M. The lowest modes are then the
 // accurate ones, and a contact without mass is a mode like any other.
 std::optional<ModalForm> modal_form(const LinearStructure& structure) {
+  if (!structure.symmetric()) return std::nullopt;
   const Eigen::MatrixXd mass(structure.mass), stiffness(structure.stiffness);
   ModalForm modes;
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(structure.size());

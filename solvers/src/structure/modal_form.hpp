@@ -15,8 +15,8 @@ struct ModalForm {
   std::array<double, 3> errors = {};
 };
 
-/// The modes of a structure; nothing when neither K nor M is positive definite or the damping couples them.
-/// O(n^3).
+/// The modes of a structure; nothing when C or K is not symmetric, neither K nor M is positive definite or
+/// the damping couples them. O(n^3).
 std::optional<ModalForm> modal_form(const LinearStructure& structure);
 
 }  // namespace wavebalance::solvers

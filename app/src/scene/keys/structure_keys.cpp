@@ -43,6 +43,11 @@ void add_matrices(std::vector<SceneKey>& keys) {
   matrices(&MatricesStructure::damping, "damping", "N s/m",
            "damping matrix C, symmetric; in place of stiffness_damping or modal_damping", path, optional);
   matrices(
+      &MatricesStructure::unsymmetric, "unsymmetric", "",
+      "true accepts a gyroscopic damping and a circulatory stiffness; false takes what is not symmetric for "
+      "half of a matrix",
+      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping"})));
+  matrices(
       &MatricesStructure::dof_map, "dof_map", "",
       "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "
       "columns node, direction (x, y, z, rx, ry, rz or 1..6) and, unless in the order of the rows, row",

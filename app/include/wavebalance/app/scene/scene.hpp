@@ -52,6 +52,7 @@ struct MatricesStructure {
   std::string stiffness = {};          ///< likewise, N/m
   std::string damping = {};            ///< likewise, N s/m; or empty
   std::string dof_map = {};            ///< file that names the n rows by nodes [fem::read_dof_map]; or empty
+  bool unsymmetric = false;            ///< damping and stiffness may be unsymmetric
   std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side
   ReadFiles files = {};
 

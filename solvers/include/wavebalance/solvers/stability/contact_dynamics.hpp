@@ -19,19 +19,22 @@ struct ContactDynamicsOptions {
 };
 
 /// An exponent lambda of a structure of its own, Im lambda >= 0, and what it contributes to the compliance of
-/// the contacts: residue shape shape^T / (s - lambda), and its conjugate where Im lambda > 0.
+/// the contacts: residue shape left^T / (s - lambda), and its conjugate where Im lambda > 0.
 struct ContactPole {
   std::complex<double> exponent;  ///< 1/s
   std::complex<double> residue;   ///< with the shape: m/(N s)
   Eigen::VectorXcd shape;         ///< C, the mode along the contact directions
+  Eigen::VectorXcd left;          ///< C, its left mode along them; shape where M, C and K are symmetric
 };
 
 /// The compliance of the contacts, S (s^2 M + s C + K)^-1 S^T, at any complex exponent s, by the modes of the
 /// structure, and the exponents of the structure without contact.
 ///
-/// Modes that decouple the damping are taken where they exist, otherwise the 2n complex ones. Structures of
+/// Modes that decouple the damping are taken where they exist, otherwise the 2n complex ones. C and K need
+/// not be symmetric: the left modes are then rows of the inverse of the matrix of right ones. Structures of
 /// more than max_size degrees of freedom are projected on the block Krylov space of K^-1 M from the static
 /// deflections K^-1 S^T [R. R. Craig, A. L. Hale, J. Guid. Control Dyn. 11, 1988, doi:10.2514/3.20353].
+/// Without symmetry that of K^-1 M and K^-1 C is taken, from K^-1 S^T and K^-T S^T.
 /// Statics are then exact. What is neglected is the dynamics of modes that the contacts hardly excite or that
 /// lie above the frequencies which the vectors span; exponents() has the others. reduced() tells, and a
 /// comparison with Condensation::dynamic_compliance() at the highest harmonic measures it.

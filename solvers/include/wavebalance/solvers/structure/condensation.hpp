@@ -52,23 +52,25 @@ struct RoundingErrors {
 
 /// How dynamic stiffnesses are solved. n degrees of freedom, C contacts.
 enum class CondensationMethod {
-  /// Tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU; an LU also from the first
+  /// Tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU, as for any damping or stiffness
+  /// without symmetry; an LU also from the first
   /// condense() on in which the modal sum loses so many digits that the relative error of the contact-free
   /// response is estimated above 1e-8.
   automatic,
   tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) per point, O(n) for one contact
   modal,  ///< modes computed once, O(n^3), then O(n C^2) per point; the damping must be diagonal in them
-  dense,  ///< one dense LU per point, O(n^3)
-  sparse  ///< one sparse LU per point
+  dense,  ///< one dense LU per point, O(n^3); also for damping and stiffness without symmetry
+  sparse  ///< one sparse LU per point; likewise
 };
 
 /// Condensation of a structure on its contacts, after which no cost depends on the
 /// structure. Immutable after construction except for work space: one object per thread.
 class Condensation {
  public:
-  /// Throws std::invalid_argument as LinearStructure::validate does, for unsymmetric matrices, and for a
-  /// method that the matrices do not admit: one that is not tridiagonal; modes when neither K nor M is
-  /// positive definite or the damping couples them.
+  /// Throws std::invalid_argument as LinearStructure::validate does, for an unsymmetric mass, and for a
+  /// method that the matrices do not admit: tridiagonal elimination or modes of an unsymmetric damping or
+  /// stiffness; matrices that are not tridiagonal; modes when neither K nor M is positive definite or the
+  /// damping couples them.
   explicit Condensation(const LinearStructure& structure,
                         CondensationMethod method = CondensationMethod::automatic);
   Condensation(Condensation&&) noexcept;
@@ -77,6 +79,8 @@ class Condensation {
 
   int size() const;
   int contacts() const;
+  /// Whether M, C and K are symmetric, and all compliances with them.
+  bool symmetric() const { return symmetric_; }
   /// The method taken, never automatic.
   CondensationMethod method() const { return chosen_; }
 
@@ -119,6 +123,7 @@ class Condensation {
 
   std::unique_ptr<LinearStructure> structure_;  // kept while the modal method may be replaced
   CondensationMethod chosen_;
+  bool symmetric_ = true;
   int loads_;
   double condition_ = 0.0;
   RoundingErrors rounding_;

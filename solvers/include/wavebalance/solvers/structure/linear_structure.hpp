@@ -17,18 +17,25 @@ using ContactDirections = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// one that is out of 0..size-1 or listed twice.
 ContactDirections contact_rows(const std::vector<int>& dofs, int size);
 
+/// The largest entry of A - A^T over that of a square A, 0 for none. O(entries).
+double asymmetry(const Eigen::SparseMatrix<double>& matrix);
+/// Whether that is at most 1e-12, the rounding of a matrix that was assembled as a symmetric one.
+bool is_symmetric(const Eigen::SparseMatrix<double>& matrix);
+
 /// The linear part of a vibrating structure, M x'' + C x' + K x = load cos(2 pi f t) + forces - S^T f(S x),
 /// with f the contact forces. SI units or any other consistent set.
 struct LinearStructure {
   Eigen::SparseMatrix<double> mass;        ///< n x n, kg
-  Eigen::SparseMatrix<double> damping;     ///< n x n, N s/m
-  Eigen::SparseMatrix<double> stiffness;   ///< n x n, N/m
+  Eigen::SparseMatrix<double> damping;     ///< n x n, N s/m; its skew part is gyroscopic
+  Eigen::SparseMatrix<double> stiffness;   ///< n x n, N/m; its skew part is circulatory
   Eigen::VectorXd load;                    ///< n, N, amplitude of the cosine load
   ContactDirections contact_directions;    ///< S, C x n: at least one row, none of them zero
   std::vector<PeriodicForce> forces = {};  ///< beside `load`: static, of other harmonics, phases and places
 
   int size() const { return static_cast<int>(load.size()); }
   int contacts() const { return static_cast<int>(contact_directions.rows()); }
+  /// Whether mass, damping and stiffness are symmetric. O(entries).
+  bool symmetric() const;
   /// The shapes of load and forces, n x (1 + number of forces), `load` first.
   Eigen::MatrixXd load_shapes() const;
   int load_count() const { return 1 + static_cast<int>(forces.size()); }

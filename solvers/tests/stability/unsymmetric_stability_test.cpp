@@ -1,0 +1,291 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "constants.hpp"
+#include "support/oscillator.hpp"
+#include "support/refusal.hpp"
+#include "support/unsymmetric_cases.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/settling.hpp"
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+#include "wavebalance/solvers/time/motion_evaluator.hpp"
+
+// Structures without symmetry against matrix exponentials and integration in time.
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+// The largest difference to a condensation at complex exponents, and of the sum over the poles to it,
+// relative to the largest compliance.
+double error_of(const ContactDynamics& dynamics, const LinearStructure& structure, double lowest = 0.0) {
+  Condensation condensation(structure, CondensationMethod::dense);
+  const int count = structure.contacts();
+  double error = 0.0, largest = 0.0;
+  for (const double real : {0.0, 0.3, -0.02})
+    for (const double imaginary : {lowest, 0.7, 3.1, -5.0}) {
+      const Complex s(real, imaginary);
+      const CondensedPoint exact = condensation.dynamic_compliance({s * s, s, 1.0}, {2.0 * s, 1.0, 0.0});
+      const auto values = dynamics.compliance(real, Eigen::VectorXd::Constant(1, imaginary));
+      const Eigen::MatrixXcd compliance =
+          dynamics.constant() + values.compliance.row(0).reshaped(count, count);
+      const Eigen::MatrixXcd slope = values.slope.row(0).reshaped(count, count);
+      Eigen::MatrixXcd sum = dynamics.constant().cast<Complex>();
+      for (const ContactPole& pole : dynamics.poles()) {
+        const Eigen::MatrixXcd matrix = pole.residue * pole.shape * pole.left.transpose();
+        sum += matrix / (s - pole.exponent);
+        if (pole.exponent.imag() != 0.0) sum += matrix.conjugate() / (s - std::conj(pole.exponent));
+      }
+      largest = std::max(largest, exact.compliance.cwiseAbs().maxCoeff());
+      error = std::max({error, (compliance - exact.compliance).cwiseAbs().maxCoeff(),
+                        (sum - exact.compliance).cwiseAbs().maxCoeff(),
+                        (slope - exact.compliance_slope).cwiseAbs().maxCoeff()});
+    }
+  return error / largest;
+}
+
+TEST(UnsymmetricDynamics, AreTheCondensedCompliance) {
+  std::mt19937 generator(41);
+  for (int contacts = 1; contacts <= 3; ++contacts) {
+    LinearStructure chain = testing::unsymmetric_chain(7, 0.3, 0.2, generator);
+    chain.contact_directions = testing::random_directions(contacts, 7, generator);
+    EXPECT_LT(error_of(ContactDynamics(chain), chain), 1e-9);
+    chain.stiffness =
+        Eigen::MatrixXd(Eigen::MatrixXd(chain.stiffness) -
+                        Eigen::MatrixXd(chain.stiffness).col(0) * Eigen::RowVectorXd::Unit(7, 0))
+            .sparseView();  // singular, so that the modes are found by the mass
+    EXPECT_LT(error_of(ContactDynamics(chain), chain, 0.1), 1e-9);
+  }
+}
+
+TEST(UnsymmetricDynamics, TakeContactsWithoutMass) {
+  std::mt19937 generator(42);
+  for (const bool damped : {false, true}) {
+    LinearStructure chain = testing::unsymmetric_chain(5, 0.3, 0.2, generator);
+    for (auto* matrix : {&chain.mass, &chain.damping}) {
+      if (damped && matrix == &chain.damping) continue;
+      Eigen::MatrixXd dense(*matrix);
+      dense.row(4).setZero();
+      dense.col(4).setZero();
+      *matrix = dense.sparseView();
+    }
+    chain.contact_directions = contact_rows({4, 2}, 5);
+    const ContactDynamics dynamics(chain);
+    EXPECT_EQ(dynamics.constant()(0, 0) > 0.1, !damped);
+    EXPECT_LT(error_of(dynamics, chain), 1e-9);
+  }
+}
+
+TEST(UnsymmetricDynamics, OfAReducedStructureHaveItsStaticsAndLowHarmonics) {
+  std::mt19937 generator(43);
+  LinearStructure chain = testing::random_chain(60, generator);
+  chain.contact_directions = contact_rows({59}, 60);
+  Eigen::MatrixXd damping(chain.damping), stiffness(chain.stiffness);
+  for (int i = 0; i + 1 < 60; ++i) {
+    damping(i, i + 1) += 0.05;
+    damping(i + 1, i) -= 0.05;
+    stiffness(i, i + 1) += 0.02;
+    stiffness(i + 1, i) -= 0.02;
+  }
+  chain.damping = damping.sparseView();
+  chain.stiffness = stiffness.sparseView();
+  const ContactDynamics reduced(chain, {.max_size = 20, .reduced_size = 30}), whole(chain);
+  EXPECT_TRUE(reduced.reduced());
+  const Eigen::VectorXd harmonics = Eigen::VectorXd::LinSpaced(6, 0.0, 0.25);
+  const Eigen::MatrixXcd a = reduced.compliance(0.0, harmonics).compliance,
+                         b = whole.compliance(0.0, harmonics).compliance;
+  EXPECT_LT(std::abs(a(0, 0) - b(0, 0)), 1e-9 * std::abs(b(0, 0)));
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-4 * b.cwiseAbs().maxCoeff());
+}
+
+// Stiffnesses that are constant on intervals: the map over a period is a product of matrix exponentials.
+struct ConstantStiffness {
+  LinearStructure structure;
+  PeriodicStiffness stiffness;
+  Eigen::VectorXd strengths;
+  double frequency;
+
+  ConstantStiffness(std::mt19937& generator, int size, int contacts)
+      : structure(testing::unsymmetric_chain(size, 0.15, 0.1, generator)), strengths(contacts) {
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    structure.contact_directions = testing::random_directions(contacts, size, generator);
+    frequency = 0.05 + 0.25 * uniform(generator);
+    for (int c = 0; c < contacts; ++c) {
+      const double begin = uniform(generator);
+      strengths[c] = 2.0 * uniform(generator);
+      stiffness.intervals.push_back({c, begin, begin + 0.05 + 0.4 * uniform(generator)});
+    }
+    stiffness.tangent = [values = strengths](int contact, double) { return values[contact]; };
+  }
+
+  Eigen::VectorXcd multipliers() const {
+    std::vector<double> ends{0.0, 1.0};
+    for (const ContactInterval& interval : stiffness.intervals)
+      for (const double time : {interval.begin, interval.end}) ends.push_back(time - std::floor(time));
+    std::sort(ends.begin(), ends.end());
+    Eigen::MatrixXd map = Eigen::MatrixXd::Identity(2 * structure.size(), 2 * structure.size());
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double middle = 0.5 * (ends[i - 1] + ends[i]);
+      Eigen::VectorXd closed = Eigen::VectorXd::Zero(strengths.size());
+      for (const ContactInterval& interval : stiffness.intervals)
+        if (middle - interval.begin - std::floor(middle - interval.begin) < interval.length())
+          closed[interval.contact] = strengths[interval.contact];
+      const double length = (ends[i] - ends[i - 1]) / frequency;
+      map = ((length * testing::state_matrix(structure, closed)).exp() * map).eval();
+    }
+    return map.eigenvalues();
+  }
+};
+
+double distance_to(Complex value, const Eigen::VectorXcd& all) {
+  return (all.array() - value).abs().minCoeff();
+}
+
+TEST(UnsymmetricStability, MultipliersAndCountsAreThoseOfMatrixExponentials) {
+  std::mt19937 generator(44);
+  int unstable = 0, stable = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const ConstantStiffness at(generator, 2 + trial % 4, 1 + trial % 2);
+    const Eigen::VectorXcd exact = at.multipliers();
+    const ContactDynamics dynamics(at.structure);
+    const Eigen::VectorXcd found = monodromy(dynamics, at.stiffness, at.frequency);
+    ASSERT_EQ(found.size(), exact.size());
+    const double scale = exact.cwiseAbs().maxCoeff();
+    for (const Complex multiplier : found) EXPECT_LT(distance_to(multiplier, exact), 1e-7 * scale) << trial;
+    const double closest = (exact.cwiseAbs().array() - 1.0).abs().minCoeff();
+    if (closest < 0.02) continue;
+    StabilityOptions options{.harmonics = 40, .max_states = 0};  // by the determinant
+    const UnstableMultipliers counted = unstable_multipliers(dynamics, at.stiffness, at.frequency, options);
+    const auto outside = (exact.cwiseAbs().array() > 1.0).count();
+    ASSERT_EQ(counted.status, StabilityStatus::converged) << trial;
+    EXPECT_EQ(counted.count, outside) << trial;
+    EXPECT_GT(counted.harmonics, 0);
+    ++(outside > 0 ? unstable : stable);
+    // The determinant itself does not vanish where the monodromy has no multiplier.
+    for (const FloquetExponent& value :
+         floquet_exponents(dynamics, at.stiffness, at.frequency, {.stability = options, .max_exponents = 2})
+             .values)
+      EXPECT_LT(distance_to(value.multiplier, exact), 2e-2) << trial;
+  }
+  EXPECT_GE(unstable, 5);
+  EXPECT_GE(stable, 5);
+}
+
+PeriodicStiffness without_contact() { return {}; }
+
+int count_of(const testing::Rotor& rotor) {
+  const UnstableMultipliers counted =
+      unstable_multipliers(ContactDynamics(rotor.structure()), without_contact(), 0.2, {.harmonics = 9});
+  EXPECT_EQ(counted.status, StabilityStatus::converged);
+  return counted.count;
+}
+
+// z'' + c z' + (k - i p) z = 0 is stable if p^2 < c^2 k.
+TEST(UnsymmetricStability, CirculatoryForcesMakeARotorFlutterBeyondItsDamping) {
+  for (const double share : {0.0, 0.9, 0.99}) {
+    const double limit = 0.05;
+    EXPECT_EQ(count_of({.damping = 0.05, .gyroscopic = 0.0, .circulatory = share * limit}), 0) << share;
+    EXPECT_EQ(count_of({.damping = 0.05, .gyroscopic = 0.0, .circulatory = (2.0 - share) * limit}),
+              share < 1.0 ? 2 : 0)
+        << share;
+  }
+}
+
+// Gyroscopic forces g > 2 sqrt(-k) hold an undamped rotor that would diverge; damping destroys that
+// [Thomson, Tait, Chetaev], and circulatory forces restore it.
+TEST(UnsymmetricStability, GyroscopicStabilisationIsLostByDampingAndRestoredByCirculation) {
+  const testing::Rotor undamped{.stiffness = -1.0, .damping = 0.0, .gyroscopic = 3.0};
+  EXPECT_EQ(
+      unstable_multipliers(ContactDynamics(undamped.structure()), without_contact(), 0.2, {.harmonics = 9})
+          .status,
+      StabilityStatus::undamped);
+  EXPECT_EQ(count_of({.stiffness = -1.0, .damping = 0.0, .gyroscopic = 1.0, .circulatory = 0.01}), 2);
+  EXPECT_EQ(count_of({.stiffness = -1.0, .damping = 0.05, .gyroscopic = 3.0}), 2);
+  const testing::Rotor restored{.stiffness = -1.0, .damping = 0.05, .gyroscopic = 3.0, .circulatory = 0.05};
+  const Eigen::MatrixXd states = testing::state_matrix(restored.structure(), Eigen::VectorXd::Zero(1));
+  EXPECT_EQ(count_of(restored), (states.eigenvalues().real().array() > 0.0).count());
+  EXPECT_EQ(count_of(restored), 0);
+}
+
+// One period of the rotor with a linear stop in x by the classical method of Runge and Kutta.
+Eigen::Vector4d integrated(const testing::Rotor& rotor, const testing::LinearContact& law, double omega,
+                           Eigen::Vector4d state) {
+  const Eigen::Matrix4d matrix = testing::state_matrix(rotor.structure(), Eigen::VectorXd::Zero(1));
+  const auto rate = [&](double time, const Eigen::Vector4d& at) {
+    Eigen::Vector4d result = matrix * at;
+    result[2] += std::cos(omega * time) - law.force(at[0]);
+    return result;
+  };
+  constexpr int steps = 20000;
+  const double h = two_pi / omega / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::Vector4d a = rate(i * h, state), b = rate((i + 0.5) * h, state + 0.5 * h * a),
+                          c = rate((i + 0.5) * h, state + 0.5 * h * b), d = rate((i + 1) * h, state + h * c);
+    state += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  }
+  return state;
+}
+
+TEST(UnsymmetricStability, ARotorAgainstAStopMovesAndDeviatesAsIntegrationInTime) {
+  const testing::LinearContact law{3.0, 0.1};
+  for (const testing::Rotor& rotor : {testing::Rotor{.damping = 0.2, .gyroscopic = 0.4},
+                                      testing::Rotor{.damping = 0.2, .circulatory = 0.05}})
+    for (const double omega : {0.7, 1.4, 2.3}) {
+      CondensedProblem problem(testing::fourier_pair(127, 1024), rotor.structure(), testing::cosine_load());
+      problem.set_frequency(omega / two_pi);
+      const ContactLaws laws = AnyContactLaw(law);
+      const PeriodicResponse response = forced_response(problem, laws, {});
+      ASSERT_TRUE(response.converged()) << omega;
+      EXPECT_GT(response.contact_force.maxCoeff(), 0.1) << omega;
+      Eigen::Vector4d start = Eigen::Vector4d::Zero();
+      const Eigen::MatrixXcd all = problem.full_coefficients(response.contact_force);
+      const auto motion = MotionEvaluator(problem.pair().trial(), 128)(all.transpose(), problem.frequency());
+      start << motion.displacement(0, 0), motion.displacement(1, 0), motion.velocity(0, 0),
+          motion.velocity(1, 0);
+      const Eigen::Vector4d end = integrated(rotor, law, omega, start);
+      EXPECT_LT((end - start).norm(), 2e-4 * start.norm()) << omega;
+      Eigen::Matrix4d map;
+      constexpr double small = 1e-6;
+      for (int i = 0; i < 4; ++i)
+        map.col(i) = (integrated(rotor, law, omega, start + small * Eigen::Vector4d::Unit(i)) - end) / small;
+      const Eigen::VectorXcd exact = map.eigenvalues();
+      const ContactDynamics dynamics(rotor.structure());
+      const Eigen::VectorXcd found =
+          monodromy(dynamics, contact_stiffness(problem, laws, response), problem.frequency());
+      for (const Complex multiplier : found) EXPECT_LT(distance_to(multiplier, exact), 2e-3) << omega;
+      EXPECT_EQ(unstable_multipliers(dynamics, problem, laws, response).count,
+                (exact.cwiseAbs().array() > 1.0).count())
+          << omega;
+    }
+}
+
+TEST(UnsymmetricReferences, TimeSteppingAndSettlingTakeThemAndShootingRefusesThem) {
+  const testing::Rotor rotor{.damping = 0.2, .gyroscopic = 0.4, .circulatory = 0.05};
+  const testing::LinearContact law{3.0, 0.5};
+  CondensedProblem problem(testing::fourier_pair(63, 512), rotor.structure(), testing::cosine_load());
+  problem.set_frequency(1.4 / two_pi);
+  const ContactLaws laws = AnyContactLaw(law);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  const auto stepped =
+      integrate_to_periodic(rotor.structure(), laws, problem.frequency(), {.output_points = 512});
+  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+  const double size = response.displacement.norm();
+  EXPECT_LT((stepped.contacts.displacement.row(0).transpose() - response.displacement).norm(), 1e-3 * size);
+  const SettledMotion settled = settle(problem, laws, {.steps = 512});
+  ASSERT_EQ(settled.attractor_periods, 1);
+  EXPECT_LT((resample(settled.displacement, 512, settled.start) - response.displacement).norm(), 1e-3 * size);
+  EXPECT_NE(testing::refusal([&] {
+              shoot(rotor.structure(), law, problem.frequency());
+            }).find("stiffness is not symmetric"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
