@@ -168,9 +168,11 @@ TEST(UnsymmetricStability, MultipliersAndCountsAreThoseOfMatrixExponentials) {
     EXPECT_GT(counted.harmonics, 0);
     ++(outside > 0 ? unstable : stable);
     // The determinant itself does not vanish where the monodromy has no multiplier.
+    FloquetOptions seeking;
+    seeking.stability = options;
+    seeking.max_exponents = 2;
     for (const FloquetExponent& value :
-         floquet_exponents(dynamics, at.stiffness, at.frequency, {.stability = options, .max_exponents = 2})
-             .values)
+         floquet_exponents(dynamics, at.stiffness, at.frequency, seeking).values)
       EXPECT_LT(distance_to(value.multiplier, exact), 2e-2) << trial;
   }
   EXPECT_GE(unstable, 5);
@@ -273,12 +275,15 @@ TEST(UnsymmetricReferences, TimeSteppingAndSettlingTakeThemAndShootingRefusesThe
   const ContactLaws laws = AnyContactLaw(law);
   const PeriodicResponse response = forced_response(problem, laws, {});
   ASSERT_TRUE(response.converged());
-  const auto stepped =
-      integrate_to_periodic(rotor.structure(), laws, problem.frequency(), {.output_points = 512});
+  TimeSteppingOptions stepping;
+  stepping.output_points = 512;
+  const auto stepped = integrate_to_periodic(rotor.structure(), laws, problem.frequency(), stepping);
   ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
   const double size = response.displacement.norm();
   EXPECT_LT((stepped.contacts.displacement.row(0).transpose() - response.displacement).norm(), 1e-3 * size);
-  const SettledMotion settled = settle(problem, laws, {.steps = 512});
+  SettlingOptions settling;
+  settling.steps = 512;
+  const SettledMotion settled = settle(problem, laws, settling);
   ASSERT_EQ(settled.attractor_periods, 1);
   EXPECT_LT((resample(settled.displacement, 512, settled.start) - response.displacement).norm(), 1e-3 * size);
   EXPECT_NE(testing::refusal([&] {

@@ -313,7 +313,7 @@ TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
 
 TEST(Condensation, RefusesMatricesThatDoNotFit) {
   LinearStructure bar = testing::jl14_bar(3, 1e-4);
-  bar.stiffness.coeffRef(0, 1) *= 2.0;
+  bar.mass.coeffRef(0, 1) *= 2.0;
   EXPECT_THROW(Condensation{bar}, std::invalid_argument);
   bar = testing::jl14_bar(3, 1e-4);
   bar.damping.resize(2, 2);
