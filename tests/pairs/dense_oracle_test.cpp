@@ -332,7 +332,7 @@ TEST(DenseOracle, EqualsTheSymbolsForDampingAndStiffnessWithoutSymmetry) {
       }
     }
     SCOPED_TRACE(describe(setting));
-    Oracle oracle(setting, contacts.structure, contacts.laws, cases[0].frequency_hz, 16, 64);
+    Oracle oracle(setting, contacts.structure, contacts.laws, cases[0].frequency_hz, 32, 128);
     EXPECT_TRUE(oracle.expect_equal());
   }
 }
