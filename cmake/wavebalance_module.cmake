@@ -104,5 +104,6 @@ function(wavebalance_install_package)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfig.cmake
     ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfigVersion.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake ${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindLAPACKE.cmake DESTINATION ${package_dir} COMPONENT package)
+    ${PROJECT_SOURCE_DIR}/cmake/FindLAPACKE.cmake ${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake
+    DESTINATION ${package_dir} COMPONENT package)
 endfunction()

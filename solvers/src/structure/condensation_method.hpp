@@ -77,7 +77,9 @@ std::unique_ptr<Condensation::Method> make_tridiagonal_method(const LinearStruct
 std::unique_ptr<Condensation::Method> make_modal_method(const LinearStructure& structure);
 /// For any M, C, K, by dense LU.
 std::unique_ptr<Condensation::Method> make_dense_method(const LinearStructure& structure);
-/// For any M, C, K, by sparse LU.
+/// For any M, C, K, by sparse LU: UMFPACK's, or the plain one in a build without it.
 std::unique_ptr<Condensation::Method> make_sparse_method(const LinearStructure& structure);
+/// The same by Eigen's sparse LU.
+std::unique_ptr<Condensation::Method> make_plain_sparse_method(const LinearStructure& structure);
 
 }  // namespace wavebalance::solvers

@@ -27,8 +27,14 @@ class SparseMethod final : public DirectMethod {
 
 }  // namespace
 
-std::unique_ptr<Condensation::Method> make_sparse_method(const LinearStructure& structure) {
+std::unique_ptr<Condensation::Method> make_plain_sparse_method(const LinearStructure& structure) {
   return std::make_unique<SparseMethod>(structure);
 }
+
+#ifndef WAVEBALANCE_HAS_UMFPACK
+std::unique_ptr<Condensation::Method> make_sparse_method(const LinearStructure& structure) {
+  return make_plain_sparse_method(structure);
+}
+#endif
 
 }  // namespace wavebalance::solvers

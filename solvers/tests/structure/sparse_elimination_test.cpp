@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "structure/condensation_method.hpp"
+#include "support/small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Masses on a lattice of n x n x n points, held at one face, with springs and dampers of random strength
+/// between neighbours; two contacts on the opposite face, a load inside.
+LinearStructure lattice(int n, std::mt19937& generator) {
+  const int size = n * n * n;
+  const auto place = [n](int x, int y, int z) { return x + n * (y + n * z); };
+  std::vector<Eigen::Triplet<double>> springs, dampers;
+  const auto join = [&](int a, int b) {
+    const double stiffness = testing::random_vector(1, generator)[0] + 2.0;
+    const double damping = 0.01 * (testing::random_vector(1, generator)[0] + 2.0);
+    for (const auto& [row, column, sign] : {std::tuple{a, a, 1.0}, {b, b, 1.0}, {a, b, -1.0}, {b, a, -1.0}}) {
+      springs.emplace_back(row, column, sign * stiffness);
+      dampers.emplace_back(row, column, sign * damping);
+    }
+  };
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const int here = place(x, y, z);
+        if (x + 1 < n) join(here, place(x + 1, y, z));
+        if (y + 1 < n) join(here, place(x, y + 1, z));
+        if (z + 1 < n) join(here, place(x, y, z + 1));
+        if (z == 0) springs.emplace_back(here, here, 3.0);
+      }
+  LinearStructure structure;
+  structure.stiffness.resize(size, size);
+  structure.stiffness.setFromTriplets(springs.begin(), springs.end());
+  structure.damping.resize(size, size);
+  structure.damping.setFromTriplets(dampers.begin(), dampers.end());
+  structure.mass.resize(size, size);
+  structure.mass.setIdentity();
+  structure.load = Eigen::VectorXd::Unit(size, size / 2);
+  structure.contact_directions = contact_rows({place(0, 0, n - 1), size - 1}, size);
+  return structure;
+}
+
+ImpedanceCoefficients at(double rate) { return {Complex(-rate * rate), Complex(0.0, rate), 1.0}; }
+ImpedanceCoefficients slope_at(double rate) { return {Complex(-2.0 * rate), Complex(0.0, 1.0), 0.0}; }
+
+double distance(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) { return (a - b).norm() / b.norm(); }
+
+TEST(SparseElimination, FastAndPlainFactorsGiveTheSame) {
+  std::mt19937 generator(5);
+  const LinearStructure structure = lattice(8, generator);
+  const auto fast = make_sparse_method(structure), plain = make_plain_sparse_method(structure);
+  const Eigen::VectorXcd forces = testing::random_vector(2, generator) * Complex(0.3, -0.4);
+  const Eigen::VectorXcd load = Eigen::VectorXcd::Constant(1, Complex(1.0, 2.0));
+  for (const double rate : {0.0, 0.3, 1.1, 2.5, 40.0}) {
+    const auto found = fast->dynamic_compliance(at(rate), slope_at(rate));
+    const auto expected = plain->dynamic_compliance(at(rate), slope_at(rate));
+    EXPECT_LE(distance(found.compliance, expected.compliance), 1e-11) << rate;
+    EXPECT_LE(distance(found.load_response, expected.load_response), 1e-11) << rate;
+    EXPECT_LE(distance(found.compliance_slope, expected.compliance_slope), 1e-11) << rate;
+    EXPECT_LE(distance(found.load_response_slope, expected.load_response_slope), 1e-11) << rate;
+    EXPECT_LE(distance(found.load_response_error, expected.load_response_error), 1e-6) << rate;
+    EXPECT_NEAR(fast->condition() / plain->condition(), 1.0, 1e-9) << rate;
+    EXPECT_LE(distance(fast->recover(at(rate), load, forces), plain->recover(at(rate), load, forces)), 1e-11)
+        << rate;
+  }
+}
+
+TEST(SparseElimination, BothFindASingularDynamicStiffness) {
+  std::mt19937 generator(6);
+  LinearStructure structure = lattice(5, generator);
+  structure.damping.setZero();
+  LinearStructure empty = structure;
+  empty.stiffness *= 0.0;
+  empty.mass *= 0.0;
+  structure.stiffness = structure.mass;  // all natural frequencies are 1 rad/s
+  for (const auto make : {make_sparse_method, make_plain_sparse_method}) {
+    EXPECT_THROW(make(structure)->dynamic_compliance(at(1.0), slope_at(1.0)), SingularSystem);
+    EXPECT_THROW(make(empty)->recover(at(2.0), Eigen::VectorXcd::Ones(1), Eigen::VectorXcd::Zero(2)),
+                 SingularSystem);
+    EXPECT_NO_THROW(make(structure)->dynamic_compliance(at(1.0001), slope_at(1.0001)));
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
