@@ -6,6 +6,7 @@
 #include "dense.hpp"
 #include "require.hpp"
 #include "shift_invert.hpp"
+#include "sparse_product.hpp"
 #include "wavebalance/fem/assembly.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 
@@ -60,14 +61,55 @@ Partition partition(const Sparse& matrix, const FreeDofs& dofs, std::span<const 
   return parts;
 }
 
+/// A share of the whole progress, for a part of the work; empty if there is no observer.
+Observer part_of(const Observer& observer, double first, double last) {
+  if (!observer) return {};
+  return [&observer, first, last](std::string_view phase, double done) {
+    return observer(phase, first + (last - first) * done);
+  };
+}
+
 EigenmodesResult fixed_interface_modes(const detail::SymmetricFactor& factor, const Sparse& stiffness,
                                        const Sparse& mass, const CraigBamptonOptions& options) {
   const Eigen::Index size = stiffness.rows();
   if (options.modes == 0) return {EigenmodesStatus::converged, {}, {}, Eigen::MatrixXd(size, 0), {}};
   const bool dense =
       size <= options.solver.dense_up_to || 2 * static_cast<Eigen::Index>(options.modes) >= size;
-  return dense ? eigenmodes(stiffness, mass, options.modes, options.solver)
-               : detail::sparse_eigenmodes(factor, stiffness, mass, options.modes, options.solver);
+  EigenmodesOptions solver = options.solver;
+  solver.observer = part_of(options.observer, 0.35, 0.9);
+  return dense ? eigenmodes(stiffness, mass, options.modes, solver)
+               : detail::sparse_eigenmodes(factor, stiffness, mass, options.modes, solver);
+}
+
+/// Constraint modes and fixed-interface modes, both with the rows of the interior.
+struct InteriorModes {
+  Eigen::MatrixXd constraint;
+  EigenmodesResult fixed;
+};
+
+// Holds the factor no longer than it is needed.
+InteriorModes interior_modes(const Matrices& matrices, const FreeDofs& dofs, std::span<const int> boundary,
+                             const CraigBamptonOptions& options) {
+  const auto go_on = [&](std::string_view phase, double done) {
+    return !options.observer || options.observer(phase, done);
+  };
+  InteriorModes modes{{}, {EigenmodesStatus::cancelled, {}, {}, {}, {}}};
+  Partition stiffness = partition(matrices.stiffness, dofs, boundary);
+  if (!go_on("factorising the stiffness", 0.02)) return modes;
+  const detail::SymmetricFactor factor(stiffness.interior);
+  if (!factor.positive_definite())
+    throw std::domain_error(
+        "craig_bampton: the stiffness is not positive definite with the boundary held; the structure can "
+        "move freely or has an indefinite stiffness");
+  if (!go_on("constraint modes", 0.25)) return modes;
+  modes.constraint = -factor.solve(stiffness.coupling);
+  stiffness.coupling.resize(0, 0);
+  if (!go_on("modes", 0.35)) return modes;
+  modes.fixed =
+      fixed_interface_modes(factor, stiffness.interior, partition(matrices.mass, dofs, {}).interior, options);
+  if (modes.fixed.status != EigenmodesStatus::cancelled && !go_on("projecting the matrices", 0.9))
+    modes.fixed.status = EigenmodesStatus::cancelled;
+  return modes;
 }
 
 Eigen::MatrixXd transformation(const FreeDofs& dofs, std::span<const int> boundary,
@@ -96,8 +138,7 @@ void clean(CraigBampton& reduced) {
 
 Eigen::MatrixXd CraigBampton::project(const Sparse& matrix) const {
   detail::require_square(matrix, "CraigBampton::project", "matrix", transformation.rows());
-  const Eigen::MatrixXd projected = detail::transposed_product(transformation, matrix * transformation);
-  return (projected + projected.transpose()) / 2.0;
+  return detail::projection(matrix, transformation);
 }
 
 Eigen::VectorXd CraigBampton::project_load(const Eigen::VectorXd& load) const {
@@ -152,20 +193,16 @@ CraigBampton craig_bampton(const Matrices& matrices, std::span<const int> bounda
                            const CraigBamptonOptions& options) {
   validate(matrices, boundary, options);
   const FreeDofs dofs(static_cast<int>(matrices.stiffness.rows()), boundary);
-  const Partition stiffness = partition(matrices.stiffness, dofs, boundary);
-  const detail::SymmetricFactor factor(stiffness.interior);
-  if (!factor.positive_definite())
-    throw std::domain_error(
-        "craig_bampton: the stiffness is not positive definite with the boundary held; the structure can "
-        "move freely or has an indefinite stiffness");
-  const EigenmodesResult modes =
-      fixed_interface_modes(factor, stiffness.interior, partition(matrices.mass, dofs, {}).interior, options);
   CraigBampton reduced;
-  reduced.status = modes.status;
+  {
+    InteriorModes modes = interior_modes(matrices, dofs, boundary, options);
+    reduced.status = modes.fixed.status;
+    if (reduced.status == EigenmodesStatus::cancelled) return reduced;
+    reduced.omega = modes.fixed.omega;
+    reduced.transformation = transformation(dofs, boundary, modes.constraint, modes.fixed.shapes);
+  }
   reduced.boundary =
       Eigen::Map<const Eigen::VectorXi>(boundary.data(), static_cast<Eigen::Index>(boundary.size()));
-  reduced.omega = modes.omega;
-  reduced.transformation = transformation(dofs, boundary, -factor.solve(stiffness.coupling), modes.shapes);
   reduced.stiffness = reduced.project(matrices.stiffness);
   reduced.mass = reduced.project(matrices.mass);
   const Eigen::Index size = reduced.stiffness.rows();

@@ -1,18 +1,16 @@
 #include "wavebalance/fem/eigenmodes.hpp"
 
-#include <Spectra/MatOp/SparseSymMatProd.h>
-#include <Spectra/SymGEigsShiftSolver.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <stdexcept>
 #include <string>
 
+#include "block_lanczos.hpp"
 #include "dense.hpp"
 #include "require.hpp"
 #include "shift_invert.hpp"
+#include "sparse_product.hpp"
 
 namespace wavebalance::fem {
 namespace {
@@ -25,6 +23,7 @@ struct Modes {
   Eigen::VectorXd squares;
   Eigen::MatrixXd shapes;
   bool complete = true;
+  bool cancelled = false;
 };
 
 void validate(const Sparse& stiffness, const Sparse& mass, int count, const EigenmodesOptions& options) {
@@ -65,81 +64,36 @@ Modes dense_modes(const Sparse& shifted, const Sparse& mass, int count, double s
           eigen->vectors.rowwise().reverse().leftCols(count)};
 }
 
-// The operator scale (K - shift M)^-1 with the members that Spectra requires. The scale makes the largest
-// eigenvalue about 1, because Spectra's tolerance has an absolute part.
-class ScaledInverse {
- public:
-  using Scalar = double;
-  ScaledInverse(const Factor& factor, double scale) : factor_(&factor), scale_(scale) {}
-  Eigen::Index rows() const { return factor_->rows(); }
-  Eigen::Index cols() const { return factor_->rows(); }
-  void set_shift(double) {}
-  void perform_op(const double* in, double* out) const {
-    factor_->solve(in, out);
-    Eigen::Map<Eigen::VectorXd>(out, rows()) *= scale_;
-  }
-
- private:
-  const Factor* factor_;
-  double scale_;
-};
-
-// A vector in the range of (K - shift M)^-1 M, and an estimate of that operator's largest eigenvalue.
-struct Start {
-  Eigen::VectorXd vector;
-  double eigenvalue;
-};
-
-Start power_iteration(const Factor& factor, const Sparse& mass, unsigned seed) {
-  std::mt19937 generator(seed);
-  const double range = 0.5 * static_cast<double>(std::mt19937::max());
-  Eigen::VectorXd vector(mass.rows());
-  for (double& entry : vector) entry = static_cast<double>(generator()) / range - 1.0;
-  // The start should contain all modes. The first step maps it into the range; further steps serve only to
-  // estimate the largest eigenvalue.
-  Start start{factor.solve(mass * vector), 0.0};
-  if (!(start.vector.norm() > 0.0)) throw std::domain_error("eigenmodes: mass is zero");
-  start.vector.normalize();
-  vector = start.vector;
-  for (int step = 0; step < 3; ++step) {
-    vector = factor.solve(mass * vector);
-    start.eigenvalue = vector.norm();
-    vector.normalize();
-  }
-  return start;
-}
-
 Modes lanczos_modes(const Factor& factor, const Sparse& mass, int count, const EigenmodesOptions& options,
                     unsigned seed) {
-  const Start start = power_iteration(factor, mass, seed);
-  ScaledInverse inverse(factor, 1.0 / start.eigenvalue);
-  Spectra::SparseSymMatProd<double> product(mass);
-  const Eigen::Index subspace = std::min<Eigen::Index>(mass.rows(), std::max(2 * count + 1, 20));
-  Spectra::SymGEigsShiftSolver<ScaledInverse, Spectra::SparseSymMatProd<double>,
-                               Spectra::GEigsMode::ShiftInvert>
-      solver(inverse, product, count, subspace, 0.0);
-  solver.init(start.vector.data());
-  solver.compute(Spectra::SortRule::LargestMagn, options.max_restarts, options.tolerance,
-                 Spectra::SortRule::SmallestAlge);
-  return {solver.eigenvalues().array() / start.eigenvalue + options.shift, solver.eigenvectors(),
-          solver.info() == Spectra::CompInfo::Successful};
+  detail::LanczosLimits limits{options.tolerance, options.max_restarts, seed};
+  bool cancelled = false;
+  limits.go_on = [&](Eigen::Index converged) {
+    const double done = 0.8 * static_cast<double>(converged) / count;
+    cancelled = options.observer && !options.observer("modes", done);
+    return !cancelled;
+  };
+  detail::LanczosResult found = detail::block_lanczos(factor, mass, count, limits);
+  return {found.values.cwiseInverse().array() + options.shift, std::move(found.vectors), found.complete,
+          cancelled};
 }
 
-// Two steps of inverse iteration on all modes found, then the Rayleigh-Ritz approximations in the space of
-// the results. The errors that Lanczos leaves, its tolerance over the distance between modes, fall to
-// rounding.
-void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Sparse& mass, double shift) {
+// Inverse iteration on all modes found, then the Rayleigh-Ritz approximations in the space of the results.
+// The errors that Lanczos leaves, its tolerance over the distance between modes, fall to rounding.
+void refine(Modes& modes, const Factor& factor, const Sparse& shifted, const Sparse& mass,
+            const EigenmodesOptions& options) {
   if (modes.squares.size() == 0) return;
-  Eigen::MatrixXd space = modes.shapes;
-  for (int step = 0; step < 2; ++step) {
-    space = factor.solve(mass * space).eval();
+  Eigen::MatrixXd& space = modes.shapes;
+  const int steps = options.tolerance > 1e-12 ? 2 : 1;
+  for (int step = 0; step < steps; ++step) {
+    space = factor.solve(detail::symmetric_product(mass, space));
     space.colwise().normalize();
   }
-  const Eigen::MatrixXd left = detail::transposed_product(space, mass * space);
-  const Eigen::MatrixXd right = detail::transposed_product(space, shifted * space);
+  const Eigen::MatrixXd left = detail::projection(mass, space);
+  const Eigen::MatrixXd right = detail::projection(shifted, space);
   const auto ritz = detail::generalized_eigen(left, right);
-  if (!ritz) return;  // the iterates are dependent to rounding; the modes stay as Lanczos left them
-  modes.squares = ritz->values.reverse().cwiseInverse().array() + shift;
+  if (!ritz) return;  // the iterates are dependent to rounding; the frequencies stay as Lanczos left them
+  modes.squares = ritz->values.reverse().cwiseInverse().array() + options.shift;
   modes.shapes = detail::product(space, ritz->vectors.rowwise().reverse());
 }
 
@@ -161,7 +115,9 @@ Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& sh
   Modes modes;
   for (unsigned attempt = 0; attempt < 4; ++attempt) {
     modes = lanczos_modes(factor, mass, wanted, options, attempt);
-    refine(modes, factor, shifted, mass, options.shift);
+    if (modes.cancelled || (options.observer && !options.observer("refining and counting the modes", 0.85)))
+      return {{}, Eigen::MatrixXd(mass.rows(), 0), false, true};
+    refine(modes, factor, shifted, mass, options);
     const int missing = missing_modes(stiffness, mass, modes, count);
     modes.complete = modes.complete && missing == 0;
     if (missing == 0) break;
@@ -173,11 +129,13 @@ Modes sparse_modes(const Sparse& stiffness, const Sparse& mass, const Sparse& sh
 
 // Scales to phi^T M phi = 1, with a sign that does not depend on the solver.
 void normalise(Eigen::MatrixXd& shapes, const Sparse& mass) {
+  const Eigen::VectorXd squares =
+      shapes.cwiseProduct(detail::symmetric_product(mass, shapes)).colwise().sum().transpose();
   for (Eigen::Index mode = 0; mode < shapes.cols(); ++mode) {
     auto shape = shapes.col(mode);
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);
-    const double length = std::sqrt(shape.dot(mass * shape));
+    const double length = std::sqrt(squares[mode]);
     shape /= shape[largest] < 0.0 ? -length : length;
   }
 }
@@ -190,11 +148,13 @@ double column_sum_norm(const Sparse& matrix) {
 EigenmodesResult make_result(Modes modes, const Sparse& stiffness, const Sparse& mass) {
   normalise(modes.shapes, mass);
   EigenmodesResult result;
-  result.status = modes.complete ? EigenmodesStatus::converged : EigenmodesStatus::not_converged;
+  result.status = modes.cancelled  ? EigenmodesStatus::cancelled
+                  : modes.complete ? EigenmodesStatus::converged
+                                   : EigenmodesStatus::not_converged;
   result.omega = modes.squares.cwiseMax(0.0).cwiseSqrt();
   result.frequencies_hz = result.omega / (2.0 * std::numbers::pi);
-  const Eigen::MatrixXd residual =
-      stiffness * modes.shapes - (mass * modes.shapes) * modes.squares.asDiagonal();
+  const Eigen::MatrixXd residual = detail::symmetric_product(stiffness, modes.shapes) -
+                                   detail::symmetric_product(mass, modes.shapes) * modes.squares.asDiagonal();
   result.residuals = residual.colwise()
                          .norm()
                          .cwiseQuotient(column_sum_norm(stiffness) * modes.shapes.colwise().norm())

@@ -13,6 +13,7 @@ namespace wavebalance::fem {
 struct CraigBamptonOptions {
   int modes = 40;            ///< fixed-interface modes to keep, 0..number of unknowns not on the boundary
   EigenmodesOptions solver;  ///< of the fixed-interface modes; its shift must be 0
+  Observer observer = {};    ///< of the whole reduction
 };
 
 /// A structure reduced to b boundary unknowns and m fixed-interface modes [CB68]: u = T q, with
@@ -50,6 +51,8 @@ std::vector<int> touched_unknowns(const Eigen::SparseMatrix<double, Eigen::RowMa
 /// Reduces a structure with symmetric stiffness, positive definite once the boundary is held, and symmetric
 /// mass; an empty damping matrix (0 x 0) counts as zero. One sparse factorisation of K_ii serves constraint
 /// modes and iteration; another, of K_ii - s M_ii, counts the modes. The interior may not be empty.
+/// Cancelled by the observer, the result has its status alone. Memory beside K and M: a copy of K_ii and
+/// M_ii, another while modes are counted, the factor, and n (b + 3 modes + 40) numbers.
 ///
 /// Throws std::invalid_argument if sizes, symmetry, boundary (out of range, twice) or options do not fit,
 /// std::domain_error if K_ii is not positive definite.

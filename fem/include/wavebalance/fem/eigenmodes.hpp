@@ -1,8 +1,15 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <functional>
+#include <string_view>
 
 namespace wavebalance::fem {
+
+/// Called between the steps of long work with what is done next and the share done so far, 0..1. Returns
+/// false to stop the work, whose status is then `cancelled`; a single factorisation runs to its end. An empty
+/// observer stops nothing.
+using Observer = std::function<bool(std::string_view phase, double done)>;
 
 /// Options of eigenmodes().
 struct EigenmodesOptions {
@@ -10,6 +17,7 @@ struct EigenmodesOptions {
   int max_restarts = 1000;   ///< of the sparse iteration, >= 1
   int dense_up_to = 200;     ///< up to this many unknowns a dense solver is used, >= 0
   double shift = 0.0;        ///< (rad/s)^2, <= 0; below zero where the stiffness is singular (free bodies)
+  Observer observer = {};    ///< of the sparse iteration
 };
 
 /// How an eigenmode computation ended.
@@ -17,7 +25,8 @@ enum class EigenmodesStatus {
   converged,
   /// The sparse iteration ended early, or the count of the modes below the highest one shows that some are
   /// missing. The result holds the modes found.
-  not_converged
+  not_converged,
+  cancelled  ///< by the observer
 };
 
 /// Modes of K phi = omega^2 M phi in ascending order of omega.
@@ -33,11 +42,12 @@ struct EigenmodesResult {
 /// with a negative shift), and symmetric positive semidefinite mass M; both n x n with both triangles stored,
 /// 1 <= count <= rank M.
 ///
-/// Small problems, and those with count >= n/2, use a dense solver, O(n^3). The others use restarted Lanczos
-/// iteration with (K - shift M)^-1 M [Ericsson & Ruhe 1980; Spectra], with one sparse factorisation and
-/// O(count) solves, for a bar O(n count^2). By Sylvester's law of inertia the number of negative pivots of
-/// K - s M, with s below the highest mode, is the number of modes below s. If a copy of a multiple mode is
-/// missing, the iteration is repeated for more modes.
+/// Small problems, and those with count >= n/2, use a dense solver, O(n^3). The others use Lanczos' iteration
+/// with blocks of vectors and (K - shift M)^-1 M [Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994], with one
+/// sparse factorisation and O(count) solves, for a bar O(n count^2). Memory: n (3 count + 40) numbers. By
+/// Sylvester's law of inertia the number of negative pivots of K - s M, with s below the highest mode, is the
+/// number of modes below s. If a copy of a multiple mode is missing, the iteration is repeated for more
+/// modes.
 ///
 /// Both work with 1/(omega^2 - shift). The relative rounding error of omega^2 is about eps times its ratio to
 /// the lowest one.
