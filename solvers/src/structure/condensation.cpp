@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include "linalg/parallel_for.hpp"
 #include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
 
@@ -190,6 +192,14 @@ Condensation::Condensation(Condensation&&) noexcept = default;
 Condensation& Condensation::operator=(Condensation&&) noexcept = default;
 Condensation::~Condensation() = default;
 
+void Condensation::set_threads(int threads) {
+  if (threads < 0)
+    throw std::invalid_argument("Condensation::set_threads: threads is " + std::to_string(threads) +
+                                "; it must be at least 1, or 0 for one per core");
+  threads_ = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  method_->set_threads(threads_);
+}
+
 int Condensation::size() const { return method_->size(); }
 int Condensation::contacts() const { return method_->contacts(); }
 
@@ -205,6 +215,7 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
   if (!structure_ || !(rounding_.load_response > largest_modal_error)) return;
   chosen_ = elimination(*structure_);
   method_ = make_method(*std::exchange(structure_, nullptr), chosen_, symmetric_);
+  method_->set_threads(threads_);
   condense_by_method(factors, derivatives, result, load);
 }
 
@@ -224,16 +235,32 @@ void Condensation::condense_by_method(const StiffnessSpectrum& factors, const St
 
 void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                                     CondensedSpectrum& result) {
-  for (Eigen::Index k = 0; k < factors[0].size(); ++k) {
+  const Eigen::Index points = factors[0].size();
+  make_twins(points);
+  const int workers = static_cast<int>(std::min<Eigen::Index>(threads_, Eigen::Index(twins_.size()) + 1));
+  parallel_for(workers, points, [&](int worker, Eigen::Index k) {
+    Method& method = worker == 0 ? *this : *twins_[static_cast<std::size_t>(worker) - 1];
     const CondensedPoint point =
-        dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
-                           {derivatives[0][k], derivatives[1][k], derivatives[2][k]});
+        method.dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
+                                  {derivatives[0][k], derivatives[1][k], derivatives[2][k]});
     result.compliance.row(k) = point.compliance.reshaped().transpose();
     result.load_response.row(k) = point.load_response.transpose();
     result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
     result.load_response_slope.row(k) = point.load_response_slope.transpose();
     result.compliance_error.row(k) = point.compliance_error.transpose();
     result.load_response_error.row(k) = point.load_response_error.transpose();
+  });
+  for (const auto& other : twins_) {
+    record(other->condition());
+    other->reset_condition();
+  }
+}
+
+void Condensation::Method::make_twins(Eigen::Index points) {
+  while (static_cast<Eigen::Index>(twins_.size()) + 1 < std::min<Eigen::Index>(threads_, points)) {
+    std::unique_ptr<Method> other = twin();
+    if (!other) return;
+    twins_.push_back(std::move(other));
   }
 }
 

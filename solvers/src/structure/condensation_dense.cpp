@@ -8,6 +8,10 @@ class DenseMethod final : public DirectMethod {
  public:
   using DirectMethod::DirectMethod;
 
+  std::unique_ptr<Method> twin() const override {
+    return size() < least_size_for_threads ? nullptr : std::make_unique<DenseMethod>(structure());
+  }
+
  private:
   void factorize(const ImpedanceCoefficients& factors) override {
     solver_.compute(Eigen::MatrixXcd(combine(factors)));

@@ -33,6 +33,9 @@ class DirectMethod : public Condensation::Method {
                            const Eigen::VectorXcd& contact_forces) override;
 
  protected:
+  /// Below this size a factorisation takes no longer than a thread.
+  static constexpr int least_size_for_threads = 64;
+  const LinearStructure& structure() const { return structure_; }
   /// s2 M + s1 C + s0 K.
   SparseComplex combine(const ImpedanceCoefficients& s) const;
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "wavebalance/solvers/structure/condensation.hpp"
 
@@ -17,12 +18,18 @@ class Condensation::Method {
   virtual int contacts() const = 0;
   virtual CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                             const ImpedanceCoefficients& derivatives) = 0;
-  /// The default condenses point by point. The results have their size already.
+  /// The default condenses point by point, by twins on several threads. The results have their size already.
   virtual void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                         CondensedSpectrum& result);
   virtual Eigen::VectorXcd recover(const ImpedanceCoefficients& factors,
                                    const Eigen::VectorXcd& load_amplitudes,
                                    const Eigen::VectorXcd& contact_forces) = 0;
+
+  /// Another method for the same structure with the same results to the last digit, which another thread may
+  /// use at the same time; null where points cost too little for threads.
+  virtual std::unique_ptr<Method> twin() const { return nullptr; }
+  /// Threads of condense(), at least 1.
+  virtual void set_threads(int threads) { threads_ = threads; }
 
   /// The largest lower bound of a condition number since the last reset.
   double condition() const { return condition_; }
@@ -32,7 +39,11 @@ class Condensation::Method {
   void record(double condition) { condition_ = std::max(condition_, condition); }
 
  private:
+  void make_twins(Eigen::Index points);
+
   double condition_ = 0.0;
+  int threads_ = 1;
+  std::vector<std::unique_ptr<Method>> twins_;  // one per thread beside the caller's, made when needed
 };
 
 /// Bound of the relative rounding error of an entry of a factorised matrix, a few roundings of its terms. The

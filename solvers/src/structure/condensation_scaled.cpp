@@ -58,6 +58,8 @@ class ScaledMethod final : public Condensation::Method {
     take_condition();
   }
 
+  void set_threads(int threads) override { method_->set_threads(threads); }
+
   Eigen::VectorXcd recover(const ImpedanceCoefficients& factors, const Eigen::VectorXcd& load_amplitudes,
                            const Eigen::VectorXcd& contact_forces) override {
     const double unit = unit_of(scale_.size(factors));

@@ -11,6 +11,10 @@ class SparseMethod final : public DirectMethod {
     solver_.analyzePattern(combine({1.0, 1.0, 1.0}));
   }
 
+  std::unique_ptr<Method> twin() const override {
+    return size() < least_size_for_threads ? nullptr : std::make_unique<SparseMethod>(structure());
+  }
+
  private:
   void factorize(const ImpedanceCoefficients& factors) override {
     solver_.factorize(combine(factors));

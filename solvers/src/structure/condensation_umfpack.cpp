@@ -50,6 +50,10 @@ class UmfpackMethod final : public DirectMethod {
                               nullptr, &symbolic_.pointer, control_.data(), nullptr));
   }
 
+  std::unique_ptr<Method> twin() const override {
+    return size() < least_size_for_threads ? nullptr : std::make_unique<UmfpackMethod>(structure());
+  }
+
  private:
   void factorize(const ImpedanceCoefficients& factors) override {
     numeric_.reset();

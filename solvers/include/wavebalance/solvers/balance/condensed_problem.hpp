@@ -52,6 +52,9 @@ class CondensedProblem {
   const LinearStructure& structure() const { return *structure_; }
   const Eigen::VectorXcd& load_harmonics() const { return load_harmonics_; }
 
+  /// Threads of each condensation, as Condensation::set_threads() takes them; 1 until it is called.
+  void set_threads(int threads) { condensation_.set_threads(threads); }
+
   /// Condenses at a frequency (Hz, > 0). Throws std::invalid_argument or SingularSystem. M/2 + 1 points of
   /// condensation and O(C N log N).
   void set_frequency(double frequency_hz);

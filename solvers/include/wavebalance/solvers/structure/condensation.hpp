@@ -64,7 +64,8 @@ enum class CondensationMethod {
 };
 
 /// Condensation of a structure on its contacts, after which no cost depends on the
-/// structure. Immutable after construction except for work space: one object per thread.
+/// structure. Immutable after construction except for work space: one object per thread
+/// that calls.
 class Condensation {
  public:
   /// Throws std::invalid_argument as LinearStructure::validate does, for an unsymmetric mass, and for a
@@ -83,6 +84,12 @@ class Condensation {
   bool symmetric() const { return symmetric_; }
   /// The method taken, never automatic.
   CondensationMethod method() const { return chosen_; }
+
+  /// Threads that condense() may use, at least 1; 0: one per core of the machine. With more than one it
+  /// factorises the dynamic stiffnesses of several k at the same time, each thread with a copy of the
+  /// structure and factors of its own: `dense` and `sparse` from 64 degrees of freedom on. The results are
+  /// the same to the last digit. A BLAS with threads of its own should be set to one (use_one_blas_thread()).
+  void set_threads(int threads);
 
   /// Condenses for the factors {s2, s1, s0} of M, C, K and their derivatives {d2, d1, d0}. Throws
   /// SingularSystem.
@@ -125,6 +132,7 @@ class Condensation {
   CondensationMethod chosen_;
   bool symmetric_ = true;
   int loads_;
+  int threads_ = 1;
   double condition_ = 0.0;
   RoundingErrors rounding_;
   std::unique_ptr<Method> method_;
