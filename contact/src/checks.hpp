@@ -33,4 +33,7 @@ inline double saturate(double value) {
   return value > largest ? largest : value;
 }
 
+/// The same on both sides, for forces of either sign.
+inline double saturate_both(double value) { return value < 0.0 ? -saturate(-value) : saturate(value); }
+
 }  // namespace wavebalance::contact::detail

@@ -1,0 +1,31 @@
+#include "wavebalance/contact/hunt_crossley_law.hpp"
+
+#include <cmath>
+
+#include "checks.hpp"
+
+namespace wavebalance::contact {
+
+HuntCrossleyLaw::HuntCrossleyLaw(double stiffness, double power, double dissipation, double gap)
+    : stiffness_(stiffness), power_(power), dissipation_(dissipation), gap_(gap) {
+  detail::require_positive("HuntCrossleyLaw", "stiffness", stiffness);
+  detail::require_at_least("HuntCrossleyLaw", "power", power, 1.0, detail::Bound::closed);
+  detail::require_at_least("HuntCrossleyLaw", "dissipation", dissipation, 0.0, detail::Bound::closed);
+  detail::require_finite("HuntCrossleyLaw", "gap", gap);
+}
+
+ForceAndSlopes HuntCrossleyLaw::evaluate(double displacement, double velocity) const {
+  const double penetration = displacement - gap_, factor = 1.0 + dissipation_ * velocity;
+  if (penetration < 0.0 || factor <= 0.0) return {};
+  const double slope = stiffness_ * std::pow(penetration, power_ - 1.0);  // 1 at d = 0 of a power of 0
+  const double spring = slope * penetration;
+  return {detail::saturate(spring * factor), detail::saturate(power_ * slope * factor),
+          detail::saturate(spring * dissipation_)};
+}
+
+double HuntCrossleyLaw::potential(double displacement) const {
+  if (displacement <= gap_) return 0.0;
+  return detail::saturate(stiffness_ * std::pow(displacement - gap_, power_ + 1.0) / (power_ + 1.0));
+}
+
+}  // namespace wavebalance::contact

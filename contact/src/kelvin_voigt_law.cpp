@@ -1,0 +1,33 @@
+#include "wavebalance/contact/kelvin_voigt_law.hpp"
+
+#include "checks.hpp"
+
+namespace wavebalance::contact {
+
+KelvinVoigtLaw::KelvinVoigtLaw(double stiffness, double damping, double gap, double depth)
+    : stiffness_(stiffness), damping_(damping), gap_(gap), depth_(depth) {
+  detail::require_positive("KelvinVoigtLaw", "stiffness", stiffness);
+  detail::require_at_least("KelvinVoigtLaw", "damping", damping, 0.0, detail::Bound::closed);
+  detail::require_finite("KelvinVoigtLaw", "gap", gap);
+  detail::require_at_least("KelvinVoigtLaw", "depth", depth, 0.0, detail::Bound::closed);
+}
+
+ForceAndSlopes KelvinVoigtLaw::evaluate(double displacement, double velocity) const {
+  const double penetration = displacement - gap_;
+  if (penetration <= 0.0) return {};
+  const bool rising = penetration < depth_;
+  const double x = rising ? penetration / depth_ : 1.0;
+  const double damping = damping_ * x * x * (3.0 - 2.0 * x);
+  const double force = stiffness_ * penetration + damping * velocity;
+  if (force <= 0.0) return {};
+  const double rise = rising ? damping_ * 6.0 * x * (1.0 - x) / depth_ : 0.0;
+  return {detail::saturate(force), detail::saturate_both(stiffness_ + rise * velocity), damping};
+}
+
+double KelvinVoigtLaw::potential(double displacement) const {
+  if (displacement <= gap_) return 0.0;
+  const double penetration = displacement - gap_;
+  return detail::saturate(0.5 * (stiffness_ * penetration * penetration));
+}
+
+}  // namespace wavebalance::contact
