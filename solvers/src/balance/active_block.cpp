@@ -1,23 +1,24 @@
 #include "balance/active_block.hpp"
 
 namespace wavebalance::solvers {
-namespace {
 
-std::vector<int> contacts_with(std::span<const int> active, int points) {
+std::vector<int> contacts_of(std::span<const int> samples, int points) {
   std::vector<int> contacts;
-  for (const int sample : active)
+  for (const int sample : samples)
     if (contacts.empty() || contacts.back() != sample / points) contacts.push_back(sample / points);
   return contacts;
 }
 
-}  // namespace
+void fill_active_compliance(CondensedProblem& problem, std::span<const int> active, Eigen::MatrixXd& matrix) {
+  if (active.empty()) return;
+  fill_active_block(problem, problem.columns(contacts_of(active, problem.points())), active, matrix);
+}
 
 // K is invariant under shifts by the shift period. The column of a point is that of the point modulo the
 // period, with the samples of each contact shifted by the remaining points.
-void fill_active_compliance(CondensedProblem& problem, std::span<const int> active, Eigen::MatrixXd& matrix) {
-  if (active.empty()) return;
+void fill_active_block(const CondensedProblem& problem, const Eigen::MatrixXd& columns,
+                       std::span<const int> active, Eigen::MatrixXd& matrix) {
   const int points = problem.points(), period = problem.pair().shift_period();
-  const Eigen::MatrixXd& columns = problem.columns(contacts_with(active, points));
   std::vector<int> row_point(active.size()), row_start(active.size());
   for (std::size_t i = 0; i < active.size(); ++i) {
     row_point[i] = active[i] % points;

@@ -12,6 +12,13 @@ namespace wavebalance::solvers {
 /// must be at least that large. O(active^2), and the columns of K of the contacts in `active`.
 void fill_active_compliance(CondensedProblem& problem, std::span<const int> active, Eigen::MatrixXd& matrix);
 
+/// The contacts of ascending samples, `points` each, ascending.
+std::vector<int> contacts_of(std::span<const int> samples, int points);
+/// The same for an operator with the shifts of K whose first columns, as those of
+/// CondensedProblem::columns(), are `columns`.
+void fill_active_block(const CondensedProblem& problem, const Eigen::MatrixXd& columns,
+                       std::span<const int> active, Eigen::MatrixXd& matrix);
+
 /// Solves with J = I + K D, D diagonal, plain or bordered, all vectors over samples(). Exact reduction to the
 /// active samples, those where D is not zero: x = r - K D x, an LU of their number and one product with K.
 class ActiveBlock {

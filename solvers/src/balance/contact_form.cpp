@@ -52,14 +52,15 @@ Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const Co
     throw std::invalid_argument(
         "contact_regularization: a rigid law has no force at a displacement; take the force form");
   }
-  if (!laws.unilateral()) {
+  if (!laws.have_force_form()) {
     if (form == ContactForm::automatic && !rigid) return {};
     throw std::invalid_argument(
-        "contact_regularization: a law acts below its gap; it is solved in the displacement form");
+        "contact_regularization: a law acts below its gap without being monotone, or depends on the velocity; it "
+        "is solved in the displacement form, and not beside a rigid law");
   }
   const Eigen::VectorXd compliance = problem.contact_compliance();
   bool needed = form == ContactForm::force || rigid;
-  for (int c = 0; c < problem.contacts() && !needed; ++c)
+  for (int c = 0; c < problem.contacts() && !needed && laws.unilateral(); ++c)
     needed = compliance[c] * working_stiffness(laws[c], free_of(problem, c), compliance[c]) > stiff;
   if (!needed) return {};
   return (2.0 * problem.brief_compliance()).cwiseMin(compliance / relative_epsilon);

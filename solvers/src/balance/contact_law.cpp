@@ -79,8 +79,26 @@ bool AnyContactLaw::vanishes_below_gap(const Interface& law) {
   if (!std::isfinite(gap)) return gap > 0.0;
   const double scale = gap != 0.0 ? std::abs(gap) : 1.0;
   for (double distance = 1e-9 * scale; distance <= 1e9 * scale; distance *= 10.0)
-    if (law.force(gap - distance) != 0.0 || law.force(gap + distance) < 0.0) return false;
+    for (const double velocity : {0.0, -scale, scale, -1.0, 1.0})
+      if (law.at(gap - distance, velocity).force != 0.0 || law.at(gap + distance, velocity).force < 0.0)
+        return false;
   return true;
+}
+
+std::vector<double> AnyContactLaw::kinks_of(const Interface& law) {
+  const double gap = law.gap();
+  if (!std::isfinite(gap)) return {};
+  if (law.unilateral()) return {gap};
+  const auto jumps = [&](double at) {
+    constexpr double rounding = 1e-9;
+    const double below = law.tangent(std::nextafter(at, -std::numeric_limits<double>::infinity()));
+    const double beyond = law.tangent(std::nextafter(at, std::numeric_limits<double>::infinity()));
+    return std::abs(beyond - below) > rounding * std::max(std::abs(beyond), std::abs(below));
+  };
+  std::vector<double> kinks;
+  for (const double at : {-std::abs(gap), std::abs(gap)})
+    if (jumps(at) && (kinks.empty() || kinks.back() != at)) kinks.push_back(at);
+  return kinks;
 }
 
 ResolventLaw::ResolventLaw(AnyContactLaw law, double flexibility)
@@ -88,6 +106,13 @@ ResolventLaw::ResolventLaw(AnyContactLaw law, double flexibility)
   if (!(flexibility > 0.0) || !std::isfinite(flexibility))
     throw std::invalid_argument("ResolventLaw: flexibility is " + std::to_string(flexibility) +
                                 " m/N; it must be positive and finite");
+}
+
+std::vector<double> ResolventLaw::kinks() const {
+  std::vector<double> kinks = law_.kinks();
+  if (law_.unilateral()) return kinks;
+  for (double& kink : kinks) kink += flexibility_ * law_.force(kink);
+  return kinks;
 }
 
 double ResolventLaw::potential(double v) const {

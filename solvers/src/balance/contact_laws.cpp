@@ -38,6 +38,16 @@ bool ContactLaws::unilateral() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.unilateral(); });
 }
 
+bool ContactLaws::have_force_form() const {
+  return std::all_of(laws_.begin(), laws_.end(),
+                     [](const AnyContactLaw& law) { return law.has_force_form(); });
+}
+
+bool ContactLaws::depend_on_velocity() const {
+  return std::any_of(laws_.begin(), laws_.end(),
+                     [](const AnyContactLaw& law) { return law.depends_on_velocity(); });
+}
+
 ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
   std::vector<AnyContactLaw> laws;
   for (int c = 0; c < flexibility.size(); ++c) laws.emplace_back(ResolventLaw((*this)[c], flexibility[c]));
@@ -54,11 +64,31 @@ void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, Ei
   }
 }
 
+void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
+                           Eigen::VectorXd& force, Eigen::VectorXd& tangent, Eigen::VectorXd& damping) const {
+  const Eigen::Index points = displacement.size() / contacts;
+  for (Eigen::Index l = 0; l < displacement.size(); ++l) {
+    const ForceSlopes at = (*this)[static_cast<int>(l / points)].at(displacement[l], velocity[l]);
+    force[l] = at.force;
+    tangent[l] = at.tangent;
+    damping[l] = at.damping;
+  }
+}
+
 Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement) const {
   return Eigen::MatrixXd::NullaryExpr(
       displacement.rows(), displacement.cols(), [&](Eigen::Index contact, Eigen::Index point) {
         return (*this)[static_cast<int>(contact)].force(displacement(contact, point));
       });
+}
+
+Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement,
+                                   const Eigen::MatrixXd& velocity) const {
+  return Eigen::MatrixXd::NullaryExpr(displacement.rows(), displacement.cols(),
+                                      [&](Eigen::Index contact, Eigen::Index point) {
+                                        return (*this)[static_cast<int>(contact)].force(
+                                            displacement(contact, point), velocity(contact, point));
+                                      });
 }
 
 }  // namespace wavebalance::solvers

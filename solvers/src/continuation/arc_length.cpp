@@ -19,6 +19,7 @@ void FrequencyParameter::set(ContactSystem& system, double p) const { system.pro
 void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
   system.problem().apply_slope(system.force(), slope);
   slope -= system.problem().contact_free_response_slope();
+  system.add_velocity_slope(slope);
 }
 
 bool LoadScaleParameter::contains(double p) const { return std::isfinite(p); }
@@ -111,7 +112,7 @@ double ArcLength::Plane::miss(const CurvePoint& point) const {
   return row.dot(point.displacement) + parameter * point.parameter - offset;
 }
 
-double ArcLength::evaluate(const CurvePoint& point, const ActiveMask* sides) {
+double ArcLength::evaluate(const CurvePoint& point, const LawPieces* sides) {
   parameter_.set(system_, point.parameter);
   return sides ? system_.evaluate(point.displacement, *sides) : system_.evaluate(point.displacement);
 }
@@ -124,7 +125,7 @@ int ArcLength::max_corrections(bool in_piece) const {
 }
 
 // Newton on R = 0 in the plane, on the smooth continuation of one piece when its sides are given.
-bool ArcLength::solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections) {
+bool ArcLength::solve_in(const Plane& plane, const LawPieces* sides, CurvePoint& point, int& corrections) {
   double parameter_change = 0.0;
   const int most = max_corrections(sides != nullptr);
   for (corrections = 0; corrections <= most; ++corrections) {
@@ -150,7 +151,7 @@ CurvePoint ArcLength::ahead(const CurvePoint& from, double step) const {
 }
 
 // Solves for the point in the plane at distance `step` along the tangent of `from`, and for its tangent.
-bool ArcLength::correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to,
+bool ArcLength::correct(const CurvePoint& from, double step, const LawPieces* sides, CurvePoint& to,
                         int& corrections) {
   to = ahead(from, step);
   Plane plane{scaled(from.displacement_tangent),
@@ -159,17 +160,31 @@ bool ArcLength::correct(const CurvePoint& from, double step, const ActiveMask* s
   return solve_in(plane, sides, to, corrections) && tangent_at(to, from);
 }
 
-bool ArcLength::is_at_gap(const CurvePoint& point, int sample) const {
-  return std::abs(point.displacement[sample] - system_.gap_at(sample)) <= 1e-8 * options_.displacement_scale;
+// The kink at which a sample lies; -1 for none.
+int ArcLength::kink_at(const CurvePoint& point, int sample) const {
+  const auto kinks = system_.kinks_at(sample);
+  for (std::size_t i = 0; i < kinks.size(); ++i)
+    if (std::abs(point.displacement[sample] - kinks[i].at) <= 1e-8 * options_.displacement_scale)
+      return static_cast<int>(i);
+  return -1;
 }
 
-// The sides of the gaps on which the curve continues. The tangent decides for a sample at its gap.
-ActiveMask ArcLength::sides_of(const CurvePoint& point) const {
-  ActiveMask sides(point.displacement.size());
-  for (int l = 0; l < sides.size(); ++l)
-    sides[l] =
-        is_at_gap(point, l) ? point.displacement_tangent[l] > 0.0 : point.displacement[l] > system_.gap_at(l);
+// The pieces of the laws on which the curve continues. The tangent decides for a sample at a kink.
+LawPieces ArcLength::sides_of(const CurvePoint& point) const {
+  LawPieces sides(point.displacement.size());
+  for (int l = 0; l < sides.size(); ++l) {
+    const int kink = kink_at(point, l);
+    sides[l] = kink < 0 ? system_.piece_at(l, point.displacement[l])
+                        : kink + (point.displacement_tangent[l] > 0.0 ? 1 : 0);
+  }
   return sides;
+}
+
+// Whether a sample is in contact or, of a law that acts everywhere, beyond a kink.
+bool ArcLength::touches(const LawPieces& pieces) const {
+  for (int l = 0; l < pieces.size(); ++l)
+    if (pieces[l] != system_.rest_piece(l)) return true;
+  return false;
 }
 
 // The straight line from point_ to a point, as a tangent that is not normalized.
@@ -202,7 +217,7 @@ double ArcLength::growth(int corrections, double turn) const {
   return std::min(factor, std::max(least, share * max_turn() / turn));
 }
 
-void ArcLength::accept(CurvePoint&& candidate, const ActiveMask& sides) {
+void ArcLength::accept(CurvePoint&& candidate, const LawPieces& sides) {
   last_step_ = inner(point_, chord(candidate));
   last_sides_ = sides;
   orientation_unknown_ = orientation_unknown_ || candidate.orientation * point_.orientation < 0;
@@ -222,9 +237,9 @@ ArcLength::Status ArcLength::advance() {
 // True if the step contains a turning point at a grazing event, or the first or the last contact. The curve
 // is then followed piece by piece.
 bool ArcLength::skips_grazing_turn(const CurvePoint& candidate) const {
-  const ActiveMask here = sides_of(point_), there = sides_of(candidate);
+  const LawPieces here = sides_of(point_), there = sides_of(candidate);
   if ((here == there).all()) return false;
-  return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || here.any() != there.any();
+  return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || touches(here) != touches(there);
 }
 
 // A step of the whole system. It is halved until it stays on the curve, or few grazing events lie on its way.
@@ -246,11 +261,11 @@ bool ArcLength::step_far() {
       if (many_samples_ && automatic) {
         if (turns && step_ > turning_step) continue;
       } else if (options_.grazing_events != GrazingEvents::where_needed && skips_grazing_turn(candidate)) {
-        if (turns && sides_of(point_).any()) piecewise_arc_length_ = reversal_step_ = step_;
+        if (turns && touches(sides_of(point_))) piecewise_arc_length_ = reversal_step_ = step_;
         return false;
       }
       const double turn = std::acos(std::min(1.0, inner(point_, candidate)));
-      accept(std::move(candidate), ActiveMask());
+      accept(std::move(candidate), LawPieces());
       step_ = std::clamp(step_ * growth(corrections, turn), options_.min_step, options_.max_step);
       return true;
     }
@@ -277,7 +292,7 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
   detail::Bracket bracket{0.0, 1.0, value(previous_), value(point_)};
   if (!bracket.has_sign_change() || last_step_ == 0.0) return false;
   int corrections = 0;
-  const ActiveMask* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
+  const LawPieces* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
   const auto value_at = [&](double fraction) -> std::optional<double> {
     if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return std::nullopt;
     return value(point);

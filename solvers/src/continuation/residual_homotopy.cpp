@@ -34,6 +34,9 @@ HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualH
   const ResidualParameter parameter(system.residual());
   ArcLengthOptions arc;
   arc.displacement_scale = std::max(safe_norm(u) / std::sqrt(double(u.size())), system.laws().largest_gap());
+  if (arc.displacement_scale == 0.0)
+    arc.displacement_scale =
+        safe_norm(system.problem().contact_free_response()) / std::sqrt(double(u.size()));
   arc.parameter_scale = 1.0;
   arc.initial_step = 0.1;
   arc.max_step = 0.5;

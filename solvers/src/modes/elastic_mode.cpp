@@ -127,6 +127,10 @@ ElasticMode::ElasticMode(ModalModel model, const TimePair& pair, ContactLaws law
   if (options_.mode > most)
     detail::reject("ElasticMode", "mode", options_.mode, ("in 1.." + std::to_string(most)).c_str());
   require_gaps(model, laws);
+  if (laws.depend_on_velocity())
+    throw std::invalid_argument(
+        "ElasticMode: the force of a law depends on the velocity; a free motion that loses energy in contact is "
+        "not periodic");
   ModeProblem problem;
   problem.mode = options_.mode - 1;
   if (model.contact_shapes.col(problem.mode).isZero(0.0))

@@ -51,11 +51,15 @@ FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws
   linear_.bottomRightCorner(n, n) = -period * divide_by_mass(Eigen::MatrixXd(structure.damping));
 }
 
-double FirstOrderSystem::contact_displacement(int contact, std::span<const double> state) const {
-  double sum = 0.0;
-  for (ContactDirections::InnerIterator entry(directions_, contact); entry; ++entry)
-    sum += entry.value() * state[static_cast<std::size_t>(entry.col())];
-  return sum / angular_frequency_;
+FirstOrderSystem::ContactState FirstOrderSystem::contact_state(int contact,
+                                                               std::span<const double> state) const {
+  const auto n = static_cast<std::size_t>(dofs());
+  double displacement = 0.0, velocity = 0.0;
+  for (ContactDirections::InnerIterator entry(directions_, contact); entry; ++entry) {
+    displacement += entry.value() * state[static_cast<std::size_t>(entry.col())];
+    velocity += entry.value() * state[n + static_cast<std::size_t>(entry.col())];
+  }
+  return {displacement / angular_frequency_, velocity};
 }
 
 void FirstOrderSystem::derivative(double periods, std::span<const double> state,
@@ -68,8 +72,10 @@ void FirstOrderSystem::derivative(double periods, std::span<const double> state,
   rate.tail(n) += std::cos(two_pi * periods) * load_;
   for (std::size_t l = 0; l < force_series_.size(); ++l)
     rate.tail(n) += series_value(force_series_[l], periods) * force_shapes_.col(Eigen::Index(l));
-  for (int c = 0; c < contact_inertia_.cols(); ++c)
-    rate.tail(n) -= laws_[c].force(contact_displacement(c, state)) * contact_inertia_.col(c);
+  for (int c = 0; c < contact_inertia_.cols(); ++c) {
+    const ContactState at = contact_state(c, state);
+    rate.tail(n) -= laws_[c].force(at.displacement, at.velocity) * contact_inertia_.col(c);
+  }
 }
 
 void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
@@ -79,9 +85,14 @@ void FirstOrderSystem::jacobian(double periods, std::span<const double> state,
   Eigen::Map<Eigen::VectorXd> by_time(time_derivative.data(), 2 * n);
   by_state = linear_;
   for (int c = 0; c < contact_inertia_.cols(); ++c) {
-    const double slope = laws_[c].tangent(contact_displacement(c, state)) / angular_frequency_;
-    for (ContactDirections::InnerIterator entry(directions_, c); entry; ++entry)
+    const ContactState at = contact_state(c, state);
+    const ForceSlopes law = laws_[c].at(at.displacement, at.velocity);
+    const double slope = law.tangent / angular_frequency_;
+    for (ContactDirections::InnerIterator entry(directions_, c); entry; ++entry) {
       by_state.col(entry.col()).tail(n) -= slope * entry.value() * contact_inertia_.col(c);
+      if (law.damping != 0.0)
+        by_state.col(n + entry.col()).tail(n) -= law.damping * entry.value() * contact_inertia_.col(c);
+    }
   }
   by_time.head(n).setZero();
   by_time.tail(n) = -two_pi * std::sin(two_pi * periods) * load_;

@@ -238,6 +238,9 @@ ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law,
   structure.validate();
   structure.require_single_contact("shoot");
   options.validate(structure.size());
+  if (law.depends_on_velocity())
+    throw std::invalid_argument(
+        "shoot: the force of the law depends on the velocity; integrate_to_periodic takes such laws");
   return Shooting(structure, law, frequency_hz, options).run();
 }
 

@@ -191,7 +191,7 @@ class PeriodRecorder {
     Motion motion{at_contacts(states_.topRows(n)) / system_.angular_frequency(),
                   at_contacts(states_.bottomRows(n)),
                   {}};
-    motion.force = system_.laws().force(motion.displacement);
+    motion.force = system_.laws().force(motion.displacement, motion.velocity);
     return motion;
   }
 

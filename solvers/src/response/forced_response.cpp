@@ -150,10 +150,18 @@ Candidate try_gap(const Task& task, const Eigen::VectorXd& regularization) {
                       Strategy::gap_continuation);
 }
 
+/// Raises the load from nothing, at rest, where the residual is that of the whole load.
+Candidate try_load(const Task& task, const Eigen::VectorXd& regularization) {
+  ContactSystem system = task.system(regularization);
+  return try_homotopy(task, system, regularization, Eigen::VectorXd::Zero(task.problem.samples()),
+                      Strategy::load_continuation);
+}
+
 /// The forms in which obstacles are lowered: that of the options and, where it is left open, the force form.
 std::vector<Eigen::VectorXd> forms_of(const Task& task) {
   std::vector<Eigen::VectorXd> forms{contact_regularization(task.problem, task.laws, task.options.form)};
-  if (task.options.form == ContactForm::automatic && forms.front().size() == 0)
+  const bool either = task.options.form == ContactForm::automatic && task.laws.have_force_form();
+  if (either && forms.front().size() == 0)
     forms.push_back(contact_regularization(task.problem, task.laws, ContactForm::force));
   return forms;
 }
@@ -170,11 +178,9 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
   if (best.ended() || !task.options.fallbacks) return best;
   if (guessed && task.options.stay_near_guess)
     return better(std::move(best), try_residual(task, form, first));
-  if (task.laws.unilateral()) {
-    for (const Eigen::VectorXd& tried : forms_of(task)) {
-      best = better(std::move(best), try_gap(task, tried));
-      if (best.ended()) return best;
-    }
+  for (const Eigen::VectorXd& tried : forms_of(task)) {
+    best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
+    if (best.ended()) return best;
   }
   SettlingOptions settling = task.options.settling;
   settling.observer = task.options.observer;

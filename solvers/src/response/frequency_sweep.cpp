@@ -180,10 +180,22 @@ class Sweep {
     ArcLengthOptions arc = options_.arc_length;
     const double gap = system_.laws().largest_gap();
     const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
-    if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : rms;
+    if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : length_of_springs(rms);
     if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
     arc.max_step *= step_share_;
     return arc;
+  }
+
+  // The least displacement from `least` on, by doubling, at which a law without a gap has a force that
+  // matters beside the stiffness of its contact; `least` where there is none.
+  double length_of_springs(double least) const {
+    constexpr double share = 0.3;
+    constexpr int doublings = 20;
+    const Eigen::VectorXd compliance = problem_.contact_compliance();
+    for (double length = least; length <= std::ldexp(least, doublings) && length > 0.0; length *= 2.0)
+      for (int c = 0; c < problem_.contacts(); ++c)
+        if (compliance[c] * std::abs(laws_[c].force(length)) > share * length) return length;
+    return least;
   }
 
   SweepStatus follow(ArcLength& curve, Milestones& milestones) {
@@ -284,7 +296,8 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
   measured.load_scale = problem.load_scale();
   measured.max_displacement = -std::numeric_limits<double>::infinity();
   measured.min_displacement = std::numeric_limits<double>::infinity();
-  measured.max_force = system.force().maxCoeff();
+  measured.max_force =
+      system.laws().unilateral() ? system.force().maxCoeff() : system.force().cwiseAbs().maxCoeff();
   measured.residual = point.residual;
   measured.grazing = point.grazing;
   measured.unknown = point.displacement;
@@ -296,7 +309,7 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
     measured.min_displacement = std::min(measured.min_displacement, u.minCoeff());
     const auto force = system.force().segment(c * problem.points(), problem.points());
     measured.contact_fraction =
-        std::max(measured.contact_fraction, (force.array() > 0.0).cast<double>().mean());
+        std::max(measured.contact_fraction, (force.array() != 0.0).cast<double>().mean());
   }
   return measured;
 }

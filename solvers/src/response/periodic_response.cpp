@@ -12,6 +12,8 @@ std::string_view to_string(Strategy strategy) {
       return "newton";
     case Strategy::gap_continuation:
       return "gap_continuation";
+    case Strategy::load_continuation:
+      return "load_continuation";
     case Strategy::settling:
       return "settling";
     case Strategy::residual_homotopy:

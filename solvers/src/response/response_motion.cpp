@@ -14,7 +14,7 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
     motion.force = laws.resolvents(response.regularization)
                        .force(evaluate(response.unknown_coefficients, response.frequency).displacement);
   else
-    motion.force = laws.force(motion.displacement);
+    motion.force = laws.force(motion.displacement, motion.velocity);
   return motion;
 }
 

@@ -36,6 +36,43 @@ void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
   }
 }
 
+// The force f = law(u - d f, v - m f) of a law that depends on the velocity, by bisection between 0 and the
+// force at (u, v): the residual rises with f where no slope is negative. At a jump of the law it is the value
+// within.
+double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility) {
+  constexpr int halvings = 60;
+  double near = 0.0, far = law.force(u, v);
+  if (far == 0.0) return 0.0;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (near + far);
+    const double excess = middle - law.force(u - compliance * middle, v - mobility * middle);
+    (excess * far > 0.0 ? far : near) = middle;
+  }
+  return 0.5 * (near + far);
+}
+
+// The same as solve_forces() where laws depend on the velocity, `mobility` that of the step.
+void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance, const Eigen::MatrixXd& mobility,
+                  const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
+                  Eigen::VectorXd& force) {
+  constexpr int max_rounds = 200;
+  constexpr double settled = 1e-12;
+  for (int round = 0; round < max_rounds; ++round) {
+    double change = 0.0;
+    for (Eigen::Index c = 0; c < force.size(); ++c) {
+      const double d = compliance(c, c), m = mobility(c, c);
+      const double u = displacement[c] - compliance.row(c).dot(force) + d * force[c];
+      const double v = velocity[c] - mobility.row(c).dot(force) + m * force[c];
+      const AnyContactLaw& law = laws[static_cast<int>(c)];
+      const double next =
+          law.depends_on_velocity() ? implicit_force(law, u, v, d, m) : law.resolvent(u, d).force;
+      change = std::max(change, std::abs(next - force[c]));
+      force[c] = next;
+    }
+    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) return;
+  }
+}
+
 // Responses of all degrees of freedom without contact to a load of these amplitudes, n x harmonics.
 Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
                                 double frequency) {
@@ -111,6 +148,12 @@ class Settling {
     const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
     const Eigen::MatrixXcd responses = load_responses(structure, amplitudes, frequency);
     free_ = contact_free_motion(structure.contact_directions * responses, options.steps);
+    if (laws.depend_on_velocity()) {
+      Eigen::MatrixXcd rates = structure.contact_directions * responses;
+      for (Eigen::Index n = 0; n < rates.cols(); ++n)
+        rates.col(n) *= Complex(0.0, 2.0 * std::numbers::pi * frequency * double(n));
+      free_velocity_ = contact_free_motion(rates, options.steps);
+    }
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(structure.size());
     for (Eigen::Index n = 0; n < responses.cols(); ++n)
       velocity -= 2.0 * std::numbers::pi * frequency * double(n) * responses.col(n).imag();
@@ -174,7 +217,11 @@ class Settling {
       const int column = ((result.periods % repeats_) * options_.steps + k + 1) % (repeats_ * options_.steps);
       Eigen::VectorXd end = flow_.advance(state_, force_);
       const Eigen::VectorXd predicted = free_.col(next) + flow_.contact_displacement(end);
-      solve_forces(laws_, compliance, predicted, force_);
+      if (free_velocity_.size() > 0)
+        solve_forces(laws_, compliance, flow_.step_mobility(), predicted,
+                     free_velocity_.col(next) + flow_.contact_velocity(end), force_);
+      else
+        solve_forces(laws_, compliance, predicted, force_);
       flow_.add_force(end, force_);
       state_.swap(end);
       result.displacement.col(column) = predicted - compliance * force_;
@@ -185,9 +232,9 @@ class Settling {
   const ContactLaws& laws_;
   const SettlingOptions& options_;
   ModalFlow flow_;
-  int repeats_ = 1;     // periods of the load within that of the problem
-  double start_ = 0.0;  // periods of the load after t = 0 at which the motion starts
-  Eigen::MatrixXd free_;
+  int repeats_ = 1;                       // periods of the load within that of the problem
+  double start_ = 0.0;                    // periods of the load after t = 0 at which the motion starts
+  Eigen::MatrixXd free_, free_velocity_;  // the latter empty where no law depends on it
   Eigen::VectorXd free_state_, state_, force_;
 };
 

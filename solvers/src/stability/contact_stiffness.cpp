@@ -31,6 +31,16 @@ class ContactCurve {
   }
 
   const Eigen::VectorXd& samples() const { return samples_; }
+  /// The slope, m per period.
+  double rate(double time) const {
+    const double step = 1e-3 / double(samples_.size());
+    if (harmonics_.size() == 0) return ((*this)(time + step) - (*this)(time - step)) / (2.0 * step);
+    const Complex turn = std::polar(1.0, 2.0 * std::numbers::pi * time);
+    Complex sum = 0.0;
+    for (Eigen::Index n = harmonics_.size() - 1; n > 0; --n)
+      sum = (sum + Complex(0.0, 2.0 * std::numbers::pi * double(n)) * harmonics_[n]) * turn;
+    return sum.real();
+  }
   /// The time of a sample, or of a place between two, in periods.
   double time_of(double sample) const { return first_ + sample / double(samples_.size()); }
 
@@ -71,8 +81,30 @@ struct ContactAlong {
   bool unilateral;
   double flexibility;  // m/N; 0 in the displacement form
   ContactCurve curve;
+  double frequency;  // Hz
+
+  bool has_velocity() const { return law.depends_on_velocity(); }
+  double velocity(double time) const { return frequency * curve.rate(time); }
+  ForceSlopes at(double time) const { return law.at(curve(time), velocity(time)); }
+  bool acts(double time) const {
+    const ForceSlopes slopes = at(time);
+    return slopes.force != 0.0 || slopes.tangent != 0.0 || slopes.damping != 0.0;
+  }
+  double damping(double time) const { return has_velocity() ? at(time).damping : 0.0; }
+  // At the end of an interval: the force just inside less that outside, over the velocity.
+  double impulse(double time) const {
+    if (!has_velocity()) return 0.0;
+    constexpr double beside = 1e-9;
+    const double jump = std::abs(at(time + beside).force - at(time - beside).force);
+    const double speed = std::abs(velocity(time)),
+                 slope = at(time + beside).tangent + at(time - beside).tangent;
+    // What a smooth force changes by within these times is no jump.
+    const double smooth = 4.0 * beside * std::abs(curve.rate(time) * slope);
+    return speed > 0.0 && jump > smooth + 1e-6 * std::abs(law.force(curve(time), speed)) ? jump / speed : 0.0;
+  }
 
   double tangent(double time) const {
+    if (has_velocity()) return at(time).tangent;
     const double v = curve(time);
     const double u = flexibility > 0.0 ? v - flexibility * law.resolvent(v, flexibility).force : v;
     // At the end of an interval rounding may leave u below the gap.
@@ -112,36 +144,111 @@ bool passes_between_samples(const ContactCurve& curve, double level, Eigen::Inde
   return false;
 }
 
-// The intervals of one contact; nothing where one of them holds no sample.
-std::optional<std::vector<ContactInterval>> find_intervals(const ContactAlong& along, int contact) {
+using Intervals = std::vector<ContactInterval>;
+
+// From each begin to the next end.
+void add_intervals(int contact, const std::vector<double>& begins, const std::vector<double>& ends,
+                   Intervals& intervals) {
+  for (const double begin : begins) {
+    const auto end = std::upper_bound(ends.begin(), ends.end(), begin);
+    const double shift = std::floor(begin);
+    intervals.push_back({contact, begin - shift, (end == ends.end() ? ends.front() + 1.0 : *end) - shift});
+  }
+}
+
+// The intervals of a unilateral law beyond its gap; nothing where one of them holds no sample.
+std::optional<Intervals> intervals_beyond_gap(const ContactAlong& along, int contact) {
   const double gap = along.law.gap();
   const Eigen::VectorXd& samples = along.curve.samples();
   const Eigen::Index count = samples.size();
-  const bool unilateral = along.unilateral;
   std::vector<double> openings, closings;
   for (Eigen::Index l = 0; l < count; ++l) {
     const bool above = samples[l] > gap, next = samples[(l + 1) % count] > gap;
     if (above != next) (next ? closings : openings).push_back(crossing(along.curve, gap, l));
-    if (unilateral && !above && passes_between_samples(along.curve, gap, l) &&
-        !(samples[(l + count - 1) % count] > gap) && !next)
+    if (!above && passes_between_samples(along.curve, gap, l) && !(samples[(l + count - 1) % count] > gap) &&
+        !next)
       return std::nullopt;
   }
-  std::vector<ContactInterval> intervals;
+  Intervals intervals;
   if (closings.empty()) {
-    if (samples[0] > gap || !unilateral) intervals.push_back({contact, 0.0, 1.0});
+    if (samples[0] > gap) intervals.push_back({contact, 0.0, 1.0});
     return intervals;
   }
-  const auto add = [&](const std::vector<double>& begins, const std::vector<double>& ends) {
-    for (const double begin : begins) {
-      const auto end = std::upper_bound(ends.begin(), ends.end(), begin);
-      const double shift = std::floor(begin);
-      intervals.push_back({contact, begin - shift, (end == ends.end() ? ends.front() + 1.0 : *end) - shift});
-    }
-  };
-  add(closings, openings);
-  if (!unilateral) add(openings, closings);
-  std::sort(intervals.begin(), intervals.end(),
-            [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  add_intervals(contact, closings, openings, intervals);
+  return intervals;
+}
+
+// Whether the law has a slope somewhere in the interval.
+bool has_slope(const ContactAlong& along, const ContactInterval& interval) {
+  constexpr int parts = 16;
+  for (int part = 1; part < parts; ++part)
+    if (along.tangent(interval.begin + interval.length() * part / parts) != 0.0) return true;
+  return false;
+}
+
+// The intervals between the kinks of a law that acts on both sides of its gap, less those without slope.
+Intervals intervals_between_kinks(const ContactAlong& along, int contact) {
+  const Eigen::VectorXd& samples = along.curve.samples();
+  const Eigen::Index count = samples.size();
+  std::vector<double> times;
+  for (const double kink : along.law.kinks()) {
+    const double level = along.flexibility > 0.0 ? kink + along.flexibility * along.law.force(kink) : kink;
+    for (Eigen::Index l = 0; l < count; ++l)
+      if ((samples[l] > level) != (samples[(l + 1) % count] > level))
+        times.push_back(crossing(along.curve, level, l));
+  }
+  for (double& time : times) time -= std::floor(time);
+  std::sort(times.begin(), times.end());
+  Intervals all, intervals;
+  if (times.empty()) all.push_back({contact, 0.0, 1.0});
+  for (std::size_t i = 0; i < times.size(); ++i)
+    all.push_back({contact, times[i], i + 1 < times.size() ? times[i + 1] : times.front() + 1.0});
+  for (const ContactInterval& one : all)
+    if (one.length() > 0.0 && has_slope(along, one)) intervals.push_back(one);
+  return intervals;
+}
+
+// The time between samples l and l + 1 at which a law begins or ceases to act.
+double change_of_action(const ContactAlong& along, Eigen::Index l) {
+  double low = along.curve.time_of(double(l)), high = along.curve.time_of(double(l + 1));
+  const bool before = along.acts(low);
+  while (high - low > 1e-15) {
+    const double middle = 0.5 * (low + high);
+    if (!(middle > low && middle < high)) break;
+    (along.acts(middle) == before ? low : high) = middle;
+  }
+  return high;
+}
+
+// The intervals in which a law that depends on the velocity acts; nothing where one of them holds no sample.
+std::optional<Intervals> intervals_of_action(const ContactAlong& along, int contact) {
+  const Eigen::Index count = along.curve.samples().size();
+  std::vector<bool> acts(static_cast<std::size_t>(count));
+  for (Eigen::Index l = 0; l < count; ++l)
+    acts[static_cast<std::size_t>(l)] = along.acts(along.curve.time_of(double(l)));
+  std::vector<double> openings, closings;
+  for (Eigen::Index l = 0; l < count; ++l) {
+    const bool here = acts[static_cast<std::size_t>(l)],
+               next = acts[static_cast<std::size_t>((l + 1) % count)];
+    if (here != next) (next ? closings : openings).push_back(change_of_action(along, l));
+    const bool before = acts[static_cast<std::size_t>((l + count - 1) % count)];
+    if (along.unilateral && !here && !before && !next &&
+        passes_between_samples(along.curve, along.law.gap(), l))
+      return std::nullopt;
+  }
+  Intervals intervals;
+  if (closings.empty() && acts.front()) intervals.push_back({contact, 0.0, 1.0});
+  if (!closings.empty()) add_intervals(contact, closings, openings, intervals);
+  return intervals;
+}
+
+std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) {
+  auto intervals = along.has_velocity() ? intervals_of_action(along, contact)
+                   : along.unilateral   ? intervals_beyond_gap(along, contact)
+                                        : intervals_between_kinks(along, contact);
+  if (intervals)
+    std::sort(intervals->begin(), intervals->end(),
+              [](const auto& a, const auto& b) { return a.begin < b.begin; });
   return intervals;
 }
 
@@ -163,6 +270,8 @@ std::string_view to_string(StabilityStatus status) {
       return "undamped";
     case StabilityStatus::coupled_massless:
       return "coupled_massless";
+    case StabilityStatus::too_many_states:
+      return "too_many_states";
     case StabilityStatus::effort_limit:
       return "effort_limit";
   }
@@ -183,7 +292,7 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
                                 std::to_string(problem.samples()));
   const ContactUnknowns unknowns{response.unknown_coefficients,
                                  response.unknown.reshaped(problem.points(), problem.contacts()),
-                                 response.regularization, problem.pair().first_sample()};
+                                 response.regularization, problem.pair().first_sample(), response.frequency};
   return contact_stiffness(problem.pair().trial(), laws, unknowns);
 }
 
@@ -198,7 +307,8 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
     const double flexibility = unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0;
     contacts->push_back(
         {laws[c], laws[c].unilateral(), flexibility,
-         ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample)});
+         ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample),
+         unknowns.frequency});
     const ContactAlong& along = contacts->back();
     const auto intervals = find_intervals(along, c);
     if (!intervals) {
@@ -216,6 +326,14 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   stiffness.tangent = [contacts](int contact, double time) {
     return (*contacts)[static_cast<std::size_t>(contact)].tangent(time);
   };
+  if (laws.depend_on_velocity()) {
+    stiffness.damping = [contacts](int contact, double time) {
+      return (*contacts)[static_cast<std::size_t>(contact)].damping(time);
+    };
+    stiffness.impulse = [contacts](int contact, double time) {
+      return (*contacts)[static_cast<std::size_t>(contact)].impulse(time);
+    };
+  }
   return stiffness;
 }
 

@@ -10,6 +10,7 @@
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "stability/stability_checks.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -179,6 +180,22 @@ void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptio
   }
 }
 
+// Of laws that depend on the velocity: from the monodromy, without motions.
+FloquetExponents damped_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                  double frequency, const FloquetOptions& options) {
+  FloquetExponents result;
+  result.harmonics = options.stability.harmonics;
+  result.status = unstable_multipliers(dynamics, stiffness, frequency, options.stability).status;
+  if (result.status != StabilityStatus::converged) return result;
+  const Eigen::MatrixXcd none = Eigen::MatrixXcd::Zero(dynamics.contacts(), 2 * result.harmonics + 1);
+  for (const Complex multiplier : monodromy(dynamics, stiffness, frequency)) {
+    if (multiplier.imag() < 0.0 || multiplier == 0.0) continue;
+    if (int(result.values.size()) == options.max_exponents) break;
+    result.values.push_back({std::log(multiplier) * frequency, multiplier, none, none});
+  }
+  return result;
+}
+
 }  // namespace
 
 void FloquetOptions::validate() const {
@@ -197,6 +214,7 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   if (result.status != StabilityStatus::converged) return result;
   require_stability_arguments("floquet_exponents", dynamics, stiffness, frequency,
                               options.stability.harmonics);
+  if (stiffness.damping) return damped_exponents(dynamics, stiffness, frequency, options);
   result.status = options.starts.empty() ? require_countable(dynamics, stiffness, 2.0 * pi * frequency)
                                          : require_stiffness(dynamics, stiffness);
   if (result.status != StabilityStatus::converged) return result;

@@ -91,6 +91,23 @@ class States {
     return motion;
   }
 
+  // C x size(): their velocities, m/s.
+  Eigen::MatrixXd free_velocity(double time) const {
+    Eigen::MatrixXd motion(dynamics_.contacts(), size_);
+    for (std::size_t l = 0; l < begins_.size(); ++l) {
+      const ContactPole& pole = dynamics_.poles()[l];
+      const Eigen::VectorXcd shape =
+          pole.exponent * pole.residue * std::exp(pole.exponent * time * period_) * pole.shape;
+      if (pole.exponent.imag() == 0.0) {
+        motion.col(begins_[l]) = shape.real();
+      } else {
+        motion.col(begins_[l]) = 2.0 * shape.real();
+        motion.col(begins_[l] + 1) = -2.0 * shape.imag();
+      }
+    }
+    return motion;
+  }
+
   // Takes the states of all columns on by `time`.
   void advance(double time, Eigen::MatrixXd& states) const {
     for (std::size_t l = 0; l < begins_.size(); ++l) {
@@ -141,6 +158,7 @@ class Propagator {
   const States& states() const { return states_; }
 
   void pass(const Piece& piece, Eigen::MatrixXd& states) const {
+    if (stiffness_.impulse) strike(piece.begin, states);
     if (piece.closed.empty()) return states_.advance(piece.end - piece.begin, states);
     const double length = (piece.end - piece.begin) / piece.parts;
     const PartMaps maps = maps_of(piece.closed, length);
@@ -155,16 +173,32 @@ class Propagator {
   // What all parts of one length share. Rows and columns are those of the closed contacts at the nodes, node
   // after node.
   struct PartMaps {
-    Eigen::MatrixXd memory;    // displacements from the forces in the part, m/N
-    Eigen::MatrixXd free;      // displacements from the states at its begin
-    Eigen::MatrixXd impulses;  // states at its end from the forces
+    Eigen::MatrixXd memory;                  // displacements from the forces in the part, m/N
+    Eigen::MatrixXd free;                    // displacements from the states at its begin
+    Eigen::MatrixXd impulses;                // states at its end from the forces
+    Eigen::MatrixXd memory_rate, free_rate;  // the same of velocities; empty where no law depends on them
   };
+
+  // The forces that jump at `time`, where an interval begins or ends.
+  void strike(double time, Eigen::MatrixXd& states) const {
+    for (const ContactInterval& interval : stiffness_.intervals)
+      for (const double end : {interval.begin, interval.end}) {
+        if (interval.always() || end - std::floor(end) != time) continue;
+        const double impulse = stiffness_.impulse(interval.contact, end);
+        if (impulse == 0.0) continue;
+        const Eigen::RowVectorXd moved = impulse * states_.free_motion(0.0).row(interval.contact) * states;
+        states -= states_.after_impulse(0.0).col(interval.contact) * moved;
+      }
+  }
 
   PartMaps maps_of(const std::vector<int>& contacts, double length) const {
     const auto closed = static_cast<Eigen::Index>(contacts.size());
     const Eigen::Index nodes = rule_.points.size(), size = nodes * closed;
-    PartMaps maps{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd(size, states_.size()),
-                  Eigen::MatrixXd(states_.size(), size)};
+    PartMaps maps{Eigen::MatrixXd::Zero(size, size),
+                  Eigen::MatrixXd(size, states_.size()),
+                  Eigen::MatrixXd(states_.size(), size),
+                  {},
+                  {}};
     for (Eigen::Index i = 0; i < nodes; ++i) {
       const double point = rule_.points[i];
       maps.free.middleRows(i * closed, closed) = states_.free_motion(length * point)(contacts, Eigen::all);
@@ -172,9 +206,42 @@ class Propagator {
           length * period_ * rule_.weights[i] *
           states_.after_impulse(length * (1.0 - point))(Eigen::all, contacts);
       maps.memory.block(i * closed, i * closed, closed, closed) = dynamics_.constant()(contacts, contacts);
-      add_memory(contacts, length, i, maps.memory);
+      add_memory(contacts, length, i, states_.free_motion(0.0), maps.memory);
     }
+    if (stiffness_.damping) add_rates(contacts, length, maps);
     return maps;
+  }
+
+  // The displacements after an impulse rise from h(0), so that the velocities under a force f have h(0) f.
+  void add_rates(const std::vector<int>& contacts, double length, PartMaps& maps) const {
+    const auto closed = static_cast<Eigen::Index>(contacts.size());
+    const Eigen::Index nodes = rule_.points.size(), size = nodes * closed;
+    maps.memory_rate.setZero(size, size);
+    maps.free_rate.resize(size, states_.size());
+    const Eigen::MatrixXd at_once = detail::product(states_.free_motion(0.0)(contacts, Eigen::all),
+                                                    states_.after_impulse(0.0)(Eigen::all, contacts));
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      maps.free_rate.middleRows(i * closed, closed) =
+          states_.free_velocity(length * rule_.points[i])(contacts, Eigen::all);
+      maps.memory_rate.block(i * closed, i * closed, closed, closed) = at_once;
+      add_memory(contacts, length, i, states_.free_velocity(0.0), maps.memory_rate);
+    }
+  }
+
+  // The same where laws depend on the velocity: f + D_u h * f + D_v h' * f = D_u u + D_v u' of free motion.
+  Eigen::MatrixXd damped_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
+                                const Eigen::VectorXd& tangent, const Eigen::MatrixXd& states) const {
+    Eigen::VectorXd damping(tangent.size());
+    Eigen::Index row = 0;
+    for (const double point : rule_.points)
+      for (const int contact : piece.closed)
+        damping[row++] = stiffness_.damping(contact, begin + length * point);
+    Eigen::MatrixXd matrix = tangent.asDiagonal() * maps.memory;
+    matrix += damping.asDiagonal() * maps.memory_rate;
+    matrix.diagonal().array() += 1.0;
+    Eigen::MatrixXd right = tangent.asDiagonal() * detail::product(maps.free, states);
+    right += damping.asDiagonal() * detail::product(maps.free_rate, states);
+    return detail::Lu<double>(matrix).solve(right);
   }
 
   // Forces of the closed contacts at the nodes, one column per state: u + h * D u = free motion with f = D u.
@@ -185,6 +252,7 @@ class Propagator {
     for (const double point : rule_.points)
       for (const int contact : piece.closed)
         tangent[row++] = stiffness_.tangent(contact, begin + length * point);
+    if (stiffness_.damping) return damped_forces(piece, begin, length, maps, tangent, states);
     const Eigen::MatrixXd free = detail::product(maps.free, states);
     if (!tangent.allFinite()) return forces_of_rigid(tangent, maps.memory, free);
     Eigen::MatrixXd matrix = maps.memory * tangent.asDiagonal();
@@ -205,13 +273,14 @@ class Propagator {
     return detail::Lu<double>(matrix).solve(free);
   }
 
-  // integral up to node i of h(t_i - s) times the polynomials of the nodes.
+  // integral up to node i of h(t_i - s) times the polynomials of the nodes; `motion` are the displacements of
+  // all contacts in the states, or their velocities for h'.
   void add_memory(const std::vector<int>& contacts, double length, Eigen::Index i,
-                  Eigen::MatrixXd& matrix) const {
+                  const Eigen::MatrixXd& motion, Eigen::MatrixXd& matrix) const {
     const auto closed = static_cast<Eigen::Index>(contacts.size());
     const double reach = length * rule_.points[i];
     const Eigen::MatrixXd& polynomials = below_[static_cast<std::size_t>(i)];
-    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(contacts, Eigen::all);
+    const Eigen::MatrixXd displaced = motion(contacts, Eigen::all);
     for (Eigen::Index q = 0; q < rule_.points.size(); ++q) {
       const Eigen::MatrixXd impulse =
           states_.after_impulse(reach * (1.0 - rule_.points[q]))(Eigen::all, contacts);
@@ -304,6 +373,9 @@ double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& st
       const double tangent = std::isinf(stop) ? 1.0 / yielding : stop / (1.0 + yielding * stop);
       fastest = std::max({fastest, std::abs(jump[interval.contact]) * tangent,
                           std::sqrt(std::abs(rise[interval.contact]) * tangent)});
+      if (stiffness.damping)
+        fastest =
+            std::max(fastest, std::abs(rise[interval.contact] * stiffness.damping(interval.contact, time)));
     }
   return fastest;
 }

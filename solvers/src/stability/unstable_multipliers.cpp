@@ -55,6 +55,17 @@ std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
   return multipliers;
 }
 
+// Why a law that depends on the velocity lets no multipliers be known. Those of a contact that deflects at
+// once would need the rate of its force.
+StabilityStatus status_of_damped(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                 const StabilityOptions& options) {
+  if (stiffness.status != StabilityStatus::converged) return stiffness.status;
+  if (dynamics.constant().diagonal().cwiseAbs().maxCoeff() > 0.0) return StabilityStatus::coupled_massless;
+  if (dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states)
+    return StabilityStatus::too_many_states;
+  return StabilityStatus::converged;
+}
+
 UnstableMultipliers without_count(StabilityStatus status) {
   UnstableMultipliers result;
   result.status = status;
@@ -137,6 +148,12 @@ StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
 
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                          double frequency, const StabilityOptions& options) {
+  if (stiffness.damping) {
+    const StabilityStatus status = status_of_damped(dynamics, stiffness, options);
+    if (status != StabilityStatus::converged) return without_count(status);
+    return counted_by_monodromy(dynamics, stiffness, frequency, options)
+        .value_or(without_count(StabilityStatus::too_few_harmonics));
+  }
   UnstableMultipliers result;
   result.status = status_before("unstable_multipliers", dynamics, stiffness, frequency, options);
   if (result.status != StabilityStatus::converged) return result;
@@ -189,9 +206,12 @@ UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const 
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                double frequency, const StabilityOptions& options) {
   StabilitySigns signs;
-  signs.status = status_before("stability_signs", dynamics, stiffness, frequency, options);
+  signs.status = stiffness.damping
+                     ? status_of_damped(dynamics, stiffness, options)
+                     : status_before("stability_signs", dynamics, stiffness, frequency, options);
   if (signs.status != StabilityStatus::converged) return signs;
-  const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
+  const Truncation truncation =
+      stiffness.damping ? Truncation{} : truncation_of(dynamics, stiffness, frequency, options);
   if (truncation.harmonics == 0) {
     const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
     signs.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;

@@ -66,6 +66,7 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   flow.step_compliance_.resize(contacts, contacts);
   for (Eigen::Index c = 0; c < contacts; ++c)
     flow.step_compliance_.col(c) = -flow.contact_displacement(flow.end_.col(c));
+  flow.step_mobility_ = -flow.contact_ * flow.end_.bottomRows(m);
   const Eigen::MatrixXd omitted = contact.rightCols(all - m);
   const Eigen::VectorXd flexibilities = eigen->values.tail(all - m).cwiseInverse();
   flow.step_compliance_ += detail::product_transposed(omitted * flexibilities.asDiagonal(), omitted);
@@ -84,6 +85,10 @@ void ModalFlow::add_force(Eigen::VectorXd& state, const Eigen::VectorXd& force) 
 
 Eigen::VectorXd ModalFlow::contact_displacement(const Eigen::VectorXd& state) const {
   return contact_ * state.head(modes()).cwiseQuotient(sigma_);
+}
+
+Eigen::VectorXd ModalFlow::contact_velocity(const Eigen::VectorXd& state) const {
+  return contact_ * state.tail(modes());
 }
 
 Eigen::VectorXd ModalFlow::state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const {

@@ -36,6 +36,10 @@ class ModalFlow {
   /// C x C, m/N: what forces at the end of a step take from the displacements there, static deflection of the
   /// omitted modes included. Symmetric, not negative.
   const Eigen::MatrixXd& step_compliance() const { return step_compliance_; }
+  /// Velocities of the contacts (C, m/s) in a state.
+  Eigen::VectorXd contact_velocity(const Eigen::VectorXd& state) const;
+  /// C x C, m/s/N: what forces at the end of a step take from the velocities there.
+  const Eigen::MatrixXd& step_mobility() const { return step_mobility_; }
   /// State of a displacement (n, m) and a velocity (n, m/s). O(n m).
   Eigen::VectorXd state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const;
 
@@ -46,7 +50,7 @@ class ModalFlow {
   Eigen::MatrixXd projection_;  // m x n, shapes^T mass
   Eigen::VectorXd sigma_;       // m, rad/s
   Eigen::MatrixXd contact_;     // C x m
-  Eigen::MatrixXd exponential_, begin_, end_, step_compliance_;
+  Eigen::MatrixXd exponential_, begin_, end_, step_compliance_, step_mobility_;
 };
 
 }  // namespace wavebalance::solvers

@@ -99,7 +99,7 @@ TEST_P(ContactSystemTest, BorderedSolveEqualsTheBorderedDenseMatrix) {
 
 TEST_P(ContactSystemTest, KeptOnTheirSidesSamplesPassTheGapSmoothly) {
   const Eigen::VectorXd u = state(0.0);
-  const ActiveMask sides = u.array() > law_.start;
+  const LawPieces sides = (u.array() > law_.start).cast<int>();
   ASSERT_TRUE(sides.any() && !sides.all());
   system_.evaluate(u);
   const Eigen::VectorXd residual = system_.residual(), tangent = system_.tangent();

@@ -3,16 +3,31 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace wavebalance::solvers {
 
-/// Requirements on a contact law, a force that depends on the displacement of one contact degree of freedom.
-/// A law of one's own is a struct with these four const members.
+/// A force that depends on the displacement of one contact.
 template <class Law>
-concept ContactLaw = std::copy_constructible<Law> && requires(const Law& law, double displacement) {
-  { law.force(displacement) } -> std::convertible_to<double>;      // N, opposes a positive displacement
-  { law.tangent(displacement) } -> std::convertible_to<double>;    // N/m; at the kink the right-hand slope
-  { law.potential(displacement) } -> std::convertible_to<double>;  // J, the integral of the force
+concept DependsOnDisplacement = requires(const Law& law, double displacement) {
+  { law.force(displacement) } -> std::convertible_to<double>;    // N, opposes a positive displacement
+  { law.tangent(displacement) } -> std::convertible_to<double>;  // N/m; at a kink the right-hand slope
+};
+
+/// A force that depends on the displacement and the velocity of one contact, both towards the obstacle.
+template <class Law>
+concept DependsOnVelocity = requires(const Law& law, double displacement, double velocity) {
+  { law.force(displacement, velocity) } -> std::convertible_to<double>;    // N
+  { law.tangent(displacement, velocity) } -> std::convertible_to<double>;  // N/m, slope by the displacement
+  { law.damping(displacement, velocity) } -> std::convertible_to<double>;  // N s/m, slope by the velocity
+};
+
+/// Requirements on a contact law. A law of one's own is a struct with these four const members, or five where
+/// its force depends on the velocity.
+template <class Law>
+concept ContactLaw = std::copy_constructible<Law> &&
+    (DependsOnDisplacement<Law> || DependsOnVelocity<Law>)&&requires(const Law& law, double displacement) {
+  { law.potential(displacement) } -> std::convertible_to<double>;  // J, the integral of the force at rest
   { law.gap() } -> std::convertible_to<double>;                    // m, where the force starts
 };
 
@@ -42,10 +57,30 @@ concept SaysWhereItActs = requires(const Law& law) {
   { law.unilateral() } -> std::convertible_to<bool>;
 };
 
+/// A law that says at which displacements its slope jumps, ascending, m. One that does not say has one at
+/// its gap where it is unilateral, and otherwise where its slope jumps at its gap or at the opposite of it.
+template <class Law>
+concept SaysItsKinks = requires(const Law& law) {
+  { law.kinks() } -> std::convertible_to<std::vector<double>>;
+};
+
+/// A law that says whether its force falls nowhere, so that its resolvent is one force for every v.
+template <class Law>
+concept SaysWhetherItRises = requires(const Law& law) {
+  { law.monotone() } -> std::convertible_to<bool>;
+};
+
 /// A force and its slope.
 struct ForceSlope {
   double force = 0.0;    ///< N
   double tangent = 0.0;  ///< N/m
+};
+
+/// A force and its slopes by displacement and velocity.
+struct ForceSlopes {
+  double force = 0.0;    ///< N
+  double tangent = 0.0;  ///< N/m
+  double damping = 0.0;  ///< N s/m
 };
 
 /// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which
@@ -60,10 +95,19 @@ class AnyContactLaw {
       AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
       : model_(std::make_shared<Model<Law>>(std::move(law))) {}
 
-  double force(double displacement) const;
-  double tangent(double displacement) const;
+  double force(double displacement) const;    ///< of a law that depends on the velocity: at rest
+  double tangent(double displacement) const;  ///< likewise
   double potential(double displacement) const;
   double gap() const { return model_->gap(); }
+
+  /// Whether the force depends on the velocity (m/s), without which the following ignore it.
+  bool depends_on_velocity() const { return model_->depends_on_velocity(); }
+  double force(double displacement, double velocity) const {
+    return depends_on_velocity() ? model_->at(displacement, velocity).force : model_->force(displacement);
+  }
+  ForceSlopes at(double displacement, double velocity) const { return model_->at(displacement, velocity); }
+  /// Where the slope jumps, ascending, m.
+  std::vector<double> kinks() const { return model_->kinks(); }
 
   /// f with f = force(v - flexibility f), and df/dv, for flexibility > 0 in m/N: the law in series with a
   /// spring. A monotone law has exactly one; for a falling one any is returned.
@@ -72,6 +116,9 @@ class AnyContactLaw {
   bool is_rigid() const;
   /// Whether the force vanishes below the gap and is never negative.
   bool unilateral() const { return model_->unilateral(); }
+  /// Whether the force form may solve for it: a unilateral law, or one that says that it is monotone, of the
+  /// displacement alone.
+  bool has_force_form() const { return !depends_on_velocity() && (unilateral() || model_->monotone()); }
 
   /// Force (N) and tangent (N/m) at each displacement (m); the three spans have one length. O(n).
   void evaluate(std::span<const double> displacement, std::span<double> force,
@@ -92,6 +139,10 @@ class AnyContactLaw {
     virtual double gap() const = 0;
     virtual ForceSlope resolvent(double v, double flexibility) const = 0;
     virtual bool unilateral() const = 0;
+    virtual bool monotone() const = 0;
+    virtual bool depends_on_velocity() const = 0;
+    virtual ForceSlopes at(double displacement, double velocity) const = 0;
+    virtual std::vector<double> kinks() const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>) const = 0;
   };
@@ -99,8 +150,32 @@ class AnyContactLaw {
   template <class Law>
   struct Model final : Interface {
     explicit Model(Law law) : law_(std::move(law)) {}
-    double force(double displacement) const override { return law_.force(displacement); }
-    double tangent(double displacement) const override { return law_.tangent(displacement); }
+    double force(double displacement) const override {
+      if constexpr (DependsOnVelocity<Law>)
+        return law_.force(displacement, 0.0);
+      else
+        return law_.force(displacement);
+    }
+    double tangent(double displacement) const override {
+      if constexpr (DependsOnVelocity<Law>)
+        return law_.tangent(displacement, 0.0);
+      else
+        return law_.tangent(displacement);
+    }
+    bool depends_on_velocity() const override { return DependsOnVelocity<Law>; }
+    ForceSlopes at(double displacement, double velocity) const override {
+      if constexpr (DependsOnVelocity<Law>)
+        return {law_.force(displacement, velocity), law_.tangent(displacement, velocity),
+                law_.damping(displacement, velocity)};
+      else
+        return {law_.force(displacement), law_.tangent(displacement), 0.0};
+    }
+    std::vector<double> kinks() const override {
+      if constexpr (SaysItsKinks<Law>)
+        return law_.kinks();
+      else
+        return kinks_of(*this);
+    }
     double potential(double displacement) const override { return law_.potential(displacement); }
     double gap() const override { return law_.gap(); }
     ForceSlope resolvent(double v, double flexibility) const override {
@@ -111,6 +186,12 @@ class AnyContactLaw {
         return solve_resolvent(*this, v, flexibility);
       }
     }
+    bool monotone() const override {
+      if constexpr (SaysWhetherItRises<Law>)
+        return law_.monotone();
+      else
+        return false;
+    }
     bool unilateral() const override {
       if constexpr (SaysWhereItActs<Law>)
         return law_.unilateral();
@@ -119,7 +200,10 @@ class AnyContactLaw {
     }
     void evaluate(std::span<const double> u, std::span<double> f, std::span<double> slope) const override {
       for (std::size_t i = 0; i < u.size(); ++i) {
-        if constexpr (EvaluatesTogether<Law>) {
+        if constexpr (DependsOnVelocity<Law>) {
+          f[i] = force(u[i]);
+          slope[i] = tangent(u[i]);
+        } else if constexpr (EvaluatesTogether<Law>) {
           const auto both = law_.evaluate(u[i]);
           f[i] = both.force;
           slope[i] = both.tangent;
@@ -130,13 +214,14 @@ class AnyContactLaw {
       }
     }
     void evaluate(std::span<const double> u, std::span<double> f) const override {
-      for (std::size_t i = 0; i < u.size(); ++i) f[i] = law_.force(u[i]);
+      for (std::size_t i = 0; i < u.size(); ++i) f[i] = force(u[i]);
     }
     Law law_;
   };
 
   static ForceSlope solve_resolvent(const Interface& law, double v, double flexibility);
   static bool vanishes_below_gap(const Interface& law);
+  static std::vector<double> kinks_of(const Interface& law);
 
   std::shared_ptr<const Interface> model_;
 };
@@ -153,6 +238,7 @@ class ResolventLaw {
   double potential(double v) const;
   double gap() const { return law_.gap(); }
   bool unilateral() const { return law_.unilateral(); }
+  std::vector<double> kinks() const;
   ForceSlope evaluate(double v) const { return law_.resolvent(v, flexibility_); }
 
  private:

@@ -37,6 +37,10 @@ class ContactLaws {
   bool have_finite_force() const;
   /// Whether all laws are unilateral.
   bool unilateral() const;
+  /// Whether the force form may solve for all of them.
+  bool have_force_form() const;
+  /// Whether the force of one depends on the velocity.
+  bool depend_on_velocity() const;
   /// The laws of the force form: the resolvents of the laws for a flexibility 1 / epsilon (m/N) per contact.
   ContactLaws resolvents(const Eigen::VectorXd& flexibility) const;
 
@@ -44,8 +48,13 @@ class ContactLaws {
   /// the three vectors have one length. O(samples).
   void evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
                 Eigen::VectorXd& tangent) const;
+  /// The same for laws that depend on the velocities (m/s), too, with the slopes by them (N s/m).
+  void evaluate(int contacts, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
+                Eigen::VectorXd& force, Eigen::VectorXd& tangent, Eigen::VectorXd& damping) const;
   /// The forces (N) at displacements (m), contacts x points each. O(contacts points).
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement) const;
+  /// The same at velocities (m/s) that belong to them.
+  Eigen::MatrixXd force(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& velocity) const;
 
  private:
   std::vector<AnyContactLaw> laws_;

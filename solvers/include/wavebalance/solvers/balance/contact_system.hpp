@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
@@ -9,8 +11,17 @@ namespace wavebalance::solvers {
 
 class JacobianSolver;
 
-/// Mask of the samples in contact.
-using ActiveMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+/// The piece of its law that each sample lies on: the number of kinks below its displacement. With one kink,
+/// at the gap, 1 in contact and 0 outside.
+using LawPieces = Eigen::ArrayXi;
+
+/// A displacement at which the slope of a law jumps.
+struct LawKink {
+  double at = 0.0;      ///< m
+  double force = 0.0;   ///< N, at rest
+  double below = 0.0;   ///< N/m, slope on the lower side, at rest
+  double beyond = 0.0;  ///< N/m, slope on the upper side, at rest
+};
 
 /// How systems with the Newton matrix J are solved.
 enum class LinearSolver {
@@ -23,11 +34,14 @@ enum class LinearSolver {
 /// m, contact-major):
 ///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = diag(f_c'(u)).
 /// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an
-/// LU of their number and one product with K. In the force form of the problem u stands for its unknown v,
-/// and the laws are their resolvents. Many of them are solved for by GMRES, which forms no matrix over them.
+/// LU of their number and one product with K. Where a law depends on the velocity v = f V u of the motion, D
+/// is D_u + D_v f V (VelocityBlock). In the force form of the problem u stands for its unknown v, and the
+/// laws are their resolvents. Many of them are solved for by GMRES, which forms no matrix over them.
 class ContactSystem {
  public:
-  /// Throws std::invalid_argument when there are neither one law nor one for each contact.
+  /// Throws std::invalid_argument when there are neither one law nor one for each contact, and for a law that
+  /// depends on the velocity where the trial functions have no pointwise derivative or the problem is in the
+  /// force form.
   ContactSystem(CondensedProblem& problem, ContactLaws laws);
   ContactSystem(ContactSystem&&) noexcept;
   ContactSystem& operator=(ContactSystem&&) noexcept;
@@ -36,16 +50,23 @@ class ContactSystem {
   CondensedProblem& problem() { return *problem_; }
   /// The laws of the form that the problem had at construction.
   const ContactLaws& laws() const { return laws_; }
-  /// The law of the contact that a sample belongs to, and its gap in m.
-  const AnyContactLaw& law_at(int sample) const { return laws_[sample / problem_->points()]; }
-  double gap_at(int sample) const { return gaps_[sample / problem_->points()]; }
+  /// The kinks of the law of the contact that a sample belongs to, ascending.
+  std::span<const LawKink> kinks_at(int sample) const {
+    return kinks_[static_cast<std::size_t>(sample / problem_->points())];
+  }
+  /// The piece of that law at a displacement, m; at a kink the lower one.
+  int piece_at(int sample, double displacement) const;
+  /// The piece in which a contact is open or, of a law that acts everywhere, at rest.
+  int rest_piece(int sample) const {
+    return rest_pieces_[static_cast<std::size_t>(sample / problem_->points())];
+  }
 
   /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
   double evaluate(const Eigen::VectorXd& displacement);
-  /// The same with every sample kept on one side of its gap, samples() values. Where `presses` is true the
-  /// law is continued below the gap by its tangent there; elsewhere the force is zero, also beyond the gap.
-  /// Equal to evaluate() where the sides are those of `displacement`, and smooth across the gaps.
-  double evaluate(const Eigen::VectorXd& displacement, const ActiveMask& presses);
+  /// The same with every sample kept on one piece of its law, samples() values, which is continued beyond its
+  /// kinks by the tangents there. Equal to evaluate() where the pieces are those of `displacement`, and
+  /// smooth across the kinks.
+  double evaluate(const Eigen::VectorXd& displacement, const LawPieces& pieces);
 
   const Eigen::VectorXd& force() const { return force_; }        ///< f_c(u), N
   const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
@@ -58,8 +79,16 @@ class ContactSystem {
   /// solution.
   void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }
 
-  /// Overrides the tangent of a sample: the side of the kink from which J is taken there.
+  /// Whether a law depends on the velocity.
+  bool has_velocity() const { return velocity_ != nullptr; }
+  /// Of a residual at fixed samples, the change with frequency (m/Hz) through the velocities is added to
+  /// `slope`; nothing where no law depends on them.
+  void add_velocity_slope(Eigen::VectorXd& slope);
+
+  /// Overrides the tangent of a sample.
   void set_tangent(int sample, double value) { tangent_[sample] = value; }
+  /// Takes J at a sample that lies at a kink of its law from one side of it.
+  void take_side(int sample, int kink, bool beyond);
 
   /// Chooses the solver of factorize() and solve() and of their bordered forms; automatic is the default.
   void set_linear_solver(LinearSolver method);
@@ -88,16 +117,24 @@ class ContactSystem {
   double operations() const;
 
  private:
+  struct VelocityPart;
+
   double evaluate_residual(const Eigen::VectorXd& displacement);
+  void evaluate_laws(const Eigen::VectorXd& displacement);
+  void take_side(int sample, const LawKink& kink, bool beyond);
+  void continue_piece(int sample, double displacement, const LawKink& kink, bool beyond);
 
   CondensedProblem* problem_;
   ContactLaws laws_;
-  Eigen::VectorXd gaps_, added_motion_;
+  std::vector<std::vector<LawKink>> kinks_;  // of each contact
+  std::vector<int> rest_pieces_;
+  Eigen::VectorXd added_motion_;
   double relative_residual_ = 0.0;
   double column_scale_ = 1.0, row_scale_ = 1.0;  // of the border last factorized
   double products_ = 0.0;                        // operations of products with K
   Eigen::VectorXd force_, tangent_, residual_, product_;
   std::unique_ptr<JacobianSolver> jacobian_;
+  std::unique_ptr<VelocityPart> velocity_;  // null where no law depends on the velocity
 };
 
 }  // namespace wavebalance::solvers

@@ -139,11 +139,10 @@ class ArcLength {
     double miss(const CurvePoint& point) const;
   };
 
-  double evaluate(const CurvePoint& point, const ActiveMask* sides);
+  double evaluate(const CurvePoint& point, const LawPieces* sides);
   int max_corrections(bool in_piece) const;
-  bool solve_in(const Plane& plane, const ActiveMask* sides, CurvePoint& point, int& corrections);
-  bool correct(const CurvePoint& from, double step, const ActiveMask* sides, CurvePoint& to,
-               int& corrections);
+  bool solve_in(const Plane& plane, const LawPieces* sides, CurvePoint& point, int& corrections);
+  bool correct(const CurvePoint& from, double step, const LawPieces* sides, CurvePoint& to, int& corrections);
   bool tangent_at(CurvePoint& point, const CurvePoint& along);
   CurvePoint ahead(const CurvePoint& from, double step) const;
   CurvePoint chord(const CurvePoint& to) const;
@@ -151,23 +150,29 @@ class ArcLength {
   double max_turn() const;
   double growth(int corrections, double turn) const;
   bool locate(const std::function<double(const CurvePoint&)>& value, double width, CurvePoint& point);
-  bool is_at_gap(const CurvePoint& point, int sample) const;
+  /// A sample and the kink of its law that it reaches; no sample where it is -1.
+  struct Crossing {
+    int sample = -1;
+    int kink = 0;
+  };
+  int kink_at(const CurvePoint& point, int sample) const;
+  bool touches(const LawPieces& pieces) const;
   bool skips_grazing_turn(const CurvePoint& candidate) const;
-  void accept(CurvePoint&& candidate, const ActiveMask& sides);
+  void accept(CurvePoint&& candidate, const LawPieces& sides);
 
   bool step_far();
   bool step_in_piece();
-  bool step_smoothly(double step, const ActiveMask& sides, CurvePoint& candidate);
-  bool pass_grazing_event(int sample, double distance, const ActiveMask& sides);
-  int crossing_ahead(double& distance) const;
-  int passed(const CurvePoint& candidate, const ActiveMask& sides, double& fraction) const;
-  ActiveMask sides_of(const CurvePoint& point) const;
-  std::vector<int> samples_at_gap(const CurvePoint& point) const;
-  bool leads_to(int sample, const ActiveMask& sides, CurvePoint event);
+  bool step_smoothly(double step, const LawPieces& sides, CurvePoint& candidate);
+  bool pass_grazing_event(Crossing crossing, double distance, const LawPieces& sides);
+  Crossing crossing_ahead(double& distance) const;
+  Crossing passed(const CurvePoint& candidate, const LawPieces& sides, double& fraction) const;
+  LawPieces sides_of(const CurvePoint& point) const;
+  std::vector<Crossing> samples_at_kinks(const CurvePoint& point) const;
+  bool leads_to(Crossing crossing, const LawPieces& sides, CurvePoint event);
   bool tangent_through(int sample, bool inwards, CurvePoint& event);
-  bool grazing_tangent(int sample, const std::vector<int>& together, const std::vector<bool>& presses,
+  bool grazing_tangent(int sample, const std::vector<Crossing>& together, const std::vector<bool>& beyond,
                        CurvePoint& event);
-  bool leave_grazing_event(int sample, const ActiveMask& sides, CurvePoint& event);
+  bool leave_grazing_event(Crossing crossing, const LawPieces& sides, CurvePoint& event);
   void normalize(CurvePoint& point) const;
   double inner(const CurvePoint& a, const CurvePoint& b) const;
   Eigen::VectorXd scaled(const Eigen::VectorXd& tangent) const;
@@ -180,7 +185,7 @@ class ArcLength {
   CurvePoint point_, previous_;
   double step_ = 0.0;
   double last_step_ = 0.0;      // from previous_ to point_, along the tangent of previous_
-  ActiveMask last_sides_;       // sides of the piece that both lie on; empty if there may be several
+  LawPieces last_sides_;        // sides of the piece that both lie on; empty if there may be several
   double reversal_step_ = 0.0;  // length of the last long step that contained a turning point
   // Value of the operation counter at which the curve must stop.
   double operation_limit_ = std::numeric_limits<double>::infinity();

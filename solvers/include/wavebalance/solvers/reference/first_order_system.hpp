@@ -8,9 +8,9 @@
 
 namespace wavebalance::solvers {
 
-/// The equation of motion M u'' + C u' + K u = load cos(2 pi f t) + forces - S^T f(S u) [JL14, eq. (7)] as 2n
-/// first-order equations dy/ds = F(s, y) in the number of periods s = f t. The state holds y = (2 pi f u,
-/// u'), both in m/s, so that one absolute tolerance suits displacements and velocities alike.
+/// The equation of motion M u'' + C u' + K u = load cos(2 pi f t) + forces - S^T f(S u, S u') [JL14, eq. (7)]
+/// as 2n first-order equations dy/ds = F(s, y) in the number of periods s = f t. The state holds y = (2 pi f
+/// u, u'), both in m/s, so that one absolute tolerance suits displacements and velocities alike.
 ///
 /// Dense: O(n^2) memory, O(n^3) construction; immutable afterwards and safe to share between threads.
 class FirstOrderSystem {
@@ -40,8 +40,11 @@ class FirstOrderSystem {
  private:
   using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  // The displacement u_c of a contact in a state, m.
-  double contact_displacement(int contact, std::span<const double> state) const;
+  // The displacement u_c (m) and the velocity (m/s) of a contact in a state.
+  struct ContactState {
+    double displacement, velocity;
+  };
+  ContactState contact_state(int contact, std::span<const double> state) const;
 
   ContactLaws laws_;
   ContactDirections directions_;

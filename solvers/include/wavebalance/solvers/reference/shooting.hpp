@@ -66,7 +66,7 @@ struct ShootingResult {
 ///
 /// Throws std::invalid_argument when the structure does not fit together, its mass is not positive definite,
 /// its modes do not decouple the damping, an undamped mode is loaded at its own frequency, frequency_hz (Hz)
-/// is not positive and finite, or an option is out of range.
+/// is not positive and finite, the force depends on the velocity, or an option is out of range.
 ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
                      const ShootingOptions& options = {});
 

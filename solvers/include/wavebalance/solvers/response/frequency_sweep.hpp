@@ -34,7 +34,7 @@ struct SweepPoint {
   double rms_displacement = 0.0;      ///< m
   double max_abs_displacement = 0.0;  ///< m
   double min_displacement = 0.0;      ///< m
-  double max_force = 0.0;             ///< N, over the points and contacts
+  double max_force = 0.0;             ///< N, over the points and contacts; of laws on both sides the modulus
   double contact_fraction = 0.0;      ///< share of the quadrature points at which a contact has a force
   double residual = 0.0;              ///< relative
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps

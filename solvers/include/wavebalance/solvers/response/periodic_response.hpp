@@ -13,6 +13,7 @@ enum class Strategy {
   none,               ///< no response was found
   newton,             ///< Newton's method from the start given, or no contact at all
   gap_continuation,   ///< arc length in the gaps, from where the first contact touches to the gaps given
+  load_continuation,  ///< arc length in the load, from rest, of laws that act on both sides
   settling,           ///< Newton's method from the motion that the structure at rest settles to
   residual_homotopy,  ///< arc length from that motion, or from the start given, to a solution
   perturbation        ///< Newton's method from a motion of fewer periods and a perturbation of it

@@ -17,8 +17,11 @@ enum class StabilityStatus {
   too_few_samples,    ///< an interval of contact lies between two samples, so that the response has no force
   too_few_harmonics,  ///< contact is so stiff that max_harmonics do not resolve it
   undamped,           ///< an exponent of the structure without contact lies on the imaginary axis
-  coupled_massless,   ///< contacts without mass and damping that deflect each other at once
-  effort_limit        ///< max_evaluations were not enough
+  /// contacts without mass and damping that deflect each other at once, or whose force depends on the
+  /// velocity
+  coupled_massless,
+  too_many_states,  ///< a law that depends on the velocity, at a structure with more states than max_states
+  effort_limit      ///< max_evaluations were not enough
 };
 
 std::string_view to_string(StabilityStatus status);
@@ -40,13 +43,21 @@ struct PeriodicStiffness {
   std::vector<ContactInterval> intervals;  ///< by contact, then by begin
   /// The slope of the law, N/m, of a contact at a time (in periods) within one of its intervals.
   std::function<double(int contact, double time)> tangent;
+  /// The slope by the velocity, N s/m, likewise; empty where no law depends on the velocity.
+  std::function<double(int contact, double time)> damping = {};
+  /// N s/m, where the force jumps as an interval begins or ends: the impulse on a perturbation over its
+  /// displacement, the jump over the velocity of the contact. Empty where no law depends on the velocity.
+  std::function<double(int contact, double time)> impulse = {};
 };
 
 /// D(t) = f_c'(u(t)) of the laws along the motion of a response, whose instants of opening and closing are
 /// roots of u(t) - gap to rounding. The motion is the sum of the trial functions: of their harmonics where
 /// both bases are band-limited, otherwise a cubic through the samples, or for trial functions without a
 /// derivative a line. In the force form u is the displacement at which the law has the force, v - rho(v) /
-/// epsilon. A law that also acts below its gap has the intervals on both sides.
+/// epsilon. A law that also acts below its gap has the intervals between its kinks, less those without slope.
+///
+/// A law whose force depends on the velocity has its intervals where it acts; the velocity is that of the sum
+/// of trial functions or of the interpolant.
 ///
 /// Of rigid contact the status is no_finite_stiffness and there is no tangent; the intervals are those of the
 /// contact force, but empty where elastic laws are in contact, too.
@@ -63,6 +74,7 @@ struct ContactUnknowns {
   Eigen::MatrixXd samples;        ///< N x C, m, of the same
   Eigen::VectorXd flexibility;    ///< C, 1 / epsilon of the force form, m/N; empty for displacements
   double first_sample = 0.0;      ///< time of the first sample, periods
+  double frequency = 0.0;         ///< Hz; for laws that depend on the velocity
 };
 
 /// The same of such unknowns. Throws std::invalid_argument for laws that are neither one nor one per contact.

@@ -12,7 +12,7 @@ struct FloquetExponent {
   std::complex<double> multiplier;  ///< exp(sigma T), Im >= 0
   /// C x (2H + 1): the harmonics n = -H..H of p at the contacts, the largest with the modulus 1; S p(t) = sum
   /// displacement.col(n + H) exp(2 pi i n t). Zero for an exponent of the structure which contact does not
-  /// change.
+  /// change, and where laws depend on the velocity.
   Eigen::MatrixXcd displacement;
   /// C x (2H + 1), N/m: the harmonics of D S p, the contact force of that perturbation.
   Eigen::MatrixXcd force;
@@ -47,7 +47,8 @@ struct FloquetExponents {
 /// by (T/2)(coth((sigma - lambda_j) T/2) - 1) in the logarithmic derivative, and likewise the exponents
 /// already found. Without `starts`, Delta times its poles is sampled on the unit circle, where it is a
 /// polynomial in 1/z [the numerator prod (1 - mu_j / z)], and the roots of that are the starts: 17 to 513
-/// evaluations, and 5 to 10 for each exponent. unstable_multipliers() then says whether all exponents with
+/// evaluations, and 5 to 10 for each exponent. Where laws depend on the velocity the exponents are those of
+/// monodromy(), without motions. unstable_multipliers() then says whether all exponents with
 /// positive real parts are among those found; if not, the status is effort_limit. Multipliers below 1e-2 are
 /// not sought. An undamped structure has poles on that circle and its status is undamped, except with
 /// `starts`, which are not checked.

@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+
+#include "wavebalance/solvers/time/time_pair.hpp"
+
+namespace wavebalance::spectral {
+class RealFft;
+}
+
+namespace wavebalance::solvers {
+
+/// The velocities f V u at the samples of motions u of a pair: V takes the samples to the coefficients of the
+/// trial functions, by least squares where there are more samples than functions, and these to the samples of
+/// the derivative in scaled time. It is exact for the motions u_0 - K f of a balance, whose samples are sums
+/// of trial functions. Owns a plan: one object per thread.
+class VelocityMap {
+ public:
+  /// Throws std::invalid_argument for trial functions without a pointwise derivative.
+  explicit VelocityMap(const TimePair& pair);
+  ~VelocityMap();
+
+  /// `samples` contact-major, m; the result in m/s for a frequency in Hz. O(C N log N).
+  void apply(const Eigen::VectorXd& samples, double frequency, Eigen::VectorXd& velocity);
+
+ private:
+  int functions_, points_;
+  Eigen::VectorXcd trial_, rate_;  // spectra over samples of the generator and its derivative
+  Eigen::VectorXd inverse_;        // over translates, of sum |trial|^2
+  Eigen::VectorXcd spectrum_, translates_;
+  std::unique_ptr<spectral::RealFft> fft_;
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,291 @@
+// Laws whose force depends on the velocity: R, J and its solves, and responses against independent solutions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "constants.hpp"
+#include "linalg/dense.hpp"
+#include "support/oscillator.hpp"
+#include "support/refusal.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/contact/hunt_crossley_law.hpp"
+#include "wavebalance/contact/kelvin_voigt_law.hpp"
+#include "wavebalance/solvers/continuation/arc_length.hpp"
+#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// A viscous damper of a user's own, which acts everywhere.
+struct Damper {
+  double force(double, double v) const { return c * v; }
+  double tangent(double, double) const { return 0.0; }
+  double damping(double, double) const { return c; }
+  double potential(double) const { return 0.0; }
+  double gap() const { return 0.0; }
+  double c = 0.3;
+};
+static_assert(ContactLaw<Damper> && DependsOnVelocity<Damper>);
+
+// A force that is smooth in displacement and velocity, with slopes of either sign.
+struct Curved {
+  double force(double u, double v) const { return 0.4 * u * u * u + 0.2 * v * (1.0 + u) + 0.1 * v * v * v; }
+  double tangent(double u, double v) const { return 1.2 * u * u + 0.2 * v; }
+  double damping(double u, double v) const { return 0.2 * (1.0 + u) + 0.3 * v * v; }
+  double potential(double u) const { return 0.1 * u * u * u * u; }
+  double gap() const { return 0.0; }
+};
+
+std::vector<TimePair> smooth_pairs() {
+  std::vector<TimePair> pairs;
+  for (TimePair& pair : testing::pair_kinds())
+    if (pair.trial().pointwise_derivatives() >= 1) pairs.push_back(std::move(pair));
+  return pairs;
+}
+
+// With the strong form the sums over points of the damping term are those of the contact force.
+TEST(VelocityLaw, ADamperIsTheDampingOfTheStructure) {
+  std::mt19937 generator(3);
+  const LinearStructure plain = testing::random_chain(4, generator);
+  LinearStructure damped = plain;
+  damped.damping +=
+      0.3 * Eigen::SparseMatrix<double>(plain.contact_directions.transpose() * plain.contact_directions);
+  const spectral::FourierBasis fourier(7);
+  const testing::CubicBasis cubic{8};
+  for (const TimePair& pair : {testing::fourier_pair(7, 28), testing::fourier_pair(7, 30),
+                               testing::make_pair(cubic, cubic, 32, Formulation::strong),
+                               testing::fourier_pair(8, 32, NyquistCoefficient::drop, 0.5)}) {
+    CondensedProblem with_law(pair, plain, testing::cosine_load()),
+        with_damping(pair, damped, testing::cosine_load());
+    with_law.set_frequency(0.13);
+    with_damping.set_frequency(0.13);
+    const PeriodicResponse response = forced_response(with_law, Damper{}, {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_LE(response.iterations, 2);
+    EXPECT_LE((response.displacement - with_damping.contact_free_response()).norm(),
+              1e-10 * response.displacement.norm());
+  }
+}
+
+class VelocitySystem : public ::testing::Test {
+ protected:
+  explicit VelocitySystem() : generator_(7) {
+    LinearStructure chain = testing::random_chain(5, generator_);
+    chain.contact_directions = contact_rows({1, 3}, 5);
+    structure_ = chain;
+  }
+
+  CondensedProblem problem(const TimePair& pair) {
+    CondensedProblem problem(pair, structure_, testing::cosine_load());
+    problem.set_frequency(0.17);
+    return problem;
+  }
+  // A motion of the trial functions, as all u_0 - K f are.
+  Eigen::VectorXd motion(CondensedProblem& problem) {
+    Eigen::VectorXd moved;
+    problem.apply(testing::random_vector(problem.samples(), generator_), moved);
+    return problem.contact_free_response() - moved;
+  }
+
+  std::mt19937 generator_;
+  LinearStructure structure_;
+};
+
+TEST_F(VelocitySystem, TheSolveInvertsTheDerivativeOfTheResidual) {
+  for (const TimePair& pair : smooth_pairs()) {
+    CondensedProblem problem = this->problem(pair);
+    ContactSystem system(problem, Curved{});
+    const Eigen::VectorXd u = motion(problem), r = testing::random_vector(problem.samples(), generator_);
+    system.evaluate(u);
+    ASSERT_TRUE(system.factorize());
+    Eigen::VectorXd x;
+    ASSERT_TRUE(system.solve(r, x));
+    const double step = 1e-5 / x.cwiseAbs().maxCoeff();
+    system.evaluate(u + step * x);
+    const Eigen::VectorXd ahead = system.residual();
+    system.evaluate(u - step * x);
+    EXPECT_LE(((ahead - system.residual()) / (2.0 * step) - r).norm(), 1e-6 * (r.norm() + x.norm()));
+  }
+}
+
+TEST_F(VelocitySystem, TheBorderedSolveHasTheResidualAndTheSignOfTheWholeMatrix) {
+  CondensedProblem problem = this->problem(testing::fourier_pair(7, 12));
+  ContactSystem system(problem, Curved{});
+  const Eigen::VectorXd u = motion(problem);
+  const int size = problem.samples();
+  for (int trial = 0; trial < 6; ++trial) {
+    system.evaluate(u);
+    Eigen::MatrixXd whole(size + 1, size + 1);
+    for (int l = 0; l < size; ++l) {  // J, column by column by central differences
+      const double step = 1e-6;
+      system.evaluate(u + step * Eigen::VectorXd::Unit(size, l));
+      const Eigen::VectorXd ahead = system.residual();
+      system.evaluate(u - step * Eigen::VectorXd::Unit(size, l));
+      whole.col(l).head(size) = (ahead - system.residual()) / (2.0 * step);
+    }
+    const Eigen::VectorXd b = testing::random_vector(size, generator_),
+                          c = testing::random_vector(size, generator_);
+    const Eigen::VectorXd r = testing::random_vector(size, generator_);
+    whole.col(size).head(size) = b;
+    whole.row(size).head(size) = c.transpose();
+    whole(size, size) = 0.3;
+    system.evaluate(u);
+    ASSERT_TRUE(system.factorize_bordered(b, c, 0.3));
+    EXPECT_EQ(system.determinant_sign(), detail::Lu<double>(whole).determinant_sign());
+    Eigen::VectorXd x, all(size + 1);
+    double y = 0.0;
+    ASSERT_TRUE(system.solve_bordered(r, 0.7, x, y));
+    all << x, y;
+    Eigen::VectorXd right(size + 1);
+    right << r, 0.7;
+    EXPECT_LE((whole * all - right).norm(), 1e-5 * (right.norm() + all.norm()));
+  }
+}
+
+TEST_F(VelocitySystem, TheSlopeByFrequencyIsTheDerivative) {
+  for (const TimePair& pair : smooth_pairs()) {
+    CondensedProblem problem = this->problem(pair);
+    ContactSystem system(problem, Curved{});
+    const Eigen::VectorXd u = motion(problem);
+    const FrequencyParameter frequency;
+    const double f = 0.17, step = 1e-6;
+    frequency.set(system, f);
+    system.evaluate(u);
+    Eigen::VectorXd slope;
+    frequency.slope(system, slope);
+    frequency.set(system, f + step);
+    system.evaluate(u);
+    const Eigen::VectorXd ahead = system.residual();
+    frequency.set(system, f - step);
+    system.evaluate(u);
+    EXPECT_LE(((ahead - system.residual()) / (2.0 * step) - slope).norm(), 1e-5 * slope.norm());
+  }
+}
+
+TEST(VelocityLaw, IsRefusedWhereTheVelocityHasNoValuesAtPoints) {
+  const spectral::FourierBasis fourier(8);
+  CondensedProblem problem(testing::make_pair(testing::HaarBasis{8}, fourier, 32),
+                           testing::unit_oscillator(0.1, 1.0), testing::cosine_load());
+  problem.set_frequency(0.2);
+  EXPECT_THROW(forced_response(problem, Damper{}, {}), std::invalid_argument);
+  CondensedProblem smooth(testing::fourier_pair(7, 32), testing::unit_oscillator(0.1, 1.0),
+                          testing::cosine_load());
+  smooth.set_frequency(0.2);
+  ForcedResponseOptions force;
+  force.form = ContactForm::force;
+  EXPECT_THROW(forced_response(smooth, Damper{}, force), std::invalid_argument);
+  EXPECT_THROW(shoot(testing::unit_oscillator(0.1, 1.0), Damper{}, 0.2), std::invalid_argument);
+}
+
+struct Case {
+  AnyContactLaw law;
+  double frequency;
+  double tolerance;  // on the distance to time stepping, over the amplitude
+};
+
+// m = k = 1, c = 0.1, 0.8 N: against integration in time.
+TEST(VelocityLaw, ResponsesAreThoseOfTimeStepping) {
+  const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.8);
+  for (const auto& [law, frequency, tolerance] :
+       {Case{contact::HuntCrossleyLaw(10.0, 1.5, 2.0, 0.3), 0.2, 2e-4},
+        Case{contact::HuntCrossleyLaw(200.0, 1.0, 0.5, 0.5), 0.16, 2e-3},
+        Case{contact::KelvinVoigtLaw(10.0, 1.0, 0.3, 0.1), 0.2, 5e-4},
+        Case{contact::KelvinVoigtLaw(10.0, 0.5, 0.3), 0.15, 5e-3}}) {
+    CondensedProblem problem(testing::fourier_pair(127, 512), oscillator, testing::cosine_load());
+    problem.set_frequency(frequency);
+    const PeriodicResponse response = forced_response(problem, law, {});
+    ASSERT_TRUE(response.converged()) << to_string(response.status) << " " << response.residual;
+    TimeSteppingOptions options;
+    options.output_points = 512;
+    const TimeSteppingResult reference = integrate_to_periodic(oscillator, law, frequency, options);
+    ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
+    const double size = reference.contacts.displacement.cwiseAbs().maxCoeff();
+    EXPECT_LE((response.displacement.transpose() - reference.contacts.displacement).cwiseAbs().maxCoeff(),
+              tolerance * size);
+    const Motion motion = contact_motion(problem, response, law, 512);
+    EXPECT_LE((motion.force - response.contact_force.transpose()).cwiseAbs().maxCoeff(),
+              1e-8 * motion.force.maxCoeff());
+    EXPECT_GE(motion.force.minCoeff(), 0.0);
+    EXPECT_GT(motion.force.maxCoeff(), 0.1);
+  }
+}
+
+// Of harmonic balance the velocity is one of the weighting functions: the work of the load is the loss in the
+// damper of the structure and in contact, to rounding.
+TEST(VelocityLaw, TheWorkOfTheLoadIsWhatStructureAndContactDissipate) {
+  const double damping = 0.1, load = 0.8, frequency = 0.2;
+  const LinearStructure oscillator = testing::unit_oscillator(damping, load);
+  const contact::HuntCrossleyLaw law(10.0, 1.5, 2.0, 0.3);
+  CondensedProblem problem(testing::fourier_pair(63, 256), oscillator, testing::cosine_load());
+  problem.set_frequency(frequency);
+  const PeriodicResponse response = forced_response(problem, law, {});
+  ASSERT_TRUE(response.converged());
+  const Motion motion = contact_motion(problem, response, law, 256);
+  const Eigen::ArrayXd v = motion.velocity.row(0).transpose().array();
+  const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(256, 0.0, 255.0) * (two_pi / 256.0);
+  const double period = 1.0 / frequency;
+  const double work = period * (load * phase.cos() * v).mean();
+  const double lost = period * (damping * v.square()).mean();
+  const double in_contact = period * (motion.force.row(0).transpose().array() * v).mean();
+  EXPECT_GT(in_contact, 0.05 * work);
+  EXPECT_NEAR(work, lost + in_contact, 1e-9 * work);
+}
+
+TEST(VelocityLaw, ASweepFollowsTheResonanceAcrossTheFirstContact) {
+  const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.1);
+  const contact::HuntCrossleyLaw law(10.0, 1.5, 1.0, 0.3);
+  CondensedProblem problem(testing::fourier_pair(31, 128), oscillator, testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 0.1;
+  options.to = 0.3;
+  options.keep_unknowns = true;
+  const FrequencySweep sweep = frequency_sweep(problem, law, options);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  ContactSystem system(problem, law);
+  double peak = 0.0;
+  for (const SweepPoint& point : sweep.points) {
+    problem.set_frequency(point.frequency);
+    EXPECT_LE(system.evaluate(point.unknown), 1e-9) << point.frequency;
+    peak = std::max(peak, point.max_displacement);
+  }
+  EXPECT_GT(peak, 0.45);  // in contact
+  EXPECT_LT(peak, 1.0);   // which holds it: 1 without
+}
+
+// Two masses that meet each other and a wall: two contacts, one with a law of the displacement alone.
+TEST(VelocityLaw, ActsBesideLawsOfTheDisplacement) {
+  LinearStructure masses;
+  masses.mass = Eigen::Matrix2d::Identity().sparseView();
+  masses.stiffness = Eigen::Matrix2d{{2.0, -1.0}, {-1.0, 2.0}}.sparseView();
+  masses.damping = 0.1 * masses.stiffness;
+  masses.load = Eigen::Vector2d(0.0, 0.6);
+  masses.contact_directions.resize(2, 2);
+  masses.contact_directions.insert(0, 0) = 1.0;
+  masses.contact_directions.insert(0, 1) = -1.0;
+  masses.contact_directions.insert(1, 1) = 1.0;
+  const ContactLaws laws(std::vector<AnyContactLaw>{contact::HuntCrossleyLaw(8.0, 1.5, 1.0, 0.2),
+                                                    testing::LinearContact{10.0, 0.3}});
+  const double frequency = 0.17;
+  CondensedProblem problem(testing::fourier_pair(95, 512), masses, testing::cosine_load());
+  problem.set_frequency(frequency);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  TimeSteppingOptions options;
+  options.output_points = 512;
+  const TimeSteppingResult reference = integrate_to_periodic(masses, laws, frequency, options);
+  ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
+  EXPECT_GT(reference.contacts.force.row(0).maxCoeff(), 0.05);
+  EXPECT_GT(reference.contacts.force.row(1).maxCoeff(), 0.05);
+  const double size = reference.contacts.displacement.cwiseAbs().maxCoeff();
+  EXPECT_LE((by_contact(response.displacement, 2) - reference.contacts.displacement).cwiseAbs().maxCoeff(),
+            2e-3 * size);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
