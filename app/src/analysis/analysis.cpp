@@ -15,6 +15,7 @@
 #include "analysis/response_parts.hpp"
 #include "analysis/stability.hpp"
 #include "analysis/summary_parts.hpp"
+#include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/curve_motions.hpp"
@@ -147,11 +148,11 @@ double force_at(const Contact& contact, double displacement) {
   return contact.gaps.empty() ? make_law(contact).force(displacement) : missing;
 }
 
-/// Frequency of the point with the largest displacement; missing without points.
-double frequency_of_peak(const solvers::FrequencySweep& curve) {
+/// Frequency or amplitude of the point with the largest displacement; missing without points.
+double place_of_peak(const solvers::FrequencySweep& curve) {
   const auto lower = [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; };
   const auto peak = std::max_element(curve.points.begin(), curve.points.end(), lower);
-  return peak == curve.points.end() ? missing : peak->frequency;
+  return peak == curve.points.end() ? missing : solvers::parameter_of(*peak, curve.parameter);
 }
 
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
@@ -170,7 +171,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
       solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual),
                        points, model.contacts() * scene.time.functions, sweep.wall_seconds);
   record.summary.emplace_back("max_displacement_m", highest);
-  record.summary.emplace_back("frequency_at_max_displacement_Hz", frequency_of_peak(sweep.curve));
+  const SweepAxis axis = sweep_axis(sweep);
+  record.summary.emplace_back(axis.quantity + "_at_max_displacement_" + axis.suffix,
+                              place_of_peak(sweep.curve));
   record.summary.emplace_back("min_displacement_m", least_displacement(sweep.curve));
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
@@ -182,6 +185,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("contact_fraction",
                               largest(sweep.curve, &solvers::SweepPoint::contact_fraction));
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
+  if (scene.analysis.type == AnalysisType::amplitude_sweep)
+    record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   record.summary.emplace_back("points", std::int64_t{points});
   append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
@@ -253,11 +258,32 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
   return sweep;
 }
 
+Sweep amplitude_sweep(const Scene& scene, const Observer& observer) {
+  return amplitude_sweep(scene, make_model(scene), observer);
+}
+
+Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  const ReferenceLoad load = reference_load(scene.forcing).value();
+  solvers::FrequencySweepOptions options = sweep_options(scene);
+  options.observer = of_amplitude(observer, std::abs(load.amplitude), load.unit);
+  options.keep_unknowns = scene.analysis.stability;
+  Sweep sweep;
+  ComposedProblem composed = compose_problem(scene, model);
+  sweep.curve = solvers::amplitude_sweep(composed.problem, composed.laws, options);
+  sweep.amplitude_unit = load.unit;
+  scale_loads(sweep.curve, std::abs(load.amplitude));
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return sweep;
+}
+
 namespace {
 
 Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                    const StartMotion& start) {
-  Sweep sweep = frequency_sweep(scene, model, observer, start);
+  const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
+  Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer)
+                               : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
   return sweep;
 }
@@ -317,6 +343,7 @@ Record analyse(const Scene& scene, const StartMotion& start, const Observer& obs
   options.structure_points = structure_points(scene);
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
+    case AnalysisType::amplitude_sweep:
       return stable_sweep_record(scene, model, start, observer);
     case AnalysisType::nonlinear_mode:
       return mode_record(scene, model, observer);

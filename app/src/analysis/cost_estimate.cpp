@@ -42,9 +42,13 @@ bool takes_all_modes(const Scene& scene, double degrees) {
          (scene.structure.type != StructureType::bar && degrees <= most_modal);
 }
 
+bool is_sweep(const Analysis& analysis) {
+  return analysis.type == AnalysisType::frequency_sweep || analysis.type == AnalysisType::amplitude_sweep;
+}
+
 bool is_balance(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  return type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep;
+  return type != AnalysisType::time_stepping && type != AnalysisType::nonlinear_mode;
 }
 
 double structure_bytes(const Scene& scene, const Sizes& sizes) {
@@ -58,8 +62,7 @@ double structure_bytes(const Scene& scene, const Sizes& sizes) {
 }
 
 double output_bytes(const Scene& scene, const Sizes& sizes) {
-  if (scene.analysis.type == AnalysisType::frequency_sweep)
-    return 50.0 * sizes.contacts * sizes.output_points;
+  if (is_sweep(scene.analysis)) return 50.0 * sizes.contacts * sizes.output_points;
   const double every_contact = sizes.contacts > 1.0 ? 400.0 * sizes.contacts : 0.0;
   return (500.0 + every_contact) * sizes.output_points;
 }
@@ -76,9 +79,10 @@ double response_seconds(const Sizes& s) {
 }
 
 double responses(const Analysis& analysis) {
-  if (analysis.type != AnalysisType::frequency_sweep) return 1.0;
-  const double steps =
-      2.0 * std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.largest_step;
+  if (!is_sweep(analysis)) return 1.0;
+  const double interval = std::abs(analysis.frequency_to - analysis.frequency_from) +
+                          std::abs(analysis.amplitude_to - analysis.amplitude_from);  // one is 0
+  const double steps = 2.0 * interval / analysis.largest_step;
   return std::min(steps + 1.0, static_cast<double>(analysis.max_points));
 }
 

@@ -105,15 +105,47 @@ std::string force_place(const Scene& scene) {
   return "at the tip";
 }
 
+/// One of the loads beside the first.
+std::string term_line(const Scene& scene, const ForcingTerm& term) {
+  const std::string size = number_text(term.amplitude);
+  const std::string series = !term.samples.empty() ? size + " times samples"
+                             : term.harmonic == 0  ? "static, " + size
+                                                   : fmt::format("harmonic {}, {}", term.harmonic, size);
+  const std::string place =
+      term.dofs.empty() && scene.structure.type == StructureType::matrices ? force_place(scene)
+      : term.dofs.empty()                                                  ? ""
+                          : "on " + count_text(std::ssize(term.dofs), "degree") + " of freedom";
+  const char* unit = !term.samples.empty()                      ? ""
+                     : term.kind == LoadKind::force             ? " N"
+                     : term.kind == LoadKind::base_displacement ? " m"
+                                                                : " m/s^2";
+  const std::string phase =
+      term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", number_text(term.phase));
+  const std::string kind = term.kind == LoadKind::force               ? "force"
+                           : term.kind == LoadKind::base_displacement ? "base displacement"
+                                                                      : "base acceleration";
+  return fmt::format("           {}: {}{}{}{}\n", kind, series, unit, phase,
+                     place.empty() ? "" : " " + place);
+}
+
 std::string forcing_line(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   std::string frequency = number_text(scene.forcing.frequency);
   if (analysis.type == AnalysisType::frequency_sweep)
     frequency = number_text(analysis.frequency_from) + " to " + number_text(analysis.frequency_to);
+  std::string terms;
+  for (const ForcingTerm& term : scene.forcing.terms) terms += term_line(scene, term);
+  if (analysis.type == AnalysisType::amplitude_sweep)
+    terms += fmt::format("           the amplitude varies from {} to {} {}\n",
+                         number_text(analysis.amplitude_from), number_text(analysis.amplitude_to),
+                         reference_load(scene.forcing).value().unit);
   const std::string periods =
       analysis.subharmonic == 1 ? "" : fmt::format(", motions of {} periods", analysis.subharmonic);
-  return fmt::format("forcing    {} N {}, {} Hz{}{}\n", number_text(scene.forcing.amplitude),
-                     force_place(scene), frequency, periods, analysis.branches ? ", with branches" : "");
+  const bool terms_alone = scene.forcing.amplitude == 0.0 && !terms.empty();
+  const std::string force =
+      fmt::format("{} N {}, ", number_text(scene.forcing.amplitude), force_place(scene));
+  return fmt::format("forcing    {}{} Hz{}{}\n{}", terms_alone ? "" : force, frequency, periods,
+                     analysis.branches ? ", with branches" : "", terms);
 }
 
 std::string chosen_text(const Time& time) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/response_parts.hpp"
+#include "analysis/sweep_axis.hpp"
 #include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
@@ -134,10 +135,11 @@ std::vector<double> joined_columns(const Table& table, std::string_view first, s
 }
 
 /// Special points at their largest displacement.
-std::vector<PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points, double factor) {
+std::vector<PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points, double factor,
+                                solvers::SweepParameter parameter) {
   std::vector<PlacedPoint> marks;
   for (const auto& point : points)
-    marks.push_back({point.type, point.frequency, factor * point.max_displacement});
+    marks.push_back({point.type, parameter_of(point, parameter), factor * point.max_displacement});
   return marks;
 }
 
@@ -223,27 +225,33 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const Scale scale = scale_of(top);
   Figure figure;
   figure.title = method_title(scene);
+  if (scene.analysis.type == AnalysisType::amplitude_sweep)
+    figure.title += ", " + frequency_text(scene.forcing.frequency);
   if (!sweep.converged()) figure.title += " (INCOMPLETE: " + plain(sweep.status()) + ")";
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
-  panel.x.label = "Frequency (Hz)";
+  const SweepAxis axis = sweep_axis(sweep);
+  panel.x.label = axis.label();
   panel.y.label = "Displacement (" + scale.prefix + "m)";
   panel.legend = Legend::below_panel;
   for (const auto& [label, column, colour] : {std::tuple{"largest", "max_displacement_m", Colour::blue},
                                               {"rms", "rms_displacement_m", Colour::orange}}) {
-    Series series(label, scaled("frequency_Hz", 1.0), scaled(column, scale.factor));
+    Series series(label, scaled(axis.column(), 1.0), scaled(column, scale.factor));
     series.colour = colour;
     const bool largest_one = colour == Colour::blue;  // that of the special points
-    add_curve(
-        panel, series, sweep.stability.points,
-        largest_one ? placed(sweep.stability.special_points, scale.factor) : std::vector<PlacedPoint>());
+    add_curve(panel, series, sweep.stability.points,
+              largest_one ? placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter)
+                          : std::vector<PlacedPoint>());
   }
   draw_branches(panel, sweep, 1.0, scale.factor);
   figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
-  std::vector<PlacedPoint> marks = placed(sweep.stability.special_points, scale.factor);
+  std::vector<PlacedPoint> marks =
+      placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter);
   for (const solvers::Branch& branch : sweep.branches)
-    for (const PlacedPoint& one : placed(branch.stability.special_points, scale.factor)) marks.push_back(one);
+    for (const PlacedPoint& one :
+         placed(branch.stability.special_points, scale.factor, branch.curve.parameter))
+      marks.push_back(one);
   draw_special_points(panel, marks);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
   if (scene.contact.law != ContactLawType::none && one_gap)

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "analysis/summary_parts.hpp"
+#include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
@@ -55,17 +56,18 @@ std::complex<double> leading_multiplier(const solvers::ContactDynamics& dynamics
   return exponents.values.front().multiplier;
 }
 
-std::vector<double> frequencies_of(const std::vector<solvers::TurningPoint>& turns) {
-  std::vector<double> frequencies;
-  for (const auto& turn : turns) frequencies.push_back(turn.frequency);
-  return frequencies;
+/// Frequencies, or amplitudes where these vary.
+std::vector<double> places_of(const solvers::FrequencySweep& curve) {
+  std::vector<double> places;
+  for (const auto& turn : curve.turning_points) places.push_back(parameter_of(turn, curve.parameter));
+  return places;
 }
 
-std::vector<double> folds_of(const solvers::CurveStability& stability) {
-  std::vector<double> frequencies;
+std::vector<double> folds_of(const solvers::CurveStability& stability, solvers::SweepParameter parameter) {
+  std::vector<double> places;
   for (const auto& point : stability.special_points)
-    if (point.type == solvers::SpecialPointType::fold) frequencies.push_back(point.frequency);
-  return frequencies;
+    if (point.type == solvers::SpecialPointType::fold) places.push_back(parameter_of(point, parameter));
+  return places;
 }
 
 /// Points where contact begins may hide no fold.
@@ -78,34 +80,38 @@ bool folds_are_known(const solvers::CurveStability& stability) {
          });
 }
 
-Table table_of(const std::vector<solvers::SpecialPoint>& points) {
-  Table table({"type", "frequency_Hz", "bracket_Hz", "multiplier_real", "multiplier_imag",
+Table table_of(const Sweep& sweep) {
+  const SweepAxis axis = sweep_axis(sweep);
+  Table table({"type", axis.column(), "bracket_" + axis.suffix, "multiplier_real", "multiplier_imag",
                "max_displacement_m", "status"});
-  for (const auto& point : points)
-    table.append_row({std::string(to_string(point.type)), point.frequency, point.bracket,
-                      point.multiplier.real(), point.multiplier.imag(), point.max_displacement,
+  for (const auto& point : sweep.stability.special_points)
+    table.append_row({std::string(to_string(point.type)), parameter_of(point, sweep.curve.parameter),
+                      point.bracket, point.multiplier.real(), point.multiplier.imag(), point.max_displacement,
                       std::string(point.located ? "located" : "bracketed")});
   return table;
 }
 
 /// No branch is followed there.
-void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::SpecialPoint>& points) {
-  std::vector<double> frequencies;
+void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::SpecialPoint>& points,
+                                    const Sweep& sweep) {
+  std::vector<double> places;
   for (const auto& point : points)
-    if (point.type == solvers::SpecialPointType::neimark_sacker) frequencies.push_back(point.frequency);
-  if (frequencies.empty()) return;
+    if (point.type == solvers::SpecialPointType::neimark_sacker)
+      places.push_back(parameter_of(point, sweep.curve.parameter));
+  if (places.empty()) return;
   record.warnings.push_back(fmt::format(
-      "At the Neimark-Sacker point{} {:.6g} Hz the motion becomes quasi-periodic: what begins there has no "
+      "At the Neimark-Sacker point{} {:.6g} {} the motion becomes quasi-periodic: what begins there has no "
       "period and is not followed.",
-      frequencies.size() == 1 ? "" : "s", fmt::join(frequencies, ", ")));
+      places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit));
 }
 
 void append_turning_points(Record& record, const Sweep& sweep, bool known) {
-  const std::vector<double> of_samples = frequencies_of(sweep.curve.turning_points);
-  const std::vector<double> folds = folds_of(sweep.stability);
-  record.summary.emplace_back("turning_points_Hz", known ? folds : of_samples);
+  const std::string suffix = sweep_axis(sweep).suffix;
+  const std::vector<double> of_samples = places_of(sweep.curve);
+  const std::vector<double> folds = folds_of(sweep.stability, sweep.curve.parameter);
+  record.summary.emplace_back("turning_points_" + suffix, known ? folds : of_samples);
   if (!known || folds.size() >= of_samples.size()) return;
-  record.summary.emplace_back("turning_points_of_samples_Hz", of_samples);
+  record.summary.emplace_back("turning_points_of_samples_" + suffix, of_samples);
   record.warnings.push_back(fmt::format(
       "The curve turns {} times, but the motion has {} folds: the other turns are an error of the "
       "quadrature points.",
@@ -191,12 +197,23 @@ void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep
   options.stability = options_for(composed.problem);
   options.output_points = scene.analysis.output_points;
   options.observer = of_load(observer, sweep.periods);
+  const bool over_amplitude = sweep.curve.parameter == solvers::SweepParameter::load_scale;
+  const double unit = over_amplitude ? std::abs(reference_load(scene.forcing).value().amplitude) : 1.0;
+  if (over_amplitude) {
+    options.observer = of_amplitude(observer, unit, sweep.amplitude_unit);
+    scale_loads(sweep.curve, 1.0 / unit);
+  }
   scale_frequencies(sweep.curve, 1.0 / sweep.periods);
   sweep.stability =
       solvers::curve_stability(composed.problem, composed.laws, sweep.curve, *dynamics, options);
   if (scene.analysis.branches && !sweep.stability.cancelled) {
     options.observer = {};
     add_branches(scene, model, composed.laws, *dynamics, options, observer, sweep);
+  }
+  if (over_amplitude) {
+    scale_loads(sweep.curve, unit);
+    scale_loads(sweep.stability, unit);
+    return;
   }
   scale_frequencies(sweep.curve, sweep.periods);
   scale_frequencies(sweep.stability, sweep.periods);
@@ -208,8 +225,8 @@ void append_stability(Record& record, const Sweep& sweep) {
   if (sweep.stability.points.empty()) return;
   record.summary.emplace_back("stability",
                               complete ? std::string(to_string(sweep.stability.status())) : "interrupted");
-  record.summary.emplace_back("special_points", table_of(sweep.stability.special_points));
-  warn_of_quasi_periodic_motions(record, sweep.stability.special_points);
+  record.summary.emplace_back("special_points", table_of(sweep));
+  warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
 
 namespace {
@@ -258,7 +275,7 @@ void append_branches(Record& record, const Sweep& sweep) {
                "stability"});
   for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
     table.append_row(branch_row(sweep, i));
-    warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points);
+    warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points, sweep);
     if (ended_well(sweep.branches[i])) continue;
     record.warnings.push_back(
         fmt::format("Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end)));
@@ -280,9 +297,9 @@ const std::vector<std::string> point_columns{
     "frequency_Hz",           "max_displacement_m",  "rms_displacement_m", "min_displacement_m",
     "max_abs_displacement_m", "max_contact_force_N", "contact_fraction"};
 
-std::vector<Cell> point_cells(const solvers::SweepPoint& point) {
-  return {point.frequency,        point.max_displacement,     point.rms_displacement,
-          point.min_displacement, point.max_abs_displacement, point.max_force,
+std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepParameter parameter) {
+  return {parameter_of(point, parameter), point.max_displacement,     point.rms_displacement,
+          point.min_displacement,         point.max_abs_displacement, point.max_force,
           point.contact_fraction};
 }
 
@@ -290,7 +307,7 @@ void append_rows(Table& table, const solvers::FrequencySweep& curve,
                  const std::vector<solvers::PointStability>& stability, int branch, int period) {
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const bool known = i < stability.size();
-    std::vector<Cell> row = point_cells(curve.points[i]);
+    std::vector<Cell> row = point_cells(curve.points[i], curve.parameter);
     row.emplace_back(known && stability[i].unstable >= 0 ? stability[i].unstable : missing);
     row.emplace_back(known ? stability[i].contacts : missing);
     row.emplace_back(std::int64_t{branch});
@@ -301,11 +318,20 @@ void append_rows(Table& table, const solvers::FrequencySweep& curve,
 
 }  // namespace
 
-Table sweep_table(const solvers::FrequencySweep& curve) {
-  Table table(point_columns);
-  for (const auto& point : curve.points) table.append_row(point_cells(point));
+namespace {
+
+/// With the name of its first column.
+Table points_table(const solvers::FrequencySweep& curve, const std::string& place) {
+  std::vector<std::string> columns = point_columns;
+  columns.front() = place;
+  Table table(columns);
+  for (const auto& point : curve.points) table.append_row(point_cells(point, curve.parameter));
   return table;
 }
+
+}  // namespace
+
+Table sweep_table(const solvers::FrequencySweep& curve) { return points_table(curve, point_columns.front()); }
 
 Table sweep_table(const Sweep& sweep, bool with_branches) {
   if (with_branches) {
@@ -318,7 +344,7 @@ Table sweep_table(const Sweep& sweep, bool with_branches) {
       append_rows(table, branch.curve, branch.stability.points, ++number, branch.periods * sweep.periods);
     return table;
   }
-  Table table = sweep_table(sweep.curve);
+  Table table = points_table(sweep.curve, sweep_axis(sweep).column());
   const auto& points = sweep.stability.points;
   if (points.empty()) return table;
   std::vector<double> unstable(table.rows(), missing), contacts(table.rows(), missing);

@@ -9,6 +9,11 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene);
 
 /// Multiplies every frequency of a curve, of its stability.
 void scale_frequencies(solvers::FrequencySweep& curve, double factor);
+/// The same of load scales and, in a sweep over them, of brackets.
+void scale_loads(solvers::FrequencySweep& curve, double factor);
+void scale_loads(solvers::CurveStability& stability, double factor);
+/// Progress in the unit of an amplitude, `factor` times the load scale.
+solvers::Observer of_amplitude(const solvers::Observer& observer, double factor, std::string_view unit);
 void scale_frequencies(solvers::CurveStability& stability, double factor);
 
 /// `observer`, to be called with frequencies of a problem of so many periods of the load.

@@ -60,7 +60,7 @@ std::vector<ResultFile> result_files(const Scene& scene, const Record& record, b
   append_table(files, "contacts.csv", record.contacts,
                "every contact degree of freedom over one period; displacements towards the obstacles");
   for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
-  append_table(files, "sweep.csv", record.sweep, "periodic responses along the frequency response curve");
+  append_table(files, "sweep.csv", record.sweep, "periodic responses along the curve");
   append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
   append_picture(files, record, report);
   if (report && has_bar_motion(scene, record))
@@ -165,7 +165,8 @@ int run_scene(const RunArguments& arguments) {
       arguments.start_from.empty() ? StartMotion{} : read_start_motion(arguments.start_from);
   require_start_fits(start, scene);
   OutputFiles files(arguments.output);
-  InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep);
+  InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep ||
+                       scene.analysis.type == AnalysisType::amplitude_sweep);
   const Record record = solve(scene, start, guard, arguments.quiet);
   if (record.interrupted && record.sweep.empty()) guard.end_program();
   std::vector<ResultFile> results = result_files(scene, record, arguments.report);

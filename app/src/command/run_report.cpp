@@ -17,6 +17,7 @@ std::string heading_of(const Scene& scene) {
   static const std::vector<std::pair<AnalysisType, const char*>> kinds{
       {AnalysisType::forced_response, "Forced response"},
       {AnalysisType::frequency_sweep, "Frequency response"},
+      {AnalysisType::amplitude_sweep, "Response over the amplitude of the load"},
       {AnalysisType::nonlinear_mode, "Nonlinear mode"},
       {AnalysisType::time_stepping, "Response by time stepping"}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),

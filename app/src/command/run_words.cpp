@@ -83,12 +83,29 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
                                   quantity(highest, "m"), beside_gap(highest, gap)));
 }
 
+/// Ends of the names of columns and units of amplitude sweeps.
+constexpr std::pair<const char*, const char*> amplitude_units[] = {
+    {"N", "N"}, {"m", "m"}, {"m_per_s2", "m/s^2"}};
+
+/// The column that a sweep varies and its unit; empty for other curves.
+std::pair<std::string, std::string> swept_column(const Table& table) {
+  if (table.has_column("frequency_Hz")) return {"frequency_Hz", "Hz"};
+  for (const auto& [suffix, unit] : amplitude_units)
+    if (table.has_column("amplitude_" + std::string(suffix)))
+      return {"amplitude_" + std::string(suffix), unit};
+  return {};
+}
+
 void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap) {
   const double highest = number(summary, "max_displacement_m");
   sentences.push_back(fmt::format("The curve has {}.", count_of(summary, "points", "point")));
   if (!std::isfinite(highest)) return;
-  sentences.push_back(fmt::format("Its largest displacement is {}, at {}{}.", quantity(highest, "m"),
-                                  quantity(number(summary, "frequency_at_max_displacement_Hz"), "Hz"),
+  std::string place = quantity(number(summary, "frequency_at_max_displacement_Hz"), "Hz");
+  for (const auto& [suffix, unit] : amplitude_units)
+    if (const double amplitude = number(summary, "amplitude_at_max_displacement_" + std::string(suffix));
+        std::isfinite(amplitude))
+      place = "an amplitude of " + quantity(amplitude, unit);
+  sentences.push_back(fmt::format("Its largest displacement is {}, at {}{}.", quantity(highest, "m"), place,
                                   beside_gap(highest, gap)));
 }
 
@@ -148,39 +165,41 @@ std::string type_in_words(const std::string& type) {
 void append_special_points(std::vector<std::string>& sentences, const Summary& summary) {
   const auto* points = find<Table>(summary, "special_points");
   if (points == nullptr || points->empty()) return;
-  const bool sweep = points->has_column("frequency_Hz");
-  const std::string& place = sweep ? "frequency_Hz" : points->columns().at(1);
+  const auto [column, unit] = swept_column(*points);
+  const bool sweep = !column.empty();
+  const std::string place = sweep ? column : points->columns().at(1);
   std::map<std::string, std::vector<std::string>> places;
   for (std::size_t i = 0; i < points->rows(); ++i)
     if (const auto* value = std::get_if<double>(&points->at(i, place)))
       places[type_in_words(cell_text(points->at(i, "type")))].push_back(
-          sweep ? fmt::format("{:.7g} Hz", *value) : fmt::format("{} {:.5g}", spaced(place), *value));
+          sweep ? fmt::format("{:.7g} {}", *value, unit) : fmt::format("{} {:.5g}", spaced(place), *value));
   for (const auto& [type, where] : places)
     sentences.push_back(fmt::format("{}: {}.", type, fmt::join(where, ", ")));
 }
 
-/// The first and last frequency of each run of unstable points along a curve, "1337.7 to 1315 Hz".
-std::vector<std::string> unstable_parts(const std::vector<double>& frequency,
-                                        const std::vector<double>& unstable) {
+/// The first and last frequency or amplitude of each run of unstable points along a curve, "1337.7 to 1315
+/// Hz".
+std::vector<std::string> unstable_parts(const std::vector<double>& place, const std::vector<double>& unstable,
+                                        const std::string& unit) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < unstable.size(); ++i) {
     if (!(unstable[i] > 0.0)) continue;
     const std::size_t first = i;
     while (i + 1 < unstable.size() && unstable[i + 1] > 0.0) ++i;
-    parts.push_back(first == i ? fmt::format("{:.6g} Hz", frequency[i])
-                               : fmt::format("{:.6g} to {:.6g} Hz", frequency[first], frequency[i]));
+    parts.push_back(first == i ? fmt::format("{:.6g} {}", place[i], unit)
+                               : fmt::format("{:.6g} to {:.6g} {}", place[first], place[i], unit));
   }
   return parts;
 }
 
 void append_unstable_parts(std::vector<std::string>& sentences, const Table& curve) {
-  if (!curve.has_column("unstable") || !curve.has_column("frequency_Hz") || curve.has_column("branch"))
-    return;
+  const auto [column, unit] = swept_column(curve);
+  if (!curve.has_column("unstable") || column.empty() || curve.has_column("branch")) return;
   const std::vector<double> unstable = curve.numbers("unstable");
   const auto missing =
       std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
   if (missing == static_cast<std::ptrdiff_t>(unstable.size())) return;
-  const auto parts = unstable_parts(curve.numbers("frequency_Hz"), unstable);
+  const auto parts = unstable_parts(curve.numbers(column), unstable, unit);
   sentences.push_back(
       parts.empty() ? "No motion whose stability is known is unstable."
                     : fmt::format("Along the curve motions are unstable at {}.", fmt::join(parts, ", ")));
@@ -203,13 +222,14 @@ std::string quantity(double value, const std::string& unit) {
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
   std::vector<std::string> sentences{solution_sentence(summary)};
   const std::string analysis = text(summary, "analysis");
-  if (analysis == "frequency_sweep")
+  const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";
+  if (curve)
     append_curve(sentences, summary, gap);
   else if (analysis == "nonlinear_mode")
     append_mode(sentences, summary);
   else
     append_motion(sentences, summary, gap);
-  append_contact(sentences, summary, analysis == "frequency_sweep" ? "up to " : "");
+  append_contact(sentences, summary, curve ? "up to " : "");
   return sentences;
 }
 

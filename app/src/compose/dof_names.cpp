@@ -10,6 +10,7 @@
 
 #include "scene/pair_reader.hpp"
 #include "scene/scene_reader.hpp"
+#include "scene/term_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/dof_map.hpp"
@@ -23,7 +24,7 @@ struct NamedDof {
 };
 
 bool is_list_of_dofs(const DocumentEntry& entry) {
-  if (is_pair_section(entry.section)) return entry.key == "dofs";
+  if (is_pair_section(entry.section) || is_term_section(entry.section)) return entry.key == "dofs";
   const SceneKey* key = find_scene_key(entry.full_name());
   return key != nullptr && key->dofs;
 }

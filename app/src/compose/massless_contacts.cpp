@@ -93,7 +93,7 @@ void make_contacts_massless(StructureModel& model, int modes) {
   const Eigen::MatrixXd basis = transformation(all, structure.contact_directions, modes);
   structure.stiffness = transformed(structure.stiffness, basis);
   structure.damping = transformed(structure.damping, basis);
-  structure.load = (basis.transpose() * structure.load).eval();
+  structure.transform_loads(basis);
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(basis.cols());
   masses.head(modes).setOnes();
   structure.mass = Eigen::MatrixXd(masses.asDiagonal()).sparseView();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "compose/loads.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -134,9 +135,35 @@ void check_motions(const Document& document, const Scene& scene) {
               "a sweep writes no motion without analysis.motion_at; expected 0, or motion_at = \"peak\"");
 }
 
-void check_sweep(const Document& document, const Analysis& analysis) {
-  if (analysis.frequency_from == analysis.frequency_to)
+/// Each series has what its file and the functions can hold.
+void check_series(const Document& document, const Scene& scene) {
+  const bool balanced = scene.analysis.type != AnalysisType::time_stepping && scene.time.tolerance == 0.0;
+  const int most = (scene.time.functions - 1) / 2 / scene.analysis.subharmonic;
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
+    const ForcingTerm& term = scene.forcing.terms[i];
+    if (balanced && term.samples.empty() && term.harmonic > most)
+      fail_rule(document, {term_section(i) + ".harmonic", "time.functions"},
+                "the functions hold harmonics of the load up to " + std::to_string(most) +
+                    "; expected no more, or more time.functions");
+    try {
+      harmonics_of(term);
+    } catch (const SamplesFault& fault) {
+      fail_rule(document, {term_section(i) + ".samples"}, fault.what());
+    }
+  }
+}
+
+void check_sweep(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  const bool over_amplitude = analysis.type == AnalysisType::amplitude_sweep;
+  if (over_amplitude && !reference_load(scene.forcing))
+    fail_rule(document, {"forcing.amplitude"},
+              "there is no load to vary; expected another number than 0, or [[forcing.terms]] that are not "
+              "static");
+  if (!over_amplitude && analysis.frequency_from == analysis.frequency_to)
     fail_rule(document, {"analysis.frequency_to"}, "expected another frequency than frequency_from");
+  if (over_amplitude && analysis.amplitude_from == analysis.amplitude_to)
+    fail_rule(document, {"analysis.amplitude_to"}, "expected another amplitude than amplitude_from");
   if (analysis.first_step > analysis.largest_step)
     fail_rule(document, {"analysis.first_step", "analysis.largest_step"},
               "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
@@ -219,8 +246,8 @@ void check_mode(const Document& document, const Scene& scene) {
 
 void check_rigid(const Document& document, const Scene& scene) {
   if (scene.contact.law != ContactLawType::rigid) return;
-  const bool balanced = scene.analysis.type == AnalysisType::forced_response ||
-                        scene.analysis.type == AnalysisType::frequency_sweep;
+  const bool balanced = scene.analysis.type != AnalysisType::time_stepping &&
+                        scene.analysis.type != AnalysisType::nonlinear_mode;
   if (balanced && scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)
     fail_rule(
         document, {"contact.mass"},
@@ -268,8 +295,10 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
-  if (type == AnalysisType::frequency_sweep) check_sweep(document, scene.analysis);
+  if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
+    check_sweep(document, scene);
   if (type == AnalysisType::frequency_sweep) check_motions(document, scene);
+  if (!mode) check_series(document, scene);
   if (!stepping && !mode) check_subharmonic(document, scene);
   check_branches(document, scene);
   check_dense_size(document, scene);

@@ -72,7 +72,7 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   StructureFacts facts;
   facts.frequencies_hz = found.frequencies_hz;
   facts.damping_ratios = damping_ratios_of(scene, *files, found);
-  const solvers::ContactDirections directions = contact_directions(with_one_side(scene), size);
+  const solvers::ContactDirections directions = contact_directions(with_one_side(scene), *files);
   const Eigen::MatrixXd loads = directions.transpose();
   if (solvers::is_symmetric(matrices.stiffness)) {
     const Eigen::MatrixXd displacements = fem::static_displacements(matrices.stiffness, loads);

@@ -100,10 +100,54 @@ void check_matrices(const fem::Matrices& matrices, bool unsymmetric) {
   }
 }
 
-StructureFiles read_files(const std::array<std::string, 5>& paths, bool unsymmetric) {
+/// The rows that base displacements move, from 0. Throws StructureFault for one that is not there.
+std::vector<int> moving_rows(const Scene& scene) {
+  std::vector<int> rows;
+  for (const ForcingTerm& term : scene.forcing.terms)
+    if (term.kind == LoadKind::base_displacement)
+      for (const int dof : term.dofs) rows.push_back(std::abs(dof) - 1);
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+/// The entries of `matrix` in these rows and columns.
+Eigen::SparseMatrix<double> part(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& rows,
+                                 const std::vector<int>& columns) {
+  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[std::size_t(rows[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, columns[j]); entry; ++entry)
+      if (const int row = place[std::size_t(entry.row())]; row >= 0)
+        entries.emplace_back(row, static_cast<int>(j), entry.value());
+  Eigen::SparseMatrix<double> result(std::ssize(rows), std::ssize(columns));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// Takes the moving rows out of the unknowns.
+void hold_moving_rows(StructureFiles& files) {
+  const Eigen::Index size = files.matrices.stiffness.rows();
+  for (const int row : files.moving)
+    if (row < 0 || row >= size) files.moving.clear();  // check_against_files() says so
+  for (int row = 0; row < size; ++row)
+    if (!std::binary_search(files.moving.begin(), files.moving.end(), row)) files.rows.push_back(row);
+  if (files.moving.empty()) return;
+  for (const auto member : {&fem::Matrices::mass, &fem::Matrices::damping, &fem::Matrices::stiffness}) {
+    Eigen::SparseMatrix<double>& matrix = files.matrices.*member;
+    if (matrix.size() == 0) continue;
+    files.coupling.*member = part(matrix, files.rows, files.moving);
+    matrix = part(matrix, files.rows, files.rows);
+  }
+}
+
+StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<int> moving,
+                          bool unsymmetric) {
   StructureFiles files;
   files.paths = paths;
   files.unsymmetric = unsymmetric;
+  files.moving = std::move(moving);
   fem::Matrices& matrices = files.matrices;
   matrices.stiffness = read_matrix(paths[1], stiffness_key);
   const Eigen::Index size = matrices.stiffness.rows();
@@ -115,6 +159,9 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, bool unsymmet
     require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
   }
   if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
+  if (!files.moving.empty() && std::ssize(files.moving) >= size)
+    throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected some");
+  hold_moving_rows(files);
   check_matrices(matrices, unsymmetric);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
   if (paths[3].empty()) return files;
@@ -125,6 +172,7 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, bool unsymmet
         std::string(load_key),
         fmt::format("the vector has {} entries; expected {}, one for each row of structure.stiffness",
                     files.load.size(), size));
+  files.load = files.at_unknowns(files.load);
   return files;
 }
 
@@ -145,6 +193,28 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
   }
 }
 
+/// None of the rows may move with the base.
+void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
+  for (const int dof : dofs)
+    if (std::binary_search(files.moving.begin(), files.moving.end(), std::abs(dof) - 1))
+      throw StructureFault(
+          std::string(key),
+          fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
+                      dof));
+}
+
+void check_terms(const Scene& scene, const StructureFiles& files) {
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
+    const ForcingTerm& term = scene.forcing.terms[i];
+    const std::string key = term_section(i) + ".dofs";
+    check_dofs(term.dofs, files.file_rows(), key);
+    if (term.kind != LoadKind::base_displacement) check_unknown(term.dofs, files, key);
+    const bool placed = files.load.size() > 0 || !scene.forcing.load_dofs.empty();
+    if (term.dofs.empty() && !placed)
+      throw StructureFault(key, "missing; expected a list of integers, or load or load_dofs in [forcing]");
+  }
+}
+
 /// Rows of the pairs in 1..n, each with a coefficient.
 void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -159,10 +229,16 @@ void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
   }
 }
 
+/// Terms with places of their own stand in place of a load of amplitude 0.
+bool needs_place(const Scene& scene) {
+  if (scene.analysis.type == AnalysisType::nonlinear_mode) return false;
+  return scene.forcing.amplitude != 0.0 || scene.forcing.terms.empty();
+}
+
 void check_load(const Scene& scene) {
   const bool file = !scene.forcing.load.empty(), list = !scene.forcing.load_dofs.empty();
   if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
-  if (!file && !list && scene.analysis.type != AnalysisType::nonlinear_mode)
+  if (!file && !list && needs_place(scene))
     throw StructureFault(std::string(load_key),
                          "missing; expected load (a Matrix Market file) or load_dofs (a list), which "
                          "say where the force acts");
@@ -188,17 +264,24 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   const std::array<std::string, 5> paths{structure.mass, structure.stiffness, structure.damping,
                                          scene.forcing.load, structure.dof_map};
-  if (structure.files.contents && structure.files.contents->paths == paths &&
-      structure.files.contents->unsymmetric == structure.unsymmetric)
-    return structure.files.contents;
-  return std::make_shared<const StructureFiles>(read_files(paths, structure.unsymmetric));
+  const auto& known = structure.files.contents;
+  const std::vector<int> moving = moving_rows(scene);
+  if (known && known->paths == paths && known->unsymmetric == structure.unsymmetric &&
+      known->moving == moving)
+    return known;
+  return std::make_shared<const StructureFiles>(read_files(paths, moving, structure.unsymmetric));
 }
 
 void check_against_files(const Scene& scene, const StructureFiles& files) {
-  const Eigen::Index size = files.matrices.stiffness.rows();
-  check_dofs(scene.structure.matrices.contact_dofs, size, "structure.contact_dofs");
-  check_pairs(scene.contact.pairs, size);
-  check_dofs(scene.forcing.load_dofs, size, "forcing.load_dofs");
+  const Eigen::Index size = files.matrices.stiffness.rows(), all = files.file_rows();
+  check_dofs(scene.structure.matrices.contact_dofs, all, "structure.contact_dofs");
+  check_unknown(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
+  check_pairs(scene.contact.pairs, all);
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    check_unknown(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
+  check_dofs(scene.forcing.load_dofs, all, "forcing.load_dofs");
+  check_unknown(scene.forcing.load_dofs, files, "forcing.load_dofs");
+  check_terms(scene, files);
   check_load(scene);
   const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
   if (scene.structure.kept_modes < 0) return;
@@ -215,13 +298,19 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {
   if (files.load.size() > 0) return files.load;
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(files.matrices.stiffness.rows());
-  for (const int dof : scene.forcing.load_dofs) load[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
-  return load;
+  return signed_dofs(scene.forcing.load_dofs, files);
+}
+
+Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(files.file_rows());
+  for (const int dof : dofs) values[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
+  return files.at_unknowns(values);
 }
 
 std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
-  const Eigen::VectorXd load = unit_load(scene, files);
+  Eigen::VectorXd load = unit_load(scene, files).cwiseAbs();
+  for (const ForcingTerm& term : scene.forcing.terms)
+    if (term.kind == LoadKind::force) load += signed_dofs(term.dofs, files).cwiseAbs();
   std::vector<int> rows;
   for (Eigen::Index row = 0; row < load.size(); ++row)
     if (load[row] != 0.0) rows.push_back(static_cast<int>(row));
@@ -229,24 +318,27 @@ std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
   return rows;
 }
 
-solvers::ContactDirections contact_directions(const Scene& scene, Eigen::Index size) {
+solvers::ContactDirections contact_directions(const Scene& scene, const StructureFiles& files) {
+  std::vector<int> unknown(static_cast<std::size_t>(files.file_rows()), -1);  // of each row of the files
+  for (std::size_t i = 0; i < files.rows.size(); ++i)
+    unknown[std::size_t(files.rows[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
   int contacts = 0;
   for (const int dof : scene.structure.matrices.contact_dofs)
-    entries.emplace_back(contacts++, std::abs(dof) - 1, dof > 0 ? 1.0 : -1.0);
+    entries.emplace_back(contacts++, unknown[std::size_t(std::abs(dof) - 1)], dof > 0 ? 1.0 : -1.0);
   for (const auto& [pair, sign] : scene.contact.pair_contacts()) {
     for (std::size_t i = 0; i < pair->dofs.size(); ++i)
-      entries.emplace_back(contacts, pair->dofs[i] - 1, sign * pair->coefficients[i]);
+      entries.emplace_back(contacts, unknown[std::size_t(pair->dofs[i] - 1)], sign * pair->coefficients[i]);
     ++contacts;
   }
-  solvers::ContactDirections directions(contacts, size);
+  solvers::ContactDirections directions(contacts, std::ssize(files.rows));
   directions.setFromTriplets(entries.begin(), entries.end());
   directions.prune(0.0);
   return directions;
 }
 
 std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files) {
-  std::vector<int> rows = fem::touched_unknowns(contact_directions(scene, files.matrices.stiffness.rows()));
+  std::vector<int> rows = fem::touched_unknowns(contact_directions(scene, files));
   for (const int row : loaded_rows(scene, files))
     if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
   return rows;

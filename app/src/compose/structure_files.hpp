@@ -17,7 +17,10 @@ namespace wavebalance::app {
 /// The files of a structure of matrices, read and checked.
 struct StructureFiles {
   std::array<std::string, 5> paths;  ///< files of mass, stiffness, damping, load and dof map; empty: none
+  std::vector<int> moving;           ///< rows of the files, from 0, that a base displacement moves, ascending
+  std::vector<int> rows;             ///< n, the other rows of the files: those of the unknowns
   fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
+  fem::Matrices coupling;            ///< n x moving, the parts of M, C and K between unknowns and moving rows
   Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
   std::optional<fem::DofMap> dof_map;
   bool damping_adds_energy = false;  ///< it is not positive semidefinite
@@ -25,6 +28,9 @@ struct StructureFiles {
 
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;
+  Eigen::Index file_rows() const { return std::ssize(rows) + std::ssize(moving); }
+  /// Of a vector with an entry per row of the files, those of the unknowns.
+  Eigen::VectorXd at_unknowns(const Eigen::VectorXd& values) const { return values(rows); }
 };
 
 /// What is wrong with a structure that can nevertheless be solved, a sentence each.
@@ -53,11 +59,14 @@ void check_against_files(const Scene& scene, const StructureFiles& files);
 std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files);
 inline constexpr int most_loaded_dofs = 30;
 
-/// The force of amplitude 1 on all n degrees of freedom.
+/// The force of amplitude 1 on all n degrees of freedom; zero where the scene gives it no place.
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
 
+/// 1 or -1 at each of `dofs`, from 1 with a sign, among n degrees of freedom.
+Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files);
+
 /// The directions of contact among n degrees of freedom, contacts x n: of contact_dofs or of the pairs.
-solvers::ContactDirections contact_directions(const Scene& scene, Eigen::Index size);
+solvers::ContactDirections contact_directions(const Scene& scene, const StructureFiles& files);
 
 /// The unknowns that a reduction keeps beside its modes: those that the contacts touch, then those loaded.
 std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files);

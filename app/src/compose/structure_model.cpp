@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "compose/loads.hpp"
 #include "compose/massless_contacts.hpp"
 #include "compose/structure_files.hpp"
 #include "compose/symmetric_part.hpp"
@@ -29,6 +30,14 @@ void move_tip_mass(Sparse& mass) {
   mass.prune(0.0);
 }
 
+/// M r of a bar whose clamp moves along: of the first element's mass, which couples to the clamp, too.
+Eigen::VectorXd bar_inertia(const Structure& bar, const Sparse& mass) {
+  Eigen::VectorXd inertia = mass * Eigen::VectorXd::Ones(bar.elements);
+  const double element = bar.density * bar.area * bar.length / bar.elements;
+  inertia[0] += (1.0 - bar.lumped_mass_fraction) * element / 6.0;
+  return inertia;
+}
+
 StructureModel bar_model(const Scene& scene) {
   const Structure& bar = scene.structure;
   fem::Matrices matrices = fem::bar({.youngs_modulus = bar.youngs_modulus,
@@ -49,18 +58,28 @@ StructureModel bar_model(const Scene& scene) {
   model.structure.contact_directions = solvers::contact_rows({bar.elements - 1}, bar.elements);
   model.structure.load = Eigen::VectorXd::Zero(bar.elements);
   model.structure.load[bar.elements - 1] = scene.forcing.amplitude;
+  model.structure.forces =
+      forces_of(scene.forcing, {.force = Eigen::VectorXd::Unit(bar.elements, bar.elements - 1),
+                                .inertia = bar_inertia(bar, model.structure.mass)});
   model.unknowns = bar.elements;
   return model;
 }
 
-/// Sets the structure's matrices and load; an absent damping matrix becomes zero.
-void set_structure(StructureModel& model, fem::Matrices matrices, const Eigen::VectorXd& load) {
-  const Eigen::Index size = load.size();
+/// What acts on a structure before its reduction: see solvers::LinearStructure.
+struct Loads {
+  Eigen::VectorXd load;
+  std::vector<solvers::PeriodicForce> forces;
+};
+
+/// Sets the structure's matrices and loads; an absent damping matrix becomes zero.
+void set_structure(StructureModel& model, fem::Matrices matrices, const Loads& loads) {
+  const Eigen::Index size = loads.load.size();
   if (matrices.damping.size() == 0) matrices.damping = Sparse(size, size);
   model.structure.mass = std::move(matrices.mass);
   model.structure.damping = std::move(matrices.damping);
   model.structure.stiffness = std::move(matrices.stiffness);
-  model.structure.load = load;
+  model.structure.load = loads.load;
+  model.structure.forces = loads.forces;
 }
 
 /// T^T A T of the skew part of A, nothing where A is symmetric.
@@ -73,7 +92,7 @@ Sparse projected_skew_part(const Sparse& matrix, const Eigen::MatrixXd& transfor
 
 /// The modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
 /// gyroscopic and circulatory forces, are projected on them.
-void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::VectorXd& load,
+void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
             const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes) {
   const fem::Matrices symmetric{
       .mass = matrices.mass,
@@ -88,7 +107,10 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Eigen::V
   model.structure.stiffness = reduced.stiffness.sparseView();
   model.structure.damping += projected_skew_part(matrices.damping, reduced.transformation);
   model.structure.stiffness += projected_skew_part(matrices.stiffness, reduced.transformation);
-  model.structure.load = reduced.project_load(load);
+  model.structure.load = reduced.project_load(loads.load);
+  model.structure.forces = loads.forces;
+  for (solvers::PeriodicForce& force : model.structure.forces)
+    force.shape = reduced.project_load(force.shape);
   model.structure.contact_directions = reduced.project_directions(directions);
   model.recovery = std::move(reduced.transformation);
 }
@@ -117,14 +139,25 @@ std::vector<int> loaded_nodes(const fem::Blade& blade, TipPlace place) {
   return {nodes.begin() + 2 * ((pairs - 1) / 2), nodes.begin() + 2 * (pairs / 2 + 1)};
 }
 
-Eigen::VectorXd blade_load(const Scene& scene, const fem::Blade& blade) {
+/// Where `place` and `direction` have the force, of size `amplitude`.
+Eigen::VectorXd blade_load(const Scene& scene, const fem::Blade& blade, double amplitude) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(blade.model.dofs.count());
   const auto nodes = loaded_nodes(blade, scene.forcing.place);
   const int axis = static_cast<int>(scene.forcing.direction);
   for (const int node : nodes)
-    load[blade.model.dofs.unknown(3 * node + axis)] =
-        scene.forcing.amplitude / static_cast<double>(nodes.size());
+    load[blade.model.dofs.unknown(3 * node + axis)] = amplitude / static_cast<double>(nodes.size());
   return load;
+}
+
+/// M r of a blade whose root moves along `direction`, without the mass that couples to the root itself.
+Eigen::VectorXd blade_inertia(const Scene& scene, const fem::Blade& blade, const Sparse& mass) {
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(mass.rows());
+  const auto nodes = static_cast<int>(blade.model.mesh.nodes.cols());
+  for (int node = 0; node < nodes; ++node)
+    if (const int unknown = blade.model.dofs.unknown(3 * node + static_cast<int>(scene.forcing.direction));
+        unknown >= 0)
+      motion[unknown] = 1.0;
+  return mass * motion;
 }
 
 /// The stiffness of the turning blade; its damping stays that of the material at rest.
@@ -143,9 +176,11 @@ StructureModel blade_model(const Scene& scene) {
   fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
   stiffen_by_rotation(matrices, blade->model, scene.structure.blade);
   model.unknowns = blade->model.dofs.count();
-  reduce(model, matrices, blade_load(scene, *blade),
-         solvers::contact_rows(blade->contact_unknowns, model.unknowns), blade->boundary_unknowns,
-         scene.structure.kept_modes);
+  const Loads loads{blade_load(scene, *blade, scene.forcing.amplitude),
+                    forces_of(scene.forcing, {.force = blade_load(scene, *blade, 1.0),
+                                              .inertia = blade_inertia(scene, *blade, matrices.mass)})};
+  reduce(model, matrices, loads, solvers::contact_rows(blade->contact_unknowns, model.unknowns),
+         blade->boundary_unknowns, scene.structure.kept_modes);
   model.blade = blade;
   return model;
 }
@@ -159,14 +194,19 @@ StructureModel matrices_model(const Scene& scene) {
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
   fem::Matrices matrices = files->matrices;
   if (structure.stiffness_damping > 0.0) matrices.damping = structure.stiffness_damping * matrices.stiffness;
-  const Eigen::VectorXd load = scene.forcing.amplitude * unit_load(scene, *files);
-  const solvers::ContactDirections directions = contact_directions(scene, model.unknowns);
+  const Eigen::VectorXd unit = unit_load(scene, *files);
+  const Loads loads{scene.forcing.amplitude * unit,
+                    forces_of(scene.forcing, {.force = unit,
+                                              .inertia = {},
+                                              .files = files.get(),
+                                              .stiffness_damping = structure.stiffness_damping})};
+  const solvers::ContactDirections directions = contact_directions(scene, *files);
   if (structure.kept_modes < 0) {
-    set_structure(model, std::move(matrices), load);
+    set_structure(model, std::move(matrices), loads);
     model.structure.contact_directions = directions;
     return model;
   }
-  reduce(model, matrices, load, directions, boundary_rows(scene, *files), structure.kept_modes);
+  reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes);
   return model;
 }
 

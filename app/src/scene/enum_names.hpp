@@ -69,9 +69,15 @@ template <>
 inline constexpr std::array<NamedValue<ModeFormulation>, 2> enum_names<ModeFormulation>{
     {{ModeFormulation::consistent, "consistent"}, {ModeFormulation::published, "published"}}};
 template <>
-inline constexpr std::array<NamedValue<AnalysisType>, 4> enum_names<AnalysisType>{
+inline constexpr std::array<NamedValue<LoadKind>, 3> enum_names<LoadKind>{
+    {{LoadKind::force, "force"},
+     {LoadKind::base_displacement, "base_displacement"},
+     {LoadKind::base_acceleration, "base_acceleration"}}};
+template <>
+inline constexpr std::array<NamedValue<AnalysisType>, 5> enum_names<AnalysisType>{
     {{AnalysisType::forced_response, "forced_response"},
      {AnalysisType::frequency_sweep, "frequency_sweep"},
+     {AnalysisType::amplitude_sweep, "amplitude_sweep"},
      {AnalysisType::time_stepping, "time_stepping"},
      {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
 

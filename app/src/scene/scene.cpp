@@ -18,6 +18,19 @@ std::string name_of(InnerProducts value) { return enum_name(value); }
 std::string name_of(NyquistCoefficient value) { return enum_name(value); }
 std::string name_of(ModeFormulation value) { return enum_name(value); }
 std::string name_of(AnalysisType value) { return enum_name(value); }
+std::string name_of(LoadKind value) { return enum_name(value); }
+
+std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
+  if (forcing.amplitude != 0.0) return ReferenceLoad{forcing.amplitude, "N"};
+  for (const ForcingTerm& term : forcing.terms) {
+    if (term.amplitude == 0.0 || (term.harmonic == 0 && term.samples.empty())) continue;
+    const bool force = term.kind == LoadKind::force;
+    return ReferenceLoad{term.amplitude, force                                      ? "N"
+                                         : term.kind == LoadKind::base_displacement ? "m"
+                                                                                    : "m/s^2"};
+  }
+  return std::nullopt;
+}
 
 std::vector<SidedPair> Contact::pair_contacts() const {
   std::vector<SidedPair> contacts;

@@ -87,17 +87,21 @@ DocumentEntry entry_of(std::string section, std::string key, const toml::node& n
 
 void add_section(Document& document, const std::string& name, const toml::table& table, int line);
 
-/// The entries of [[contact.pairs]], each a section of its own.
-void add_pairs(Document& document, const toml::array& pairs) {
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    add_section(document, pair_section(i), *pairs[i].as_table(), line_of(pairs[i]));
+/// The entries of [[contact.pairs]] or [[forcing.terms]], each a section of its own.
+void add_tables(Document& document, const toml::array& tables, std::string (*section)(std::size_t)) {
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    add_section(document, section(i), *tables[i].as_table(), line_of(tables[i]));
 }
 
 void add_section(Document& document, const std::string& name, const toml::table& table, int line) {
   document.sections.push_back({name, line});
   for (const auto& [key, node] : table) {
     if (name == "contact" && key.str() == "pairs" && node.is_array_of_tables()) {
-      add_pairs(document, *node.as_array());
+      add_tables(document, *node.as_array(), pair_section);
+      continue;
+    }
+    if (name == "forcing" && key.str() == "terms" && node.is_array_of_tables()) {
+      add_tables(document, *node.as_array(), term_section);
       continue;
     }
     document.entries.push_back(entry_of(name, std::string(key.str()), node));

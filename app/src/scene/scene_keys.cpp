@@ -57,6 +57,8 @@ bool SceneKey::required_in(const Scene& scene) const {
   return fallback == Default::required && needed.holds(scene);
 }
 
+std::string term_section(std::size_t index) { return "forcing.terms[" + std::to_string(index + 1) + "]"; }
+
 std::string pair_section(std::size_t index) { return "contact.pairs[" + std::to_string(index + 1) + "]"; }
 
 std::string SceneKey::full_name() const { return std::string(section) + "." + std::string(name); }

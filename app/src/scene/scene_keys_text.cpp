@@ -116,6 +116,12 @@ std::string pairs_text(int width) {
   return text;
 }
 
+std::string terms_text(int width) {
+  std::string text = "\n[[forcing.terms]], any number of them, which act beside forcing.amplitude\n";
+  for (const SceneKey& key : term_keys(0)) text += key_text(key, width);
+  return text;
+}
+
 }  // namespace
 
 std::string toml_text(const SceneValue& value) {
@@ -180,6 +186,7 @@ std::string describe_scene_keys(int width) {
   for (const SceneKey& key : scene_keys()) {
     if (key.section != section) {
       if (section == "contact") text += pairs_text(width);
+      if (section == "forcing") text += terms_text(width);
       text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
     }
     section = key.section;

@@ -9,6 +9,7 @@
 
 #include "scene/pair_reader.hpp"
 #include "scene/spelling.hpp"
+#include "scene/term_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
@@ -22,11 +23,20 @@ namespace {
                     "missing; expected " + key.expected() + where});
 }
 
+/// The keys of an entry of [[contact.pairs]] or [[forcing.terms]]; none for another section.
+std::vector<SceneKey> keys_of_tables(std::string_view section) {
+  if (is_pair_section(section)) return pair_keys(0);
+  return is_term_section(section) ? term_keys(0) : std::vector<SceneKey>();
+}
+
+bool is_table_section(std::string_view section) {
+  return is_pair_section(section) || is_term_section(section);
+}
+
 /// Names of `section`'s keys; of all sections when there is no such section.
 std::vector<std::string> known_names(const std::string& section) {
   std::vector<std::string> names;
-  if (is_pair_section(section))
-    for (const SceneKey& key : pair_keys(0)) names.emplace_back(key.name);
+  for (const SceneKey& key : keys_of_tables(section)) names.emplace_back(key.name);
   for (const SceneKey& key : scene_keys())
     if (key.section == section) names.emplace_back(key.name);
   if (!names.empty()) return names;
@@ -58,10 +68,15 @@ std::string unknown_section_text(const std::string& section) {
   if (entry.section.empty()) fail_at(document, entry, "unknown key outside of any section");
   if (entry.full_name() == "contact.pairs")
     fail_at(document, entry, "expected tables [[contact.pairs]], one for each direction of contact");
+  if (entry.full_name() == "forcing.terms")
+    fail_at(document, entry, "expected tables [[forcing.terms]], one for each further load");
+  if (is_term_section(entry.section) && !document.has_section(entry.section))
+    fail_at(document, entry,
+            "the scene has " + std::to_string(count_terms(document)) + " [[forcing.terms]], counted from 1");
   if (is_pair_section(entry.section) && !document.has_section(entry.section))
     fail_at(document, entry,
             "the scene has " + std::to_string(count_pairs(document)) + " [[contact.pairs]], counted from 1");
-  if (!is_section(entry.section) && !is_pair_section(entry.section))
+  if (!is_section(entry.section) && !is_table_section(entry.section))
     fail_at(document, entry, unknown_section_text(entry.section));
   const auto shown = [&](const std::string& name) { return entry.section + "." + name; };
   fail_at(document, entry, "unknown key" + unknown_text(entry.key, known_names(entry.section), shown));
@@ -69,15 +84,14 @@ std::string unknown_section_text(const std::string& section) {
 
 void reject_unknown(const Document& document) {
   for (const DocumentSection& section : document.sections)
-    if (!is_section(section.name) && !is_pair_section(section.name))
+    if (!is_section(section.name) && !is_table_section(section.name))
       throw SceneError({document.name, section.line, "", "[" + section.name + "]", "",
                         unknown_section_text(section.name)});
-  const std::vector<SceneKey> of_pairs = pair_keys(0);
   const auto is_known = [&](const DocumentEntry& entry) {
-    if (!is_pair_section(entry.section)) return find_scene_key(entry.full_name()) != nullptr;
+    if (!is_table_section(entry.section)) return find_scene_key(entry.full_name()) != nullptr;
+    const std::vector<std::string> names = known_names(entry.section);
     return document.has_section(entry.section) &&
-           std::any_of(of_pairs.begin(), of_pairs.end(),
-                       [&](const SceneKey& key) { return key.name == entry.key; });
+           std::find(names.begin(), names.end(), entry.key) != names.end();
   };
   for (const DocumentEntry& entry : document.entries)
     if (!is_known(entry)) fail_unknown(document, entry);
@@ -257,6 +271,7 @@ SceneValue checked_value(const Document& document, const DocumentEntry& entry, c
 Scene read_scene(const Document& document) {
   Scene scene;
   scene.contact.pairs.resize(count_pairs(document));
+  scene.forcing.terms.resize(count_terms(document));
   reject_unknown(document);
   const auto read = [&](const auto& wanted) {
     for (const SceneKey& key : scene_keys())
@@ -266,6 +281,7 @@ Scene read_scene(const Document& document) {
   read([](const SceneKey& key) { return governs(key) && !key.belongs.empty(); });
   read([](const SceneKey& key) { return !governs(key); });
   read_pairs(document, scene);
+  read_terms(document, scene);
   return scene;
 }
 

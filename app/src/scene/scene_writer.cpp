@@ -54,6 +54,30 @@ std::string pair_lines(const Scene& scene) {
   return text;
 }
 
+/// Calls use(section, key) for each key of the terms that is written.
+template <class Use>
+void for_each_term_key(const Scene& scene, Use use) {
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
+    for (const SceneKey& key : term_keys(i)) {
+      const ForcingTerm& term = scene.forcing.terms[i];
+      const bool sampled = !term.samples.empty();
+      if ((key.name == "samples" && !sampled) || (key.name == "dofs" && term.dofs.empty())) continue;
+      if (key.name == "harmonic" && sampled) continue;
+      if (key.name == "phase" && (sampled || term.harmonic == 0)) continue;
+      use(term_section(i), key);
+    }
+}
+
+std::string term_lines(const Scene& scene) {
+  std::string text, current;
+  for_each_term_key(scene, [&](const std::string& section, const SceneKey& key) {
+    if (section != current) text += "\n[[forcing.terms]]\n";
+    current = section;
+    text += line_of(key, scene);
+  });
+  return text;
+}
+
 DocumentValue document_value(const SceneValue& value) {
   return std::visit([](const auto& content) { return DocumentValue(content); }, value);
 }
@@ -76,6 +100,13 @@ Document document_of(const Scene& scene, const std::string& name) {
     document.entries.push_back(
         {section, std::string(key.name), document_value(value), toml_text(value), 0, ""});
   });
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
+    document.sections.push_back({term_section(i), 0});
+  for_each_term_key(scene, [&](const std::string& section, const SceneKey& key) {
+    const SceneValue value = key.get(scene);
+    document.entries.push_back(
+        {section, std::string(key.name), document_value(value), toml_text(value), 0, ""});
+  });
   return document;
 }
 
@@ -86,6 +117,7 @@ std::string write_scene(const Scene& scene) {
     if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
     if (key.section != section) {
       if (section == "contact") text += pair_lines(scene);
+      if (section == "forcing") text += term_lines(scene);
       text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
     }
     section = key.section;

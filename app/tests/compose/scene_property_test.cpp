@@ -77,8 +77,8 @@ Time any_time() {
 
 Analysis any_analysis() {
   Analysis analysis;
-  analysis.type =
-      one_of({AnalysisType::forced_response, AnalysisType::frequency_sweep, AnalysisType::time_stepping});
+  analysis.type = one_of({AnalysisType::forced_response, AnalysisType::frequency_sweep,
+                          AnalysisType::amplitude_sweep, AnalysisType::time_stepping});
   analysis.output_points = 1 << *rc::gen::inRange(1, 14);
   if (analysis.type == AnalysisType::frequency_sweep) {
     analysis.frequency_from = positive();
@@ -86,11 +86,28 @@ Analysis any_analysis() {
     analysis.first_step = positive();
     analysis.largest_step = 2.0 * analysis.first_step;
     analysis.max_points = *rc::gen::inRange(2, 100000);
+  } else if (analysis.type == AnalysisType::amplitude_sweep) {
+    analysis.amplitude_from = positive();
+    analysis.amplitude_to = 0.3 * analysis.amplitude_from;
+    analysis.first_step = positive();
+    analysis.largest_step = 2.0 * analysis.first_step;
   } else if (analysis.type == AnalysisType::time_stepping) {
     analysis.tolerance = *rc::gen::inRange(1, 1000) / 1e6;
     analysis.max_periods = *rc::gen::inRange(1, 100000);
   }
   return analysis;
+}
+
+/// Of harmonics that the functions hold.
+std::vector<ForcingTerm> any_terms(int highest) {
+  std::vector<ForcingTerm> terms(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
+  for (ForcingTerm& term : terms) {
+    term.kind = one_of({LoadKind::force, LoadKind::base_acceleration});
+    term.harmonic = *rc::gen::inRange(0, highest + 1);
+    term.amplitude = positive();
+    if (term.harmonic > 0) term.phase = *rc::gen::inRange(-360, 361);
+  }
+  return terms;
 }
 
 Scene any_mode_scene() {
@@ -105,6 +122,7 @@ Scene any_mode_scene() {
 Scene any_scene() {
   if (*rc::gen::inRange(0, 4) == 0) return any_mode_scene();
   Scene scene{any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
+  scene.forcing.terms = any_terms((scene.time.functions - 1) / 2);
   if (scene.analysis.type == AnalysisType::time_stepping) return scene;
   if (scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0) {
     scene.time.functions = scene.time.quadrature_points = 0;

@@ -8,24 +8,38 @@ namespace {
 /// The interval of a sweep over `parts`.
 auto interval_over(int parts) {
   return [parts](const Scene& scene) {
-    return std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from) / parts;
+    const Analysis& analysis = scene.analysis;
+    return (std::abs(analysis.frequency_to - analysis.frequency_from) +
+            std::abs(analysis.amplitude_to - analysis.amplitude_from)) /
+           parts;  // one of them is 0
   };
 }
 
 void add_sweep(std::vector<SceneKey>& keys) {
-  const Section sweep(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
-  sweep(&Analysis::frequency_from, "frequency_from", "Hz", "where the branch starts", positive);
-  sweep(&Analysis::frequency_to, "frequency_to", "Hz", "where the branch ends, above or below its start",
-        positive);
-  sweep(&Analysis::first_step, "first_step", "Hz", "first step along the branch", positive,
-        derived("|frequency_to - frequency_from| / 1000", interval_over(1000)));
-  sweep(&Analysis::largest_step, "largest_step", "Hz",
+  const Section over_frequency(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
+  const Section over_amplitude(keys, "analysis", analysis_part, analysis_is({"amplitude_sweep"}));
+  const Section sweep(keys, "analysis", analysis_part, analysis_is({"frequency_sweep", "amplitude_sweep"}));
+  over_frequency(&Analysis::frequency_from, "frequency_from", "Hz", "where the branch starts", positive);
+  over_frequency(&Analysis::frequency_to, "frequency_to", "Hz",
+                 "where the branch ends, above or below its start", positive);
+  over_amplitude(
+      &Analysis::amplitude_from, "amplitude_from", "N",
+      "where the branch starts: a value of forcing.amplitude, with which all loads but static ones "
+      "vary in proportion; where that is 0, of the first of forcing.terms that is not static, in its "
+      "unit",
+      positive);
+  over_amplitude(&Analysis::amplitude_to, "amplitude_to", "N",
+                 "where the branch ends, above or below its start", positive);
+  sweep(&Analysis::first_step, "first_step", "Hz or N", "first step along the branch", positive,
+        derived("a 1000th of the interval", interval_over(1000)));
+  sweep(&Analysis::largest_step, "largest_step", "Hz or N",
         "no step along the branch is larger; a displacement by the gap counts as a 20th of the interval",
-        positive, derived("|frequency_to - frequency_from| / 80", interval_over(80)));
+        positive, derived("an 80th of the interval", interval_over(80)));
   sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
         within(2, 10'000'000), optional);
-  sweep(&Analysis::branches, "branches", "",
-        "true also follows the curves that begin at period doublings and at branch points", optional);
+  over_frequency(&Analysis::branches, "branches", "",
+                 "true also follows the curves that begin at period doublings and at branch points",
+                 optional);
 }
 
 void add_time_stepping(std::vector<SceneKey>& keys) {
@@ -80,7 +94,9 @@ int contacts_of(const Scene& scene) {
 /// Whether counts take a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
-  if (scene.analysis.type != AnalysisType::frequency_sweep && !mode) return true;
+  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
+                     scene.analysis.type == AnalysisType::amplitude_sweep;
+  if (!sweep && !mode) return true;
   if (mode && scene.contact.law == ContactLawType::rigid) return true;  // not known
   constexpr int few = 6;
   constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
@@ -120,7 +136,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            derived("true; with more than 6 contacts false for modes, and for curves where contacts times "
                    "functions exceed 400",
                    stability_by_default),
-           only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
+           only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
   analysis(&Analysis::subharmonic, "subharmonic", "",
            "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
            "output_points are then those of n periods",

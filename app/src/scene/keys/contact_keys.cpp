@@ -36,16 +36,18 @@ void add_contact_keys(std::vector<SceneKey>& keys) {
           "freedom in contact",
           single_or_list(get_gap, set_gap), or_in_pairs,
           only_with(law_is({"exponential", "linear", "rigid"})));
-  const Condition balanced = analysis_is({"forced_response", "frequency_sweep"});
+  const Condition balanced = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});
   contact(
       &Contact::form, "form", "",
       "unknown in which contact is solved: the displacement, or for stiff and rigid laws the contact force",
       optional, only_with(balanced));
-  contact(&Contact::mass, "mass", "",
-          "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
-          "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law, but not "
-          "in nonlinear modes",
-          optional, only_with(analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
+  contact(
+      &Contact::mass, "mass", "",
+      "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
+      "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law, but not "
+      "in nonlinear modes",
+      optional,
+      only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
 }
 
 std::vector<SceneKey> pair_keys(std::size_t index) {

@@ -4,12 +4,13 @@ namespace wavebalance::app {
 
 void add_forcing_keys(std::vector<SceneKey>& keys) {
   const Section forcing(keys, "forcing", forcing_part);
-  forcing(&Forcing::amplitude, "amplitude", "N",
-          "force amplitude cos(2 pi frequency t): at the tip of a bar, at one place of a blade's tip, along "
-          "load or load_dofs of matrices",
-          required_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping"})));
+  forcing(
+      &Forcing::amplitude, "amplitude", "N",
+      "force amplitude cos(2 pi frequency t): at the tip of a bar, at one place of a blade's tip, along "
+      "load or load_dofs of matrices",
+      required_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping"})));
   forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
-          required_with(analysis_is({"forced_response", "time_stepping"})));
+          required_with(analysis_is({"forced_response", "amplitude_sweep", "time_stepping"})));
   forcing(&Forcing::load, "load", "",
           "forces of all degrees of freedom for amplitude 1: Matrix Market array file of one column", path,
           optional, only_with(structure_is({"matrices"})));
@@ -22,6 +23,34 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
   forcing(&Forcing::direction, "direction", "",
           "of the force; the blade stands along z, its chord nearest to x", optional,
           only_with(structure_is({"blade"})));
+}
+
+std::vector<SceneKey> term_keys(std::size_t index) {
+  std::vector<SceneKey> keys;
+  const auto part = [index](auto& scene) -> auto& { return scene.forcing.terms[index]; };
+  const Section term(keys, "forcing.terms", part);
+  term(&ForcingTerm::kind, "kind", "",
+       "a force, or the motion of supports: a base_displacement moves dofs of matrices, which are then no "
+       "unknowns, a base_acceleration moves all that holds the structure, with displacements relative to it",
+       derived("\"force\"", [](const Scene&) { return name_of(LoadKind::force); }));
+  term(&ForcingTerm::amplitude, "amplitude", "",
+       "in N, m or m/s^2, of amplitude cos(harmonic 2 pi frequency t + phase), or a factor on samples",
+       derived("1.0 with samples", [](const Scene&) { return 1.0; }));
+  term(&ForcingTerm::harmonic, "harmonic", "", "multiple of frequency; 0 is a static load", within(0, 4096),
+       derived("1", [](const Scene&) { return std::int64_t{1}; }));
+  term(&ForcingTerm::phase, "phase", "degrees", "by which it is ahead of a cosine; not of a static load",
+       within(-360, 360), derived("0.0", 0.0));
+  term(
+      &ForcingTerm::samples, "samples", "",
+      "CSV file with a header row, whose last column holds one period at uniform times from t = 0 on; in place "
+      "of harmonic and phase",
+      path, derived("none", [](const Scene&) { return std::string(); }));
+  term(&ForcingTerm::dofs, "dofs", "",
+       "matrices: rows that each take the whole force or move with the base, as load_dofs; required with a "
+       "base, of which they are the rows that move (displacement) or point along its motion (acceleration)",
+       named_dofs,
+       derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
+  return keys;
 }
 
 }  // namespace wavebalance::app

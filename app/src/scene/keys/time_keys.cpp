@@ -14,7 +14,8 @@ std::vector<std::string_view> basis_names() {
 
 void add_time_keys(std::vector<SceneKey>& keys) {
   const Section time(keys, "time", time_part);
-  const Condition balance = analysis_is({"forced_response", "frequency_sweep"}).unless("time.tolerance");
+  const Condition balance =
+      analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"}).unless("time.tolerance");
   time(&Time::tolerance, "tolerance", "",
        "relative rms error of the contact displacement over the period to be met, in place of functions and "
        "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
@@ -36,7 +37,7 @@ void add_time_keys(std::vector<SceneKey>& keys) {
   time(&Time::sample_offset, "sample_offset", "",
        "first quadrature point in intervals of the points: 0 for their left ends k/N, 0.5 for their middles "
        "(k + 0.5)/N; without effect on output_points",
-       optional, only_with(analysis_is({"forced_response", "frequency_sweep"})));
+       optional, only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"})));
   time(&Time::inner_products, "inner_products", "",
        "inner products of trial and weight functions: sums over the quadrature points (Daubechies Galerkin "
        "pairs: connection coefficients) or exact",

@@ -14,7 +14,8 @@
 
 namespace wavebalance::app {
 
-/// A curve of responses over the frequency. Frequencies are those of the load, also of the branches.
+/// A curve of responses over the frequency or the amplitude. Frequencies are those of the load, also of the
+/// branches; of an amplitude sweep load scales are amplitudes.
 struct Sweep {
   solvers::FrequencySweep curve;
   solvers::CurveStability stability;      ///< set by add_stability(); without points otherwise
@@ -24,6 +25,7 @@ struct Sweep {
   int motion_periods =
       1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()
   double wall_seconds = 0.0;
+  std::string amplitude_unit = "N";  ///< of an amplitude sweep
 
   bool converged() const {
     return curve.status == solvers::SweepStatus::reached_end &&
@@ -42,6 +44,11 @@ Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// empty, as weighted_residual_response() does.
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                       const StartMotion& start = {});
+
+/// The curve of the scene's responses over reference_load() at forcing.frequency. A change of the amplitude
+/// by 1/20 of the interval has the same length as a change of displacement by the gap.
+Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
+Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
 /// is false or the structure's modes cannot be computed, and with analysis.branches its branches. An observer
@@ -84,10 +91,11 @@ Record analyse(const Scene& scene, const Observer& observer = {});
 /// found near it is not sought elsewhere.
 Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer = {});
 
-/// The table of a sweep's record; those of a motion are in contact_motion.hpp.
+/// The table of a frequency sweep's record; those of a motion are in contact_motion.hpp.
 Table sweep_table(const solvers::FrequencySweep& curve);
 /// The same with the columns `unstable`, missing where it is not known, and `contacts`; with branches also
-/// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other.
+/// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other. Of an
+/// amplitude sweep the first column is the amplitude in its unit.
 Table sweep_table(const Sweep& sweep, bool with_branches = false);
 
 /// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.

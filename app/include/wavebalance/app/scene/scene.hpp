@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/fem/solid.hpp"
@@ -32,7 +34,9 @@ enum class ContactMass { automatic, keep, redistribute };
 /// Where the obstacles of a contact direction stand, contact.pairs.side.
 enum class ObstacleSide { positive, negative, both };
 /// Analyses, analysis.type.
-enum class AnalysisType { forced_response, frequency_sweep, time_stepping, nonlinear_mode };
+enum class AnalysisType { forced_response, frequency_sweep, amplitude_sweep, time_stepping, nonlinear_mode };
+/// What a further load is, forcing.terms.kind: a force, or the motion of supports.
+enum class LoadKind { force, base_displacement, base_acceleration };
 
 /// Contents of the files that a scene names; see structure_files.hpp.
 struct StructureFiles;
@@ -142,8 +146,22 @@ struct Contact {
   bool operator==(const Contact&) const = default;
 };
 
+/// One entry of [[forcing.terms]], which acts beside Forcing::amplitude: amplitude cos(harmonic 2 pi
+/// frequency t
+/// + phase), or amplitude times a periodic function given by samples.
+struct ForcingTerm {
+  LoadKind kind = LoadKind::force;
+  int harmonic = 1;            ///< of Forcing::frequency; 0: static, without phase
+  double amplitude = 1.0;      ///< N; m of a base displacement; m/s^2 of a base acceleration
+  double phase = 0.0;          ///< degrees ahead of a cosine
+  std::string samples = {};    ///< CSV file, its last column one period at uniform times; or empty
+  std::vector<int> dofs = {};  ///< matrices: as Forcing::load_dofs; empty: where Forcing::amplitude acts
+
+  bool operator==(const ForcingTerm&) const = default;
+};
+
 /// The force amplitude * cos(2 pi frequency t), at a bar's tip; along load (1/1) of matrices; at one place of
-/// a blade's tip. Nonlinear modes do not use it.
+/// a blade's tip; and the terms. Nonlinear modes do not use it.
 struct Forcing {
   double amplitude = 0.0;                   ///< N
   double frequency = 0.0;                   ///< Hz, > 0; a frequency sweep does not use it
@@ -151,6 +169,7 @@ struct Forcing {
   std::vector<int> load_dofs = {};          ///< matrices: from 1, each with value 1; -i: dof i with -1
   TipPlace place = TipPlace::leading_edge;  ///< blade
   Direction direction = Direction::y;       ///< blade
+  std::vector<ForcingTerm> terms = {};      ///< beside it
 
   bool operator==(const Forcing&) const = default;
 };
@@ -197,10 +216,12 @@ struct Analysis {
 
   double frequency_from = 0.0;  ///< Hz, frequency_sweep: where the branch starts
   double frequency_to = 0.0;    ///< Hz, frequency_sweep: where it ends; may lie below frequency_from
-  double first_step = 0.0;      ///< Hz, frequency_sweep: first step along the branch
-  double largest_step = 0.0;    ///< Hz, frequency_sweep: no step along the branch is larger
-  int max_points = 20000;       ///< frequency_sweep: the branch is given up after so many points
-  MotionAt motion_at = {};      ///< frequency_sweep
+  double amplitude_from = 0.0;  ///< amplitude_sweep: the same in the unit of reference_load()
+  double amplitude_to = 0.0;
+  double first_step = 0.0;    ///< Hz, or the unit of the amplitude: first step along the branch
+  double largest_step = 0.0;  ///< the same: no step along the branch is larger
+  int max_points = 20000;     ///< frequency_sweep: the branch is given up after so many points
+  MotionAt motion_at = {};    ///< frequency_sweep
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
@@ -243,6 +264,15 @@ std::string name_of(InnerProducts value);
 std::string name_of(NyquistCoefficient value);
 std::string name_of(ModeFormulation value);
 std::string name_of(AnalysisType value);
+std::string name_of(LoadKind value);
+
+/// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,
+/// where that is 0, the first term that is not static. Null without any.
+struct ReferenceLoad {
+  double amplitude;       ///< of the scene
+  std::string_view unit;  ///< "N", "m" or "m/s^2"
+};
+std::optional<ReferenceLoad> reference_load(const Forcing& forcing);
 
 /// The scene whose motions have `times` times the period: with as many times the quadrature and output
 /// points, and the functions of as many times the harmonics, so that a motion of the scene repeated is one of

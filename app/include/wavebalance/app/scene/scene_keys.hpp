@@ -108,6 +108,10 @@ std::span<const SceneKey> scene_keys();
 /// a scene. Each is read after those of scene_keys(), from which its default follows.
 std::vector<SceneKey> pair_keys(std::size_t index);
 
+/// The same of an entry of [[forcing.terms]].
+std::vector<SceneKey> term_keys(std::size_t index);
+std::string term_section(std::size_t index);
+
 /// "contact.pairs[1]": the section of the pair at `index` from 0, in messages and overrides.
 std::string pair_section(std::size_t index);
 

@@ -1,0 +1,109 @@
+#include "compose/loads.hpp"
+
+#include <fmt/format.h>
+
+#include <complex>
+#include <numbers>
+
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/spectral/fft.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using solvers::PeriodicForce;
+
+std::vector<double> samples_in(const std::string& file) {
+  std::vector<double> samples;
+  try {
+    const Table table = read_csv(file);
+    samples = table.numbers(table.columns().back());
+  } catch (const std::exception& error) {
+    throw SamplesFault(error.what());
+  }
+  for (const double value : samples)
+    if (!std::isfinite(value))
+      throw SamplesFault(file + ": the last column has an entry that is no finite number");
+  if (samples.size() < 2)
+    throw SamplesFault(fmt::format("{}: there are {} samples; expected at least 2", file, samples.size()));
+  return samples;
+}
+
+/// The real Fourier series through samples at uniform times; of an even number the last harmonic is a cosine.
+Eigen::VectorXcd series_through(const std::vector<double>& samples) {
+  spectral::RealFft fft(static_cast<int>(samples.size()));
+  Eigen::VectorXcd harmonics(fft.harmonics());
+  fft.forward(samples, {harmonics.data(), static_cast<std::size_t>(harmonics.size())});
+  harmonics *= 2.0 / static_cast<double>(samples.size());
+  harmonics[0] *= 0.5;
+  if (samples.size() % 2 == 0) harmonics[harmonics.size() - 1] *= 0.5;
+  return harmonics;
+}
+
+/// Adds to a force of the same shape and derivative, or as another one.
+void add_force(std::vector<PeriodicForce>& forces, PeriodicForce added) {
+  if (added.shape.isZero(0.0) || added.harmonics.isZero(0.0)) return;
+  for (PeriodicForce& force : forces) {
+    if (force.derivative != added.derivative || force.shape != added.shape) continue;
+    if (force.harmonics.size() < added.harmonics.size()) force.harmonics.swap(added.harmonics);
+    force.harmonics.head(added.harmonics.size()) += added.harmonics;
+    return;
+  }
+  forces.push_back(std::move(added));
+}
+
+/// -K_b x_b - C_b x_b' - M_b x_b'' of the rows that move.
+void add_base_displacement(std::vector<PeriodicForce>& forces, const ForcingTerm& term,
+                           const LoadPlaces& places) {
+  const StructureFiles& files = *places.files;
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(std::ssize(files.moving));
+  for (const int dof : term.dofs) {
+    const auto place = std::lower_bound(files.moving.begin(), files.moving.end(), std::abs(dof) - 1);
+    direction[place - files.moving.begin()] = dof > 0 ? 1.0 : -1.0;
+  }
+  const Eigen::VectorXcd harmonics = harmonics_of(term);
+  const fem::Matrices& coupling = files.coupling;
+  const Eigen::VectorXd spring = coupling.stiffness * direction;
+  add_force(forces, {-spring, harmonics, 0});
+  if (coupling.damping.size() > 0) add_force(forces, {-(coupling.damping * direction), harmonics, 1});
+  if (places.stiffness_damping > 0.0) add_force(forces, {-places.stiffness_damping * spring, harmonics, 1});
+  add_force(forces, {-(coupling.mass * direction), harmonics, 2});
+}
+
+Eigen::VectorXd inertia_along(const ForcingTerm& term, const LoadPlaces& places) {
+  if (places.files == nullptr) return places.inertia;
+  return places.files->matrices.mass * signed_dofs(term.dofs, *places.files);
+}
+
+}  // namespace
+
+Eigen::VectorXcd harmonics_of(const ForcingTerm& term) {
+  if (!term.samples.empty()) return term.amplitude * series_through(samples_in(term.samples));
+  Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(term.harmonic + 1);
+  harmonics[term.harmonic] = term.harmonic == 0
+                                 ? term.amplitude
+                                 : std::polar(1.0, term.phase * std::numbers::pi / 180.0) * term.amplitude;
+  return harmonics;
+}
+
+std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places) {
+  std::vector<PeriodicForce> forces;
+  for (const ForcingTerm& term : forcing.terms) {
+    switch (term.kind) {
+      case LoadKind::force:
+        add_force(forces, {term.dofs.empty() ? places.force : signed_dofs(term.dofs, *places.files),
+                           harmonics_of(term), 0});
+        break;
+      case LoadKind::base_acceleration:
+        add_force(forces, {-inertia_along(term, places), harmonics_of(term), 0});
+        break;
+      case LoadKind::base_displacement:
+        add_base_displacement(forces, term, places);
+        break;
+    }
+  }
+  return forces;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "compose/structure_files.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/structure/periodic_force.hpp"
+
+namespace wavebalance::app {
+
+/// A file of samples that cannot be read, and why.
+class SamplesFault : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Where the terms of a scene's forcing act on its n degrees of freedom.
+struct LoadPlaces {
+  Eigen::VectorXd force;                  ///< n, that of forcing.amplitude, for 1 N
+  Eigen::VectorXd inertia;                ///< n, M r, kg, for a base of which all move alike
+  const StructureFiles* files = nullptr;  ///< of matrices, whose terms have places of their own
+  double stiffness_damping = 0.0;         ///< s
+};
+
+/// The series of a term over a period of forcing.frequency: a harmonic, or samples by FFT. Throws
+/// SamplesFault for a file that is not there, without numbers, or with fewer than two.
+Eigen::VectorXcd harmonics_of(const ForcingTerm& term);
+
+/// The forces of all terms, those of the same shape together. Throws as harmonics_of().
+std::vector<solvers::PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places);
+
+}  // namespace wavebalance::app

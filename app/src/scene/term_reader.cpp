@@ -1,0 +1,96 @@
+#include "scene/term_reader.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "scene/scene_reader.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// Reads the entry at one index.
+class TermReader {
+ public:
+  TermReader(const Document& document, std::size_t index, Scene& scene)
+      : document_(document), section_(term_section(index)), scene_(scene), term_(scene.forcing.terms[index]) {
+    for (const SceneKey& key : term_keys(index)) read(key);
+    check_samples();
+    if (term_.harmonic == 0 && entry("phase") != nullptr)
+      fail_at(document_, *entry("phase"), "does not belong to a static load, harmonic = 0");
+    check_place();
+  }
+
+ private:
+  const DocumentEntry* entry(std::string_view name) const { return document_.find(section_, name); }
+
+  [[noreturn]] void fail_missing(const std::string& name, const std::string& expected) const {
+    throw SceneError({document_.name, document_.section_line(section_), "", section_ + "." + name, "",
+                      "missing; expected " + expected});
+  }
+
+  void read(const SceneKey& key) {
+    if (const DocumentEntry* given = entry(key.name))
+      key.set(scene_, checked_value(document_, *given, key));
+    else
+      key.set(scene_, key.derived(scene_));
+  }
+
+  void check_samples() const {
+    if (term_.samples.empty()) {
+      if (entry("amplitude") == nullptr) fail_missing("amplitude", "a number in N, m or m/s^2, or samples");
+      return;
+    }
+    for (const std::string_view name : {"harmonic", "phase"})
+      if (const DocumentEntry* given = entry(name))
+        fail_at(document_, *given, "does not belong to a term with samples");
+  }
+
+  void check_place() const {
+    const StructureType type = scene_.structure.type;
+    const bool base = term_.kind != LoadKind::force;
+    if (type != StructureType::matrices) {
+      if (const DocumentEntry* given = entry("dofs"))
+        fail_at(document_, *given, "only with structure.type = \"matrices\"");
+      if (term_.kind == LoadKind::base_displacement)
+        fail_at(document_, *entry("kind"),
+                "only with structure.type = \"matrices\"; expected \"force\" or \"base_acceleration\"");
+    } else if (base && term_.dofs.empty()) {
+      fail_missing("dofs", "a list of integers, the rows that " +
+                               std::string(term_.kind == LoadKind::base_displacement
+                                               ? "move"
+                                               : "point along the motion of the base"));
+    }
+  }
+
+  const Document& document_;
+  std::string section_;
+  Scene& scene_;
+  ForcingTerm& term_;
+};
+
+}  // namespace
+
+bool is_term_section(std::string_view section) { return section.starts_with("forcing.terms["); }
+
+std::size_t count_terms(const Document& document) {
+  const auto count = std::count_if(document.sections.begin(), document.sections.end(),
+                                   [](const DocumentSection& one) { return is_term_section(one.name); });
+  if (count > most_terms)
+    throw SceneError(
+        {document.name, document.section_line(term_section(0)), "", "forcing.terms", "",
+         "there are " + std::to_string(count) + "; expected at most " + std::to_string(most_terms)});
+  return static_cast<std::size_t>(count);
+}
+
+void read_terms(const Document& document, Scene& scene) {
+  if (scene.forcing.terms.empty()) return;
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    throw SceneError({document.name, document.section_line(term_section(0)), "", "forcing.terms", "",
+                      "does not belong to a scene with analysis.type = \"nonlinear_mode\", a motion without "
+                      "any load"});
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) TermReader(document, i, scene);
+}
+
+}  // namespace wavebalance::app
