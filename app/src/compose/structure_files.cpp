@@ -100,7 +100,7 @@ void check_matrices(const fem::Matrices& matrices, bool unsymmetric) {
   }
 }
 
-/// The rows that base displacements move, from 0. Throws StructureFault for one that is not there.
+/// The rows that base displacements move, from 0, ascending.
 std::vector<int> moving_rows(const Scene& scene) {
   std::vector<int> rows;
   for (const ForcingTerm& term : scene.forcing.terms)
@@ -130,7 +130,12 @@ Eigen::SparseMatrix<double> part(const Eigen::SparseMatrix<double>& matrix, cons
 void hold_moving_rows(StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows();
   for (const int row : files.moving)
-    if (row < 0 || row >= size) files.moving.clear();  // check_against_files() says so
+    if (row < 0 || row >= size)
+      throw StructureFault(
+          "forcing.terms",
+          fmt::format("a base displacement moves degree of freedom {}; expected 1..{}", row + 1, size));
+  if (std::ssize(files.moving) == size)
+    throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected fewer");
   for (int row = 0; row < size; ++row)
     if (!std::binary_search(files.moving.begin(), files.moving.end(), row)) files.rows.push_back(row);
   if (files.moving.empty()) return;
@@ -159,8 +164,6 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<i
     require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
   }
   if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
-  if (!files.moving.empty() && std::ssize(files.moving) >= size)
-    throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected some");
   hold_moving_rows(files);
   check_matrices(matrices, unsymmetric);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));

@@ -162,6 +162,8 @@ TEST_F(ForcingTerms, SayWhereTheyAreWrong) {
   expect(chain({"amplitude = 1.0\nkind = \"base_acceleration\""}), "forcing.terms[1].dofs", "missing");
   expect(chain({"amplitude = 1e-4\nkind = \"base_displacement\"\ndofs = [3]"}), "structure.contact_dofs",
          "degree of freedom 3 moves with a base displacement");
+  expect(chain({"amplitude = 1e-4\nkind = \"base_displacement\"\ndofs = [9]"}), "forcing.terms",
+         "moves degree of freedom 9; expected 1..3");
   expect(chain({"samples = \"none.csv\""}), "forcing.terms[1].samples", "none.csv");
   expect(chain({"samples = \"none.csv\"\nharmonic = 2"}), "forcing.terms[1].harmonic", "a term with samples");
   expect(with(chain({}), "amplitude = 100.0", "terms = 3\namplitude = 100.0"), "forcing.terms",

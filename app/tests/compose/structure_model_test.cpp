@@ -171,6 +171,24 @@ TEST(BladeModel, ForceActsAtTheNamedPlaceOfTheTip) {
   }
 }
 
+TEST(BladeModel, TermsOfTheForcingActAtItsPlaceAndOnItsMass) {
+  const std::string forced = with(small_blade, "nonlinear_mode", "forced_response") +
+                             "[forcing]\namplitude = 6\nfrequency = 100\ndirection = \"x\"\n"
+                             "[[forcing.terms]]\nharmonic = 0\namplitude = 3\n"
+                             "[[forcing.terms]]\nkind = \"base_acceleration\"\namplitude = 2\n"
+                             "[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 8\n";
+  const StructureModel model = make_model(parse_scene(
+      forced, "blade.toml", std::vector<std::string>{"contact.law=linear", "contact.stiffness=1e6"}));
+  ASSERT_EQ(model.structure.forces.size(), 2u);
+  EXPECT_LT((6.0 * model.structure.forces[0].shape - model.structure.load).norm(), 1e-12);
+  const std::vector<int>& free = model.blade->model.dofs.free();
+  const Eigen::VectorXd along = Eigen::VectorXd::NullaryExpr(
+      std::ssize(free), [&](Eigen::Index i) { return free[std::size_t(i)] % 3 == 0 ? 1.0 : 0.0; });
+  const Eigen::VectorXd expected =
+      -model.recovery.transpose() * (fem::solid_matrices(model.blade->model).mass * along);
+  EXPECT_LT((model.structure.forces[1].shape - expected).norm(), 1e-12 * expected.norm());
+}
+
 TEST(BladeModel, RecoveryIsThatOfTheReduction) {
   const StructureModel model = make_model(parse_scene(small_blade, "blade.toml"));
   const auto matrices = fem::solid_matrices(model.blade->model);
