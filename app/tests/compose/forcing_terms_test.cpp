@@ -264,6 +264,23 @@ TEST(ForcingTermsOfTheExample, GiveTheMotionOfTimeStepping) {
             1e-3 * stepped.contacts.displacement.norm());
 }
 
+// The force of a moving base grows with the square of the frequency along the curve.
+TEST(ForcingTermsOfTheExample, AreThoseOfEachFrequencyAlongASweep) {
+  const std::string file = WAVEBALANCE_SCENES "/matrices/shaken.toml";
+  const std::vector<std::string> fewer{"time.functions=31", "analysis.type=frequency_sweep",
+                                       "analysis.frequency_from=40", "analysis.frequency_to=55"};
+  const Sweep sweep = frequency_sweep(load_scene(file, fewer));
+  ASSERT_TRUE(sweep.converged()) << sweep.status();
+  Scene one = load_scene(file, std::vector<std::string>{"time.functions=31"});
+  for (const std::size_t i : {std::size_t{0}, sweep.curve.points.size() / 2, sweep.curve.points.size() - 1}) {
+    const auto& point = sweep.curve.points[i];
+    one.forcing.frequency = point.frequency;
+    const Response response = weighted_residual_response(one);
+    ASSERT_TRUE(response.converged);
+    EXPECT_NEAR(response.displacement().maxCoeff(), point.max_displacement, 1e-7 * point.max_displacement);
+  }
+}
+
 TEST_F(ForcingTerms, BelongToNoNonlinearMode) {
   const auto found =
       error_of(with(rod_scene, "[analysis]", "[[forcing.terms]]\namplitude = 1.0\n[analysis]"));
