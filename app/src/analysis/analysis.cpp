@@ -72,6 +72,19 @@ void append_attractor(Record& record, int periods, const Response& response) {
                         attractor, attractor));
 }
 
+/// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
+void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
+  const Contact& contact = scene.contact;
+  const bool damped =
+      is_damped(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                                            [](const auto& one) { return is_damped(one.law); });
+  if (!damped) return;
+  const solvers::Motion& motion = response.contacts;
+  const double power =
+      motion.empty() ? missing : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
+  summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
+}
+
 /// Instants of the period at which the motion of a bar is kept for its report.
 constexpr int bar_instants = 128;
 
@@ -102,6 +115,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.summary = solution_entries(response.converged, response.status, response.residual,
                                     response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.leading());
+  append_dissipation(record.summary, scene, response);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
@@ -177,7 +191,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("min_displacement_m", least_displacement(sweep.curve));
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
-  const bool one_law = sweep.curve.form != solvers::ContactForm::force && scene.contact.pairs.empty();
+  const bool one_law = sweep.curve.form != solvers::ContactForm::force && scene.contact.pairs.empty() &&
+                       !is_damped(scene.contact.law) && !acts_on_both_sides(scene.contact.law);
   record.summary.emplace_back("max_contact_force_N",
                               points == 0 ? missing
                               : one_law   ? force_at(scene.contact, highest)

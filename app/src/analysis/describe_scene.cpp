@@ -65,10 +65,21 @@ std::string contact_place(const Scene& scene) {
   return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
 }
 
+/// "gap 0.1 m", or both where the sides differ.
+std::string clearance_text(const Contact& contact) {
+  const double below = contact.more.gap_below >= 0.0 ? contact.more.gap_below : contact.gap;
+  if (below == contact.gap) return "gap " + number_text(below) + " m on either side";
+  return "gaps " + number_text(contact.gap) + " m above and " + number_text(below) + " m below";
+}
+
 std::string gap_text(const Contact& contact) {
   std::vector<double> gaps = contact.gaps;
-  for (const ContactPair& pair : contact.pairs) gaps.push_back(pair.gap);
-  if (gaps.empty()) return "gap " + number_text(contact.gap) + " m";
+  for (const ContactPair& pair : contact.pairs)
+    if (has_gap(pair.law)) gaps.push_back(pair.gap);
+  const bool one = contact.pairs.empty() && contact.gaps.empty();
+  if (one && contact.law == ContactLawType::clearance) return clearance_text(contact);
+  if (one && has_gap(contact.law)) gaps.push_back(contact.gap);
+  if (gaps.empty()) return "which acts everywhere";
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   if (*least == *most) return "gap " + number_text(*least) + " m";
   return "gaps " + number_text(*least) + " to " + number_text(*most) + " m";

@@ -30,7 +30,7 @@ std::string heading_of(const Scene& scene) {
 
 /// The gap of all contacts; NaN where they differ or there is none.
 double one_gap(const Contact& contact) {
-  const bool one = contact.law != ContactLawType::none && contact.gaps.empty() && contact.pairs.empty();
+  const bool one = has_gap(contact.law) && contact.gaps.empty() && contact.pairs.empty();
   return one ? contact.gap : std::numeric_limits<double>::quiet_NaN();
 }
 

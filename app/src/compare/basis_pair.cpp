@@ -95,12 +95,17 @@ std::vector<BasisPair> common_pairs() {
   return pairs;
 }
 
-solvers::Admissibility admissibility_of(const BasisPair& pair, const Time& time) {
-  Time tried = time;
+solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scene) {
+  Time tried = scene.time;
   tried.trial = pair.trial;
   tried.weight = pair.weight;
   tried.functions = 16;  // no matter how many: exponents and derivatives decide
   tried.quadrature_points = 4 * tried.functions;
+  const bool damped = make_laws(scene).depend_on_velocity();
+  if (damped && make_basis(pair.trial, tried.functions).pointwise_derivatives() < 1)
+    return {false,
+            "the force of the contact law depends on the velocity, and the trial functions have no "
+            "derivative at points"};
   return pair_admissibility(tried);
 }
 

@@ -40,7 +40,7 @@ SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options) {
   SplitPairs split;
   if (!options.pairs.empty()) return {options.pairs, {}};
   for (const BasisPair& pair : common_pairs()) {
-    const auto found = admissibility_of(pair, scene.time);
+    const auto found = admissibility_of(pair, scene);
     if (found.admissible) {
       split.admissible.push_back(pair);
     } else {
@@ -151,7 +151,7 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options) {
   if (!(options.budget > 0.0) || !std::isfinite(options.budget))
     throw std::invalid_argument("--budget " + cell_text(options.budget) + ": expected seconds > 0");
   for (const BasisPair& pair : options.pairs) {
-    const auto found = admissibility_of(pair, scene.time);
+    const auto found = admissibility_of(pair, scene);
     if (!found.admissible)
       throw std::invalid_argument("--pairs " + name_of(pair) + ": not an admissible pair: " + found.reason);
   }

@@ -108,7 +108,8 @@ class ReferenceSearch {
     // A cosine of 8 samples: its amplitude is that of its rms.
     const Eigen::VectorXd amplitude = std::sqrt(2.0 / 8.0) * samples.rowwise().norm();
     const bool open =
-        scene_.contact.law == ContactLawType::none || (amplitude.array() < model_.gaps.array()).all();
+        scene_.contact.law == ContactLawType::none ||
+        ((amplitude.array() < model_.gaps.array()).all() && make_laws(scene_).force(-amplitude).isZero(0.0));
     if (!open) return std::nullopt;
     ResponseOptions options;
     options.stability = scene_.analysis.stability;

@@ -100,7 +100,7 @@ class CurveComparison {
   }
 
   void admit(const BasisPair& pair, std::vector<BasisPair>& pairs) {
-    const auto admissible = admissibility_of(pair, scene_.time);
+    const auto admissible = admissibility_of(pair, scene_);
     if (admissible.admissible) return pairs.push_back(pair);
     PairResult other;
     other.pair = pair;

@@ -7,10 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include "wavebalance/contact/bilinear_law.hpp"
+#include "wavebalance/contact/clearance_law.hpp"
+#include "wavebalance/contact/cubic_law.hpp"
 #include "wavebalance/contact/exponential_law.hpp"
+#include "wavebalance/contact/hunt_crossley_law.hpp"
+#include "wavebalance/contact/kelvin_voigt_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/no_contact.hpp"
+#include "wavebalance/contact/polynomial_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/contact/table_law.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 #include "wavebalance/wavelets/connection.hpp"
@@ -80,7 +87,14 @@ solvers::LinearStructure make_structure(const Scene& scene) { return make_model(
 
 namespace {
 
-/// The law of a Contact or of a ContactPair.
+contact::ClearanceLaw clearance_of(double stiffness, double gap, const LawConstants& more) {
+  return {{stiffness, gap},
+          {more.stiffness_below > 0.0 ? more.stiffness_below : stiffness,
+           more.gap_below >= 0.0 ? more.gap_below : gap}};
+}
+
+/// The law of a Contact or of a ContactPair. Throws std::invalid_argument for constants that make none, and
+/// std::runtime_error for a table that cannot be read.
 template <class Parameters>
 solvers::AnyContactLaw law_of(const Parameters& of, double gap) {
   switch (of.law) {
@@ -90,6 +104,20 @@ solvers::AnyContactLaw law_of(const Parameters& of, double gap) {
       return contact::LinearLaw(of.stiffness, gap);
     case ContactLawType::rigid:
       return contact::RigidLaw(gap);
+    case ContactLawType::bilinear:
+      return contact::BilinearLaw(of.more.slopes.at(0), of.more.slopes.at(1), gap);
+    case ContactLawType::cubic:
+      return contact::CubicLaw(of.more.cubic_stiffness);
+    case ContactLawType::polynomial:
+      return contact::PolynomialLaw(of.more.polynomial);
+    case ContactLawType::clearance:
+      return clearance_of(of.stiffness, gap, of.more);
+    case ContactLawType::table:
+      return contact::read_table_law(of.more.table);
+    case ContactLawType::hunt_crossley:
+      return contact::HuntCrossleyLaw(of.more.hertz_stiffness, of.more.power, of.more.dissipation, gap);
+    case ContactLawType::kelvin_voigt:
+      return contact::KelvinVoigtLaw(of.stiffness, of.more.damping, gap, of.more.damping_depth);
     case ContactLawType::none:
       break;
   }

@@ -289,6 +289,7 @@ void check_products(const Document& document, const Scene& scene) {
 
 void check_scene_rules(const Document& document, Scene& scene) {
   check_structure_rules(document, scene);
+  check_laws(document, scene);
   const AnalysisType type = scene.analysis.type;
   const bool stepping = type == AnalysisType::time_stepping, mode = type == AnalysisType::nonlinear_mode;
   if (!stepping && !mode) check_time(document, scene);

@@ -13,6 +13,10 @@ namespace wavebalance::app {
 [[noreturn]] void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
                             const std::string& rule);
 
+/// Checks that the laws of contact can be made from their constants and files, and that the analysis takes
+/// them. Throws SceneError.
+void check_laws(const Document& document, const Scene& scene);
+
 /// Checks the rules between the keys of a scene's structure, and its files, which are read and kept in the
 /// scene. Throws SceneError.
 void check_structure_rules(const Document& document, Scene& scene);

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "scene/law_keys.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -72,25 +73,22 @@ class PairReader {
     if (own != nullptr && (law == ContactLawType::none || law == ContactLawType::rigid))
       fail_at(document_, *own,
               "does not belong to a scene with contact.law = \"" + name_of(law) +
-                  "\"; only with contact.law = \"exponential\" or \"linear\"");
+                  "\"; only with another contact.law than \"none\" and \"rigid\"");
     if (own != nullptr)
       take("law");
     else
       pair_.law = law;
-    read_parameter("constant", pair_.law == ContactLawType::exponential);
-    read_parameter("exponent", pair_.law == ContactLawType::exponential);
-    read_parameter("stiffness", pair_.law == ContactLawType::linear);
-    read_parameter("gap", pair_.law != ContactLawType::none);
+    for (const std::string_view name : law_constant_names()) read_parameter(name);
   }
 
-  void read_parameter(std::string_view name, bool belongs) {
+  void read_parameter(std::string_view name) {
     const DocumentEntry* own = entry(name);
-    if (!belongs) {
+    if (!law_takes(pair_.law, name)) {
       if (own != nullptr)
         fail_at(document_, *own, "does not belong to a pair with the law \"" + name_of(pair_.law) + "\"");
       return;
     }
-    if (own == nullptr && document_.find("contact", name) == nullptr)
+    if (own == nullptr && law_needs(pair_.law, name) && document_.find("contact", name) == nullptr)
       fail_missing(name, ", here or in [contact]");
     take(name);
   }

@@ -128,6 +128,11 @@ inline Property above(double lower, double upper = infinity) {
 inline void positive(SceneKey& key) { key.bounds = {0.0, infinity, true}; }
 inline void not_negative(SceneKey& key) { key.bounds = {0.0, infinity, false}; }
 
+/// A list of so many entries.
+inline Property exactly(int length) {
+  return [=](SceneKey& key) { key.length = length; };
+}
+
 inline Property one_of(std::vector<std::string_view> texts) {
   return [=](SceneKey& key) { key.choices = texts; };
 }

@@ -1,4 +1,8 @@
 #include "wavebalance/app/scene/scene_writer.hpp"
+
+#include <algorithm>
+
+#include "scene/law_keys.hpp"
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
@@ -25,15 +29,14 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
   return line + "\n";
 }
 
-/// Whether a pair of this law has the key.
+/// Whether a pair of this law has the key, with a value of its own.
 bool has_value(const ContactPair& pair, std::string_view key) {
-  const bool exponential = pair.law == ContactLawType::exponential,
-             linear = pair.law == ContactLawType::linear;
+  const std::span<const std::string_view> constants = law_constant_names();
   if (key == "coefficients") return !pair.coefficients.empty();
-  if (key == "constant" || key == "exponent") return exponential;
-  if (key == "stiffness") return linear;
-  if (key == "law") return exponential || linear;
-  return key != "gap" || pair.law != ContactLawType::none;
+  if (key == "stiffness_below" && !(pair.more.stiffness_below > 0.0)) return false;
+  if (key == "gap_below" && pair.more.gap_below < 0.0) return false;
+  if (key == "law") return pair.law != ContactLawType::none && pair.law != ContactLawType::rigid;
+  return std::find(constants.begin(), constants.end(), key) == constants.end() || law_takes(pair.law, key);
 }
 
 /// Calls use(section, key) for each key of the pairs that is written.

@@ -30,7 +30,7 @@ std::vector<BasisPair> parse_pairs(std::string_view text);
 std::vector<BasisPair> common_pairs();
 
 /// Whether the pair can be taken with the scene's formulation and inner products, and if not, the reason.
-solvers::Admissibility admissibility_of(const BasisPair& pair, const Time& time);
+solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scene);
 
 /// `series` in the colour and symbol of the trial functions and the dash of the weights, which are solid
 /// where both are the same.

@@ -27,7 +27,19 @@ enum class Direction { x, y, z };
 /// Place of the load on a blade's tip.
 enum class TipPlace { leading_edge, mid_chord, trailing_edge };
 /// Contact laws, contact.law.
-enum class ContactLawType { none, exponential, linear, rigid };
+enum class ContactLawType {
+  none,
+  exponential,
+  linear,
+  rigid,
+  bilinear,
+  cubic,
+  polynomial,
+  clearance,
+  table,
+  hunt_crossley,
+  kelvin_voigt
+};
 /// What becomes of the mass at the contacts, contact.mass: it stays, or the rest of the structure takes it.
 /// `automatic` redistributes it where the law is rigid.
 enum class ContactMass { automatic, keep, redistribute };
@@ -103,6 +115,23 @@ struct Structure {
   bool operator==(const Structure&) const = default;
 };
 
+/// What laws other than the exponential, linear and rigid ones take, in [contact] or in a pair.
+struct LawConstants {
+  std::vector<double> slopes = {};      ///< N/m, bilinear: below and beyond the gap
+  double cubic_stiffness = 0.0;         ///< N/m^3, not zero
+  std::vector<double> polynomial = {};  ///< N/m, N/m^2, ...: not all zero
+  double stiffness_below = 0.0;         ///< N/m, clearance: > 0, or 0 for that of the positive side
+  double gap_below = -1.0;              ///< m, clearance: >= 0, or -1 for that of the positive side
+  std::string table = {};               ///< file of displacements and forces; absolute once loaded
+  double hertz_stiffness = 0.0;         ///< N/m^power, > 0, hunt_crossley
+  double power = 1.5;                   ///< >= 1, hunt_crossley
+  double dissipation = 0.0;             ///< s/m, >= 0, hunt_crossley
+  double damping = 0.0;                 ///< N s/m, >= 0, kelvin_voigt
+  double damping_depth = 0.0;           ///< m, >= 0, kelvin_voigt
+
+  bool operator==(const LawConstants&) const = default;
+};
+
 /// One entry of [[contact.pairs]]: a direction of contact of matrices, which moves by the sum of coefficients
 /// times degrees of freedom, and its law. Complete once loaded: what a file leaves out is that of [contact].
 struct ContactPair {
@@ -114,9 +143,17 @@ struct ContactPair {
   double exponent = 0.0;   ///< as in Contact
   double stiffness = 0.0;  ///< as in Contact
   double gap = 0.0;        ///< m, on every side that has an obstacle
+  LawConstants more = {};  ///< of further laws
 
   bool operator==(const ContactPair&) const = default;
 };
+
+/// Whether a law begins at its gap, contact.gap.
+bool has_gap(ContactLawType law);
+/// Whether its force depends on the velocity.
+bool is_damped(ContactLawType law);
+/// Whether it is a spring that may act below its gap, too.
+bool acts_on_both_sides(ContactLawType law);
 
 /// A contact of a pair, and 1 or -1 for the side of its obstacle.
 struct SidedPair {
@@ -125,7 +162,8 @@ struct SidedPair {
 };
 
 /// The contact force at a contact degree of freedom as a function of its displacement u towards the obstacle;
-/// zero for u < gap. Rigid contact has no such function: u <= gap, force >= 0, product 0.
+/// zero for u < gap, but of the springs that act everywhere or on both sides. Rigid contact has no such
+/// function: u <= gap, force >= 0, product 0. The damped laws depend on the velocity, too.
 struct Contact {
   ContactLawType law = ContactLawType::none;
   double constant = 0.0;                      ///< N, > 0, a_c of the exponential law [JL14, eq. (5)]
@@ -134,6 +172,7 @@ struct Contact {
   ContactForm form = ContactForm::automatic;  ///< the unknown that is solved for
   ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom
   double gap = 0.0;                           ///< m, displacement at which contact starts
+  LawConstants more = {};                     ///< of further laws
   std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
   /// Directions of contact in place of MatricesStructure::contact_dofs, each with its own law and gap.
   std::vector<ContactPair> pairs = {};

@@ -1,0 +1,168 @@
+// Scenes of every contact law: read, written, refused and solved.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/scene_error.hpp"
+#include "support/scene_texts.hpp"
+#include "support/summary_value.hpp"
+#include "temporary_folder.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_writer.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// bar_scene with another [contact].
+std::string scene_with(const std::string& contact) {
+  std::string text = bar_scene;
+  const auto begin = text.find("law = "), end = text.find("[forcing]");
+  return text.replace(begin, end - begin, contact);
+}
+
+const std::string tables = "-2e-3,-4e5\n0,0\n3e-3,9e5\n";
+
+/// A law and the force of its scene at u (m) and v (m/s).
+struct LawCase {
+  std::string contact;
+  double u, v, force;
+};
+
+std::vector<LawCase> cases() {
+  return {{"law = \"bilinear\"\nslopes = [1e7, -2e6]\ngap = 1e-3\n", 2e-3, 0.0, 8e3},
+          {"law = \"cubic\"\ncubic_stiffness = -1e12\n", 1e-3, 0.0, -1e3},
+          {"law = \"polynomial\"\npolynomial = [1e6, 0, 1e12]\n", -1e-3, 0.0, -2e3},
+          {"law = \"clearance\"\nstiffness = 1e8\ngap = 1e-3\n", -1.5e-3, 0.0, -5e4},
+          {"law = \"clearance\"\nstiffness = 1e8\ngap = 1e-3\ngap_below = 5e-4\nstiffness_below = 2e8\n",
+           -1.5e-3, 0.0, -2e5},
+          {"law = \"table\"\ntable = \"spring.csv\"\n", 3e-3, 0.0, 9e5},
+          {"law = \"hunt_crossley\"\nhertz_stiffness = 1e9\npower = 2\ndissipation = 0.5\ngap = 1e-3\n", 2e-3,
+           1.0, 1.5e3},
+          {"law = \"kelvin_voigt\"\nstiffness = 1e8\ndamping = 1e4\ngap = 1e-3\n", 2e-3, -2.0, 8e4}};
+}
+
+class LawScene : public ::testing::Test {
+ protected:
+  LawScene() { folder_.write("spring.csv", tables); }
+  Scene load(const std::string& text) { return parse_scene(text, (folder_ / "scene.toml").string()); }
+  SceneError::Details error(const std::string& text) {
+    return details_of_error([this](const std::string& one) { load(one); }, text);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(LawScene, HasTheForceOfItsFormula) {
+  for (const LawCase& one : cases()) {
+    const Scene scene = load(scene_with(one.contact));
+    EXPECT_NEAR(make_law(scene.contact).force(one.u, one.v), one.force, 1e-9 * std::abs(one.force))
+        << one.contact;
+  }
+}
+
+TEST_F(LawScene, IsWrittenAndReadBackEqual) {
+  for (const LawCase& one : cases()) {
+    const Scene scene = load(scene_with(one.contact));
+    const std::string written = write_scene(scene);
+    EXPECT_EQ(parse_scene(written, (folder_ / "written.toml").string()), scene) << written;
+    EXPECT_EQ(complete_scene(scene), scene) << written;
+  }
+}
+
+TEST_F(LawScene, IsRefusedWithItsKeyAndWhatIsAllowed) {
+  struct Refusal {
+    std::string contact, key, allowed;
+  };
+  for (
+      const auto& [contact, key, allowed] : std::vector<Refusal>{
+          {"law = \"bilinear\"\nslopes = [1e7]\ngap = 1e-3\n", "contact.slopes",
+           "a list of 2 numbers in N/m"},
+          {"law = \"bilinear\"\ngap = 1e-3\n", "contact.slopes", "missing"},
+          {"law = \"cubic\"\ncubic_stiffness = 0.0\n", "contact.cubic_stiffness", "finite and not zero"},
+          {"law = \"cubic\"\ncubic_stiffness = 1.0\ngap = 1e-3\n", "contact.gap", "only with contact.law"},
+          {"law = \"polynomial\"\npolynomial = [0.0]\n", "contact.polynomial", "not zero"},
+          {"law = \"clearance\"\nstiffness = 1e8\ngap = -1e-3\n", "contact.gap", "at least 0"},
+          {"law = \"clearance\"\nstiffness = 1e8\ngap = 1e-3\ngap_below = -1.0\n", "contact.gap_below",
+           ">= 0"},
+          {"law = \"table\"\ntable = \"none.csv\"\n", "contact.table", "cannot be read"},
+          {"law = \"hunt_crossley\"\nhertz_stiffness = 1e9\npower = 0.5\ndissipation = 0.5\ngap = 1e-3\n",
+           "contact.power", "in 1..10"},
+          {"law = \"hunt_crossley\"\nhertz_stiffness = 1e9\ndissipation = 0.5\ngap = 1e-3\nform = \"force\"\n",
+           "contact.form", "depends on the velocity"},
+          {"law = \"kelvin_voigt\"\nstiffness = 1e8\ngap = 1e-3\n", "contact.damping", "missing"},
+          {"law = \"linear\"\nstiffness = 1e8\ngap = 1e-3\ndamping = 1.0\n", "contact.damping",
+           "only with contact.law = \"kelvin_voigt\""}}) {
+    const auto found = error(scene_with(contact));
+    EXPECT_EQ(found.key, key) << contact;
+    EXPECT_NE(found.allowed.find(allowed), std::string::npos) << found.allowed;
+  }
+}
+
+TEST_F(LawScene, OfATableNamesFileAndLineOfWhatIsWrong) {
+  folder_.write("spring.csv", "0,0\n1e-3,soft\n");
+  const auto found = error(scene_with("law = \"table\"\ntable = \"spring.csv\"\n"));
+  EXPECT_EQ(found.key, "contact.table");
+  EXPECT_NE(found.allowed.find("spring.csv:2: \"1e-3,soft\""), std::string::npos) << found.allowed;
+}
+
+TEST_F(LawScene, OfADamperIsRefusedForHaarFunctionsAndNonlinearModes) {
+  const std::string stop = cases()[6].contact;
+  std::string haar = with(scene_with(stop), "trial = \"fourier\"", "trial = \"haar\"");
+  const auto functions = error(haar);
+  EXPECT_EQ(functions.key, "time.trial");
+  EXPECT_NE(functions.allowed.find("\"hunt_crossley\""), std::string::npos) << functions.allowed;
+  EXPECT_NE(functions.allowed.find("\"haar\""), std::string::npos) << functions.allowed;
+  std::string mode =
+      with(rod_scene, "law = \"rigid\"                   # 10\n", stop.substr(0, stop.find("gap")));
+  const auto free = error(mode);
+  EXPECT_EQ(free.key, "contact.law");
+  EXPECT_NE(free.allowed.find("takes energy from a free motion"), std::string::npos) << free.allowed;
+}
+
+TEST_F(LawScene, IsSolvedAndARecordOfADamperSaysWhatItDissipates) {
+  for (const LawCase& one : cases()) {
+    const Record record = analyse(load(with(scene_with(one.contact), "functions = 64", "functions = 31")));
+    EXPECT_TRUE(record.converged) << one.contact << record.status;
+    const bool damped =
+        one.contact.find("hunt") != std::string::npos || one.contact.find("kelvin") != std::string::npos;
+    const bool named = std::any_of(record.summary.begin(), record.summary.end(),
+                                   [](const auto& entry) { return entry.first == "contact_dissipation_J"; });
+    EXPECT_EQ(named, damped) << one.contact;
+    if (damped) EXPECT_GT(value_of<double>(record.summary, "contact_dissipation_J"), 0.0);
+  }
+}
+
+Record example(const std::string& name) {
+  return analyse(load_scene(std::filesystem::path(WAVEBALANCE_SCENES) / "laws" / name));
+}
+
+// The peak of Duffing's oscillator lies on its backbone, w^2 = 1 + 3/4 k3 a^2, where c w a = F.
+TEST(LawExample, DuffingsOscillatorHasItsPeakAndTwoFolds) {
+  const Record record = example("duffing.toml");
+  EXPECT_TRUE(record.converged) << record.status;
+  const double w = std::sqrt(0.5 + std::sqrt(0.25 + 0.75 * 0.5 * 0.01 / (0.04 * 0.04)));
+  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 0.1 / (0.04 * w),
+              0.02 * 0.1 / (0.04 * w));
+}
+
+TEST(LawExample, BacklashTouchesBothSides) {
+  const Record record = example("backlash.toml");
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_GT(value_of<double>(record.summary, "max_displacement_m"), 0.5);
+  EXPECT_LT(value_of<double>(record.summary, "min_displacement_m"), -0.8);
+}
+
+TEST(LawExample, ARubberStopTakesMoreThanATenthOfTheWork) {
+  const Record record = example("rubber_stop.toml");
+  EXPECT_TRUE(record.converged) << record.status;
+  const double rms = value_of<double>(record.summary, "rms_displacement_m");
+  EXPECT_GT(value_of<double>(record.summary, "contact_dissipation_J"),
+            0.1 * 0.1 * std::pow(2 * 3.14159 * 0.2 * rms, 2) * 5.0);
+}
+
+}  // namespace
+}  // namespace wavebalance::app
