@@ -119,6 +119,17 @@ CostEstimate estimate_cost(const Scene& scene) {
   return cost;
 }
 
+std::string slow_stepping_advice(const Scene& scene) {
+  constexpr int few = 20;  // modes, the fastest of which are followed in acceptable time
+  const bool reducible = scene.structure.type != StructureType::bar && scene.structure.kept_modes < 0;
+  if (scene.analysis.type != AnalysisType::time_stepping || !reducible || reduced_size(scene) <= few)
+    return "";
+  return fmt::format(
+      "time stepping follows all {} modes, the fastest of which may take hours; structure.kept_modes = 8 takes "
+      "the lowest, and analysis.type = \"forced_response\" needs no steps",
+      reduced_size(scene));
+}
+
 double available_memory() {
   const double machine =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));

@@ -185,10 +185,14 @@ std::string time_lines(const Time& time) {
       pair.admissible ? "admissible" : "NOT admissible: " + pair.reason);
 }
 
+std::string advice_line(const std::string& advice) {
+  return advice.empty() ? "" : "advice     " + advice + "\n";
+}
+
 std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
-    return fmt::format("size       {} states, periods until they differ by {}\n", 2 * reduced_size(scene),
-                       number_text(scene.analysis.tolerance));
+    return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
+                       number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
   if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",

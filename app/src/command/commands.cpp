@@ -164,6 +164,8 @@ int run_scene(const RunArguments& arguments) {
   const StartMotion start =
       arguments.start_from.empty() ? StartMotion{} : read_start_motion(arguments.start_from);
   require_start_fits(start, scene);
+  const std::string advice = slow_stepping_advice(scene);
+  if (!advice.empty() && !arguments.quiet) std::fprintf(stderr, "wavebalance: %s\n", advice.c_str());
   OutputFiles files(arguments.output);
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep ||
                        scene.analysis.type == AnalysisType::amplitude_sweep);

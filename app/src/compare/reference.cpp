@@ -90,9 +90,15 @@ class ReferenceSearch {
   /// A reference that is the motion of a coarse balance, the guide, where there is one.
   std::optional<Reference> beside_guide() {
     constexpr bool with_stability = true;
+    constexpr int few = 6;  // contacts, beyond which a count of multipliers takes longer than the solution
     guide_ = balance(1e-2, with_stability);
-    if (guide_ && guide_->refinement->estimated_error > 1e-3)
-      if (auto finer = balance(1e-3, with_stability)) guide_ = std::move(finer);
+    if (guide_ && guide_->refinement->estimated_error > 1e-3) {
+      const bool again = model_.contacts() <= few;
+      if (auto finer = balance(1e-3, again)) {
+        if (!again) finer->stability = guide_->stability;
+        guide_ = std::move(finer);
+      }
+    }
     std::optional<Reference> found = shooting();
     if (!found) found = rigid_flows();
     if (!found) found = finer_balance();

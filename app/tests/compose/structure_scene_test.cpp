@@ -52,6 +52,17 @@ TEST_F(ChainScene, TimeSteppingCountsTheStatesOfTheMatrices) {
   EXPECT_NE(text.find("size       6 states"), std::string::npos) << text;
 }
 
+TEST(StripScene, TimeSteppingOfManyModesIsAdvisedToKeepFewer) {
+  const std::string strip = WAVEBALANCE_SCENES "/matrices/strip_forced.toml";
+  const auto described = [&](std::vector<std::string> more) {
+    more.push_back("analysis.type=time_stepping");
+    return describe_scene(load_scene(strip, more, std::vector<std::string>{"analysis.motion_points"}));
+  };
+  EXPECT_NE(described({}).find("advice     time stepping follows all 72 modes"), std::string::npos)
+      << described({});
+  EXPECT_EQ(described({"structure.kept_modes=4"}).find("advice"), std::string::npos);
+}
+
 TEST_F(ChainScene, DampingThatAddsEnergyIsAWarning) {
   folder_.write("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 10\n2 2 10\n3 3 -1\n");
   const std::string damped = with(chain_scene, "modal_damping = 0.01 ", "damping = \"c.mtx\"");

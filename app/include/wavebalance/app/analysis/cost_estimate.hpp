@@ -28,6 +28,10 @@ struct CostEstimate {
 /// memory that of the structure and the output. O(1), but matrices that have not been read are read.
 CostEstimate estimate_cost(const Scene& scene);
 
+/// One sentence for a scene of time stepping that follows more modes than a user waits for, and what takes
+/// fewer; empty for others. O(1), but matrices that have not been read are read.
+std::string slow_stepping_advice(const Scene& scene);
+
 /// Bytes of memory that this process may have: those of the machine, or the limit of the process (setrlimit)
 /// or of its control group where that is less.
 double available_memory();
