@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -89,20 +90,24 @@ class ReferenceSearch {
 
   /// A reference that is the motion of a coarse balance, the guide, where there is one.
   std::optional<Reference> beside_guide() {
-    constexpr bool with_stability = true;
     constexpr int few = 6;  // contacts, beyond which a count of multipliers takes longer than the solution
+    const bool with_stability = model_.contacts() <= few;
     guide_ = balance(1e-2, with_stability);
-    if (guide_ && guide_->refinement->estimated_error > 1e-3) {
-      const bool again = model_.contacts() <= few;
-      if (auto finer = balance(1e-3, again)) {
-        if (!again) finer->stability = guide_->stability;
-        guide_ = std::move(finer);
-      }
-    }
+    if (guide_ && guide_->refinement->estimated_error > 1e-3)
+      if (auto finer = balance(1e-3, with_stability)) guide_ = std::move(finer);
     std::optional<Reference> found = shooting();
     if (!found) found = rigid_flows();
     if (!found) found = finer_balance();
+    if (found && !with_stability) count_multipliers(*found);
     return found;
+  }
+
+  /// Those of the coarsest balance, after all others have had their time.
+  void count_multipliers(Reference& reference) {
+    const double seconds = std::exchange(seconds_, std::numeric_limits<double>::infinity());
+    if (const auto coarse = balance(1e-2, true); coarse && coarse->stability)
+      reference.stability = *coarse->stability;
+    seconds_ = seconds;
   }
 
   /// The response without contact, where it keeps away from every obstacle.
