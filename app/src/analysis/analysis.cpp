@@ -261,7 +261,7 @@ std::string Sweep::status() const {
 }
 
 Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
-  return frequency_sweep(scene, make_model(scene), observer);
+  return frequency_sweep(scene, make_model(scene, observer), observer);
 }
 
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
@@ -352,7 +352,7 @@ Record analyse(const Scene& scene, const Observer& observer) {
 Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer) {
   require_start_fits(start, scene);
   if (scene.structure.kept_modes >= 0) goes_on(observer, {"reduction of the structure"});
-  const StructureModel model = make_model(scene);
+  const StructureModel model = make_model(scene, observer);
   ResponseOptions options;
   options.observer = observer;
   options.structure_points = structure_points(scene);

@@ -130,7 +130,7 @@ Time solved_time(Time time, const Response& response) {
 }
 
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options) {
-  return weighted_residual_response(scene, make_model(scene), options);
+  return weighted_residual_response(scene, make_model(scene, options.observer), options);
 }
 
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
@@ -157,7 +157,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
 }
 
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options) {
-  return time_stepping_response(scene, make_model(scene), options);
+  return time_stepping_response(scene, make_model(scene, options.observer), options);
 }
 
 Response time_stepping_response(const Scene& scene, const StructureModel& model,
@@ -192,7 +192,7 @@ Response shooting_response(const Scene& scene, const ResponseOptions& options) {
   shooting.output_points = scene.analysis.output_points;
   shooting.full_history = wants_structure(scene, options);
   shooting.observer = options.observer;
-  const StructureModel model = make_model(scene);
+  const StructureModel model = make_model(scene, options.observer);
   auto found = solvers::shoot(model.structure, make_law(scene.contact), scene.forcing.frequency, shooting);
   Response result;
   result.wall_seconds = seconds_since(start);

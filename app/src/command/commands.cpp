@@ -15,6 +15,7 @@
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 
@@ -135,13 +136,19 @@ void check_memory(const Scene& scene, double max_gigabytes) {
                               "; fewer functions, quadrature_points or output_points take less");
 }
 
-/// Solves with a progress bar, unless `quiet`, until the guard has noted a signal.
+/// Solves with a progress bar, unless `quiet`, until the guard has noted a signal. Ends the program if that
+/// was before anything was solved.
 Record solve(const Scene& scene, const StartMotion& start, const InterruptGuard& guard, bool quiet) {
   ProgressBar bar;
-  return analyse(scene, start, [&](const Progress& progress) {
-    if (!quiet) bar.show(progress);
-    return guard.signal() == 0;
-  });
+  try {
+    return analyse(scene, start, [&](const Progress& progress) {
+      if (!quiet) bar.show(progress);
+      return guard.signal() == 0;
+    });
+  } catch (const ReductionCancelled&) {
+    bar.finish();
+    guard.end_program();
+  }
 }
 
 /// Writes all files at once, in place of those of an earlier record. The summary is last, so that it exists

@@ -11,6 +11,7 @@
 #include "command/run_report.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 
@@ -84,6 +85,22 @@ void say(const CompareArguments& arguments, const ComparisonRecord& record,
                  record.status.c_str());
 }
 
+/// Compares with a progress bar, unless `quiet`, until the guard has noted a signal. Ends the program if that
+/// was before anything was solved.
+ComparisonRecord compare_until_signal(const Scene& scene, const ComparisonOptions& options,
+                                      const InterruptGuard& guard, bool quiet) {
+  ProgressBar bar;
+  try {
+    return compare_bases(scene, options, [&](const Progress& progress) {
+      if (!quiet) bar.show(progress);
+      return guard.signal() == 0;
+    });
+  } catch (const ReductionCancelled&) {
+    bar.finish();
+    guard.end_program();
+  }
+}
+
 }  // namespace
 
 int compare_scene(const CompareArguments& arguments) {
@@ -95,12 +112,7 @@ int compare_scene(const CompareArguments& arguments) {
   check_comparison(scene, options);
   OutputFiles output(arguments.run.output);
   InterruptGuard guard(true);
-  ProgressBar bar;
-  const ComparisonRecord record = compare_bases(scene, options, [&](const Progress& progress) {
-    if (!arguments.run.quiet) bar.show(progress);
-    return guard.signal() == 0;
-  });
-  bar.finish();
+  const ComparisonRecord record = compare_until_signal(scene, options, guard, arguments.run.quiet);
   if (record.interrupted && record.table.empty()) guard.end_program();
   std::vector<ResultFile> files = files_of(scene, record, arguments.run.report);
   const Summary summary = whole_summary(arguments, record, files);

@@ -56,7 +56,7 @@ SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options) {
 class ResponseComparison {
  public:
   ResponseComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
-      : measured_{scene, make_model(scene), {}}, options_(options), observer_(observer) {}
+      : measured_{scene, make_model(scene, observer), {}}, options_(options), observer_(observer) {}
 
   Comparison compare() {
     SplitPairs pairs = split_pairs(measured_.scene, options_);

@@ -72,7 +72,7 @@ ComparedCurve curve_of(const Scene& scene, const BasisPair& pair, const Sweep& s
 class CurveComparison {
  public:
   CurveComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
-      : scene_(scene), model_(make_model(scene)), options_(options), observer_(observer) {
+      : scene_(scene), model_(make_model(scene, observer)), options_(options), observer_(observer) {
     scene_.analysis.stability = scene_.analysis.branches = false;
   }
 

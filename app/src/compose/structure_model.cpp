@@ -90,15 +90,27 @@ Sparse projected_skew_part(const Sparse& matrix, const Eigen::MatrixXd& transfor
   return Eigen::MatrixXd(transformation.transpose() * (skew * transformation)).sparseView();
 }
 
+/// Shows the phases of a reduction with their per cent; how much of the analysis it is, is not known yet.
+fem::Observer reduction_observer(const solvers::Observer& observer) {
+  if (!observer) return {};
+  return [&observer](std::string_view phase, double done) {
+    const std::string text = "reducing the structure, " + std::string(phase);
+    if (observer({.phase = text, .value = 100.0 * done, .measure = "%"})) return true;
+    throw ReductionCancelled();
+  };
+}
+
 /// The modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
 /// gyroscopic and circulatory forces, are projected on them.
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
-            const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes) {
+            const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes,
+            const solvers::Observer& observer) {
   const fem::Matrices symmetric{
       .mass = matrices.mass,
       .damping = matrices.damping.size() > 0 ? symmetric_part(matrices.damping) : matrices.damping,
       .stiffness = symmetric_part(matrices.stiffness)};
-  fem::CraigBampton reduced = fem::craig_bampton(symmetric, boundary, {.modes = kept_modes, .solver = {}});
+  fem::CraigBampton reduced = fem::craig_bampton(
+      symmetric, boundary, {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
   if (reduced.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
                              ": the eigenvalue solver did not find them all");
@@ -170,8 +182,9 @@ void stiffen_by_rotation(fem::Matrices& matrices, const fem::SolidModel& solid, 
   matrices.stiffness = stiffening.stiffness(matrices.stiffness, blade.rotation_speed);
 }
 
-StructureModel blade_model(const Scene& scene) {
+StructureModel blade_model(const Scene& scene, const solvers::Observer& observer) {
   StructureModel model;
+  if (!solvers::goes_on(observer, {.phase = "assembling the structure"})) throw ReductionCancelled();
   const auto blade = std::make_shared<const fem::Blade>(fem::blade(blade_options(scene.structure)));
   fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
   stiffen_by_rotation(matrices, blade->model, scene.structure.blade);
@@ -180,12 +193,12 @@ StructureModel blade_model(const Scene& scene) {
                     forces_of(scene.forcing, {.force = blade_load(scene, *blade, 1.0),
                                               .inertia = blade_inertia(scene, *blade, matrices.mass)})};
   reduce(model, matrices, loads, solvers::contact_rows(blade->contact_unknowns, model.unknowns),
-         blade->boundary_unknowns, scene.structure.kept_modes);
+         blade->boundary_unknowns, scene.structure.kept_modes, observer);
   model.blade = blade;
   return model;
 }
 
-StructureModel matrices_model(const Scene& scene) {
+StructureModel matrices_model(const Scene& scene, const solvers::Observer& observer) {
   const auto files = structure_files(scene);
   check_against_files(scene, *files);
   const Structure& structure = scene.structure;
@@ -206,16 +219,16 @@ StructureModel matrices_model(const Scene& scene) {
     model.structure.contact_directions = directions;
     return model;
   }
-  reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes);
+  reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes, observer);
   return model;
 }
 
-StructureModel model_of_type(const Scene& scene) {
+StructureModel model_of_type(const Scene& scene, const solvers::Observer& observer) {
   switch (scene.structure.type) {
     case StructureType::blade:
-      return blade_model(scene);
+      return blade_model(scene, observer);
     case StructureType::matrices:
-      return matrices_model(scene);
+      return matrices_model(scene, observer);
     case StructureType::bar:
       break;
   }
@@ -245,9 +258,9 @@ Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) cons
   return reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates;
 }
 
-StructureModel make_model(const Scene& scene) {
+StructureModel make_model(const Scene& scene, const solvers::Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
-  StructureModel model = model_of_type(scene);
+  StructureModel model = model_of_type(scene, observer);
   add_modal_damping(model.structure, scene.structure.modal_damping);
   if (redistributes_mass(scene)) {
     const solvers::LinearStructure with_mass = structure_with_mass(scene, model);

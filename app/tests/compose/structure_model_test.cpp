@@ -130,6 +130,27 @@ gap = 1e-3
 type = "nonlinear_mode"
 )";
 
+TEST(BladeModel, ShowsItsReductionAndIsCancelledBetweenItsSteps) {
+  const TemporaryFolder folder;
+  const Scene scene = load_scene(folder.write("case.toml", small_blade));
+  std::vector<std::string> phases;
+  int calls = 0, last = 1000;
+  const auto observe = [&](const wavebalance::solvers::Progress& progress) {
+    if (phases.empty() || phases.back() != progress.phase) phases.emplace_back(progress.phase);
+    return ++calls < last;
+  };
+  EXPECT_EQ(make_model(scene, observe).structure.stiffness.toDense(),
+            make_model(scene).structure.stiffness.toDense());
+  EXPECT_EQ(phases.front(), "assembling the structure");
+  EXPECT_EQ(phases[1], "reducing the structure, factorising the stiffness");
+  EXPECT_EQ(phases.back(), "reducing the structure, projecting the matrices");
+  for (last = calls; last > 0; last /= 2) {
+    calls = 0;
+    EXPECT_THROW(make_model(scene, observe), ReductionCancelled);
+    EXPECT_EQ(calls, last);
+  }
+}
+
 double first_omega(const StructureModel& model) {
   return fem::eigenmodes(model.structure.stiffness, model.structure.mass, 1).omega[0];
 }

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/blade.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
@@ -36,11 +38,19 @@ struct StructureModel {
   Eigen::MatrixXd recover(const Eigen::MatrixXd& coordinates) const;
 };
 
+/// The observer of make_model() has stopped it.
+class ReductionCancelled : public std::runtime_error {
+ public:
+  ReductionCancelled() : std::runtime_error("the reduction of the structure was cancelled") {}
+};
+
 /// The scene's bar, blade or matrices with their damping, reduced if it has kept_modes. A blade rotates
 /// about its axis, which stiffens it. Throws std::invalid_argument for scenes that load_scene() would have
 /// rejected (blades: also inverted elements), std::domain_error if the structure can move
 /// freely, std::runtime_error if the kept modes are not found.
-StructureModel make_model(const Scene& scene);
+/// The observer is called between the steps of a reduction, a single factorisation being one of them, and
+/// stops it by ReductionCancelled.
+StructureModel make_model(const Scene& scene, const solvers::Observer& observer = {});
 
 /// The number of contacts of a scene. O(contacts).
 int contact_count(const Scene& scene);
