@@ -173,8 +173,9 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<i
   if (files.load.size() != size)
     throw StructureFault(
         std::string(load_key),
-        fmt::format("the vector has {} entries; expected {}, one for each row of structure.stiffness",
-                    files.load.size(), size));
+        fmt::format(
+            "the vector in {} has {} entries; expected {}, one for each row of structure.stiffness in {}",
+            paths[3], files.load.size(), size, paths[1]));
   files.load = files.at_unknowns(files.load);
   return files;
 }

@@ -168,6 +168,8 @@ TEST_F(ChainScene, LoadsAreAFileOrAList) {
   EXPECT_EQ(make_model(load(file)).structure.load, make_model(load(chain_scene)).structure.load);
   folder_.write("short.mtx", "%%MatrixMarket matrix array real general\n2 1\n0\n1\n");
   expect_error(with(file, "f.mtx", "short.mtx"), 12, "forcing.load", "2 entries; expected 3");
+  for (const char* name : {"short.mtx", "k.mtx"})  // both files
+    expect_error(with(file, "f.mtx", "short.mtx"), 12, "forcing.load", (folder_ / name).string());
   expect_error(with(file, "f.mtx", "k.mtx"), 12, "forcing.load", "the count of columns is 3; it must be 1");
   folder_.write("sparse.mtx", "%%MatrixMarket matrix coordinate real general\n3 1 1\n3 1 1\n");
   EXPECT_EQ(make_model(load(with(file, "f.mtx", "sparse.mtx"))).structure.load,
