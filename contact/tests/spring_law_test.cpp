@@ -143,7 +143,7 @@ TEST(SpringLaw, IsFiniteForEveryFiniteDisplacementAndPassesOnWhatIsNotANumber) {
   check(TableLaw({0.0, 1.0, 2.0}, {0.0, 1.0, 3.0}));
 }
 
-std::string message_of(auto&& call) {
+std::string refusal_of_spring(auto&& call) {
   try {
     call();
   } catch (const std::invalid_argument& error) {
@@ -153,18 +153,19 @@ std::string message_of(auto&& call) {
 }
 
 TEST(SpringLaw, NamesTheConstantThatIsWrong) {
-  EXPECT_EQ(message_of([] { ClearanceLaw(-1.0, 1e-3); }),
+  EXPECT_EQ(refusal_of_spring([] { ClearanceLaw(-1.0, 1e-3); }),
             "ClearanceLaw: above.stiffness is -1; it must be positive and finite");
-  EXPECT_EQ(message_of([] {
+  EXPECT_EQ(refusal_of_spring([] {
               ClearanceLaw({1.0, 0.0}, {1.0, -0.5});
             }),
             "ClearanceLaw: below.gap is -0.5; it must be finite and at least 0");
-  EXPECT_EQ(message_of([] { CubicLaw(0.0); }), "CubicLaw: stiffness is 0; it must be finite and not zero");
-  EXPECT_EQ(message_of([] {
+  EXPECT_EQ(refusal_of_spring([] { CubicLaw(0.0); }),
+            "CubicLaw: stiffness is 0; it must be finite and not zero");
+  EXPECT_EQ(refusal_of_spring([] {
               PolynomialLaw({0.0, 0.0});
             }),
             "PolynomialLaw: coefficients has no entry that is not zero; give one or more");
-  EXPECT_EQ(message_of([] { BilinearLaw(1.0, std::nan(""), 0.0); }),
+  EXPECT_EQ(refusal_of_spring([] { BilinearLaw(1.0, std::nan(""), 0.0); }),
             "BilinearLaw: slope_beyond is nan; it must be finite");
 }
 

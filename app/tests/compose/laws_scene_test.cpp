@@ -25,7 +25,7 @@ std::string scene_with(const std::string& contact) {
   return text.replace(begin, end - begin, contact);
 }
 
-const std::string tables = "-2e-3,-4e5\n0,0\n3e-3,9e5\n";
+const std::string spring_table = "-2e-3,-4e5\n0,0\n3e-3,9e5\n";
 
 /// A law and the force of its scene at u (m) and v (m/s).
 struct LawCase {
@@ -48,7 +48,7 @@ std::vector<LawCase> cases() {
 
 class LawScene : public ::testing::Test {
  protected:
-  LawScene() { folder_.write("spring.csv", tables); }
+  LawScene() { folder_.write("spring.csv", spring_table); }
   Scene load(const std::string& text) { return parse_scene(text, (folder_ / "scene.toml").string()); }
   SceneError::Details error(const std::string& text) {
     return details_of_error([this](const std::string& one) { load(one); }, text);
@@ -136,13 +136,13 @@ TEST_F(LawScene, IsSolvedAndARecordOfADamperSaysWhatItDissipates) {
   }
 }
 
-Record example(const std::string& name) {
+Record law_example(const std::string& name) {
   return analyse(load_scene(std::filesystem::path(WAVEBALANCE_SCENES) / "laws" / name));
 }
 
 // The peak of Duffing's oscillator lies on its backbone, w^2 = 1 + 3/4 k3 a^2, where c w a = F.
 TEST(LawExample, DuffingsOscillatorHasItsPeakAndTwoFolds) {
-  const Record record = example("duffing.toml");
+  const Record record = law_example("duffing.toml");
   EXPECT_TRUE(record.converged) << record.status;
   const double w = std::sqrt(0.5 + std::sqrt(0.25 + 0.75 * 0.5 * 0.01 / (0.04 * 0.04)));
   EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 0.1 / (0.04 * w),
@@ -150,14 +150,14 @@ TEST(LawExample, DuffingsOscillatorHasItsPeakAndTwoFolds) {
 }
 
 TEST(LawExample, BacklashTouchesBothSides) {
-  const Record record = example("backlash.toml");
+  const Record record = law_example("backlash.toml");
   EXPECT_TRUE(record.converged) << record.status;
   EXPECT_GT(value_of<double>(record.summary, "max_displacement_m"), 0.5);
   EXPECT_LT(value_of<double>(record.summary, "min_displacement_m"), -0.8);
 }
 
 TEST(LawExample, ARubberStopTakesMoreThanATenthOfTheWork) {
-  const Record record = example("rubber_stop.toml");
+  const Record record = law_example("rubber_stop.toml");
   EXPECT_TRUE(record.converged) << record.status;
   const double rms = value_of<double>(record.summary, "rms_displacement_m");
   EXPECT_GT(value_of<double>(record.summary, "contact_dissipation_J"),
