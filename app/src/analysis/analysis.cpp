@@ -107,11 +107,31 @@ int structure_points(const Scene& scene) {
   return scene.analysis.type == AnalysisType::time_stepping ? scene.analysis.output_points : bar_instants;
 }
 
+/// Why a structure that is free to move has no periodic motion, and along what it moves.
+void warn_of_unbalanced_load(Record& record, const StructureModel& model) {
+  const Eigen::MatrixXd& rigid = model.structure.rigid_modes;
+  if (rigid.cols() == 0 || record.converged) return;
+  const Eigen::MatrixXd moved = model.reduced() ? Eigen::MatrixXd(model.recovery * rigid) : rigid;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < moved.cols(); ++i) {
+    Eigen::Index row = 0;
+    moved.col(i).cwiseAbs().maxCoeff(&row);
+    if (std::find(rows.begin(), rows.end(), row + 1) == rows.end()) rows.push_back(row + 1);
+  }
+  const bool unbalanced = record.status == "unbalanced";
+  record.warnings.push_back(fmt::format(
+      "The structure is free to move along {} rigid motion{}, which move degree{} of freedom {} most. {}no contact force "
+      "balances its static load, no periodic motion exists.",
+      rigid.cols(), rigid.cols() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", fmt::join(rows, ", "),
+      unbalanced ? "Since " : "Where "));
+}
+
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
   record.warnings = model.warnings;
   record.converged = response.converged;
   record.status = response.status;
+  warn_of_unbalanced_load(record, model);
   record.summary = solution_entries(response.converged, response.status, response.residual,
                                     response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.leading());
@@ -179,6 +199,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
                        });
   record.status = sweep.status();
   record.warnings = model.warnings;
+  warn_of_unbalanced_load(record, model);
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =

@@ -258,6 +258,7 @@ std::string compliance_text(const StructureFacts& facts) {
                        facts.contacts[static_cast<std::size_t>(contact)]);
   };
   const Eigen::Index count = facts.compliances.size();
+  if (count == 0) return "none at rest, since the structure is free to move";
   std::vector<std::string> texts;
   for (Eigen::Index contact = 0; contact < std::min(count, few); ++contact) texts.push_back(at(contact));
   if (count <= few) return fmt::format("{}", fmt::join(texts, "; "));

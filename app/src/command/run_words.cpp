@@ -49,6 +49,8 @@ std::string solution_sentence(const Summary& summary) {
           ? fmt::format(", in {}; the largest relative residual is {:.2g}.", seconds, residual)
           : fmt::format(", in {}.", seconds);
   if (converged != nullptr && *converged) return "The scene was solved" + ending;
+  if (text(summary, "status") == "unbalanced")
+    return "No periodic motion exists: the structure is free to move, and no contact force balances its static load.";
   return "The scene was not solved (" + spaced(text(summary, "status")) + ")" + ending +
          " What follows is not a solution.";
 }
@@ -135,6 +137,9 @@ std::string status_sentence(const std::string& status) {
        "more quadrature_points narrow that part."},
       {"too_few_harmonics",
        "Stability is not known everywhere: contact is stiffer than the functions resolve. More functions help."},
+      {"structural_damping",
+       "Stability is not known: structural damping has no equation in time. With modal_damping = loss_factor / 2 in "
+       "its place it is."},
       {"undamped", "Stability is not asymptotic: the structure has a mode without damping."},
       {"coupled_massless",
        "Stability is not known: contacts without mass and damping deflect each other at once."},

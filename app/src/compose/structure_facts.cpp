@@ -11,20 +11,25 @@
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/static_displacements.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
+#include "wavebalance/solvers/structure/rigid_modes.hpp"
 
 namespace wavebalance::app {
 namespace {
 
-/// phi^T C phi / (2 omega), the ratio to critical damping as far as C does not couple the modes.
+/// phi^T C phi / (2 omega), the ratio to critical damping as far as C does not couple the modes, and half the
+/// loss factor.
 Eigen::VectorXd damping_ratios_of(const Scene& scene, const StructureFiles& files,
                                   const fem::EigenmodesResult& modes) {
   const Structure& structure = scene.structure;
-  if (structure.stiffness_damping > 0.0) return 0.5 * structure.stiffness_damping * modes.omega;
-  Eigen::VectorXd ratios = Eigen::VectorXd::Constant(modes.omega.size(), structure.modal_damping);
+  const double hysteretic = 0.5 * structure.loss_factor;
+  if (structure.stiffness_damping > 0.0)
+    return (0.5 * structure.stiffness_damping * modes.omega).array() + hysteretic;
+  Eigen::VectorXd ratios =
+      Eigen::VectorXd::Constant(modes.omega.size(), structure.modal_damping + hysteretic);
   if (files.matrices.damping.size() == 0) return ratios;
   for (Eigen::Index mode = 0; mode < ratios.size(); ++mode) {
     const Eigen::VectorXd force = files.matrices.damping * modes.shapes.col(mode);
-    ratios[mode] = modes.shapes.col(mode).dot(force) / (2.0 * modes.omega[mode]);
+    ratios[mode] += modes.shapes.col(mode).dot(force) / (2.0 * modes.omega[mode]);
   }
   return ratios;
 }
@@ -33,6 +38,14 @@ Eigen::VectorXd damping_ratios_of(const Scene& scene, const StructureFiles& file
 Scene with_one_side(Scene scene) {
   for (ContactPair& pair : scene.contact.pairs) pair.side = ObstacleSide::positive;
   return scene;
+}
+
+/// Their frequencies are zero, and a damping ratio has no meaning.
+void leave_out_rigid_modes(fem::EigenmodesResult& modes, Eigen::Index rigid) {
+  const Eigen::Index kept = std::max<Eigen::Index>(0, modes.omega.size() - rigid);
+  modes.omega = modes.omega.tail(kept).eval();
+  modes.frequencies_hz = modes.frequencies_hz.tail(kept).eval();
+  modes.shapes = modes.shapes.rightCols(kept).eval();
 }
 
 /// The diagonal of S K^-1 S^T by an LU.
@@ -68,19 +81,24 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   const fem::Matrices& matrices = files->matrices;
   const auto size = static_cast<int>(matrices.stiffness.rows());
   const Eigen::SparseMatrix<double> elastic = symmetric_part(matrices.stiffness);
-  const auto found = fem::eigenmodes(elastic, matrices.mass, std::min(modes, size));
+  const bool free = scene.structure.matrices.free;
+  fem::EigenmodesOptions options;
+  options.shift = shift_of(free, elastic, matrices.mass);
+  auto found = fem::eigenmodes(elastic, matrices.mass, std::min(modes, size), options);
+  if (free) leave_out_rigid_modes(found, solvers::find_rigid_modes(matrices.mass, elastic).cols());
   StructureFacts facts;
   facts.frequencies_hz = found.frequencies_hz;
   facts.damping_ratios = damping_ratios_of(scene, *files, found);
   const solvers::ContactDirections directions = contact_directions(with_one_side(scene), *files);
   const Eigen::MatrixXd loads = directions.transpose();
+  facts.contacts = names_of_contacts(scene, *files);
+  if (free) return facts;
   if (solvers::is_symmetric(matrices.stiffness)) {
     const Eigen::MatrixXd displacements = fem::static_displacements(matrices.stiffness, loads);
     facts.compliances = loads.cwiseProduct(displacements).colwise().sum().transpose();
   } else {
     facts.compliances = circulatory_compliances(matrices, directions);
   }
-  facts.contacts = names_of_contacts(scene, *files);
   return facts;
 }
 

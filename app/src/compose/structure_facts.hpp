@@ -12,7 +12,9 @@ struct StructureFacts {
   Eigen::VectorXd
       frequencies_hz;  ///< of the first linear modes without contact, by M and the symmetric part of K
   Eigen::VectorXd damping_ratios;  ///< phi^T C phi / (2 omega) of each
-  Eigen::VectorXd compliances;  ///< m/N: static displacement along each direction of contact per force there
+  /// m/N: static displacement along each direction of contact per force there; none of a structure that is
+  /// free.
+  Eigen::VectorXd compliances;
   std::vector<std::string> contacts;  ///< one per compliance: "node 7 z", "row 20", "node 7 z, node 9 z"
 };
 

@@ -86,18 +86,33 @@ std::string advice_on(const std::vector<int>& rows) {
       rows.size() > shown ? ", ..." : "");
 }
 
-void check_matrices(const fem::Matrices& matrices, bool unsymmetric) {
+/// Advice for a fault that a key of the scene would accept.
+std::string advice_on(const fem::StructureFault& fault, const fem::Matrices& matrices,
+                      const MatricesStructure& structure) {
+  const bool mass = fault.matrix() == fem::StructureMatrix::mass;
+  if (mass) return advice_on(rows_without_mass(matrices.mass));
+  if (!structure.unsymmetric && fault.reason().find("is not symmetric") == 0)
+    return ", or say structure.unsymmetric = true if it is meant";
+  const bool stiffness = fault.matrix() == fem::StructureMatrix::stiffness;
+  if (stiffness && !structure.free && fault.reason().find("free to move") != std::string::npos)
+    return " Say structure.free = true if it is meant";
+  return "";
+}
+
+void check_matrices(const fem::Matrices& matrices, const MatricesStructure& structure) {
   try {
-    fem::check_structure(matrices, {.unsymmetric = unsymmetric, .first_index = 1});
+    fem::check_structure(
+        matrices, {.allow_free = structure.free, .unsymmetric = structure.unsymmetric, .first_index = 1});
   } catch (const fem::StructureFault& fault) {
-    const bool mass = fault.matrix() == fem::StructureMatrix::mass;
-    const bool may_be = !unsymmetric && !mass && fault.reason().find("is not symmetric") == 0;
     throw StructureFault(std::string(key_of(fault.matrix())),
-                         "the matrix " + fault.reason() +
-                             (mass     ? advice_on(rows_without_mass(matrices.mass))
-                              : may_be ? ", or say structure.unsymmetric = true if it is meant"
-                                       : ""));
+                         "the matrix " + fault.reason() + advice_on(fault, matrices, structure));
   }
+  if (!structure.free) return;
+  if (!solvers::is_symmetric(matrices.stiffness))
+    throw StructureFault(std::string(stiffness_key),
+                         "the matrix is not symmetric; expected a symmetric one with structure.free = true");
+  if (!fem::positive_semidefinite(matrices.stiffness))
+    throw StructureFault(std::string(stiffness_key), "the matrix is not positive semidefinite");
 }
 
 /// The rows that base displacements move, from 0, ascending.
@@ -148,10 +163,11 @@ void hold_moving_rows(StructureFiles& files) {
 }
 
 StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<int> moving,
-                          bool unsymmetric) {
+                          const MatricesStructure& structure) {
   StructureFiles files;
   files.paths = paths;
-  files.unsymmetric = unsymmetric;
+  files.unsymmetric = structure.unsymmetric;
+  files.free = structure.free;
   files.moving = std::move(moving);
   fem::Matrices& matrices = files.matrices;
   matrices.stiffness = read_matrix(paths[1], stiffness_key);
@@ -165,7 +181,7 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<i
   }
   if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
   hold_moving_rows(files);
-  check_matrices(matrices, unsymmetric);
+  check_matrices(matrices, structure);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
   if (paths[3].empty()) return files;
   files.load = read(paths[3], load_key,
@@ -271,9 +287,9 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
   const auto& known = structure.files.contents;
   const std::vector<int> moving = moving_rows(scene);
   if (known && known->paths == paths && known->unsymmetric == structure.unsymmetric &&
-      known->moving == moving)
+      known->free == structure.free && known->moving == moving)
     return known;
-  return std::make_shared<const StructureFiles>(read_files(paths, moving, structure.unsymmetric));
+  return std::make_shared<const StructureFiles>(read_files(paths, moving, structure));
 }
 
 void check_against_files(const Scene& scene, const StructureFiles& files) {

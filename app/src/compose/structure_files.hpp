@@ -25,6 +25,7 @@ struct StructureFiles {
   std::optional<fem::DofMap> dof_map;
   bool damping_adds_energy = false;  ///< it is not positive semidefinite
   bool unsymmetric = false;          ///< damping and stiffness were allowed to be
+  bool free = false;                 ///< the stiffness was allowed to be singular
 
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;

@@ -14,6 +14,7 @@
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
+#include "wavebalance/solvers/structure/rigid_modes.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -128,9 +129,12 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& l
 }
 
 /// C = M Phi diag(2 ratio omega) Phi^T M with all modes Phi. O(size^3).
-void add_modal_damping(solvers::LinearStructure& structure, double ratio) {
+void add_modal_damping(solvers::LinearStructure& structure, double ratio, bool free) {
   if (ratio == 0.0) return;
-  const auto modes = fem::eigenmodes(symmetric_part(structure.stiffness), structure.mass, structure.size());
+  fem::EigenmodesOptions options;
+  options.shift = shift_of(free, structure.stiffness, structure.mass);
+  const auto modes =
+      fem::eigenmodes(symmetric_part(structure.stiffness), structure.mass, structure.size(), options);
   const Eigen::MatrixXd momenta = structure.mass * modes.shapes;
   const Eigen::MatrixXd damping = momenta * (2.0 * ratio * modes.omega).asDiagonal() * momenta.transpose();
   structure.damping = (0.5 * (damping + damping.transpose())).sparseView();
@@ -261,7 +265,11 @@ Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) cons
 StructureModel make_model(const Scene& scene, const solvers::Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   StructureModel model = model_of_type(scene, observer);
-  add_modal_damping(model.structure, scene.structure.modal_damping);
+  const bool free = scene.structure.type == StructureType::matrices && scene.structure.matrices.free;
+  add_modal_damping(model.structure, scene.structure.modal_damping, free);
+  if (free)
+    model.structure.rigid_modes = solvers::find_rigid_modes(model.structure.mass, model.structure.stiffness);
+  model.structure.loss_factor = scene.structure.loss_factor;
   if (redistributes_mass(scene)) {
     const solvers::LinearStructure with_mass = structure_with_mass(scene, model);
     if (scene.structure.type != StructureType::bar)

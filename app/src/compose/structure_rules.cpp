@@ -35,6 +35,41 @@ void check_damping(const Document& document, const Scene& scene) {
                    : "expected 0 for a nonlinear mode, which is a motion without damping");
 }
 
+/// Contacts with mass alone hold a structure that is free to move.
+void check_free(const Document& document, const Scene& scene) {
+  if (!scene.structure.matrices.free) return;
+  if (scene.contact.law == ContactLawType::rigid)
+    fail_rule(
+        document, {"structure.free", "contact.law"},
+        "not with contact.law = \"rigid\", which takes the mass from the contacts; expected a stiff \"linear\" "
+        "law");
+  if (scene.analysis.branches)
+    fail_rule(document, {"structure.free", "analysis.branches"},
+              "not with analysis.branches; expected analysis.branches = false");
+}
+
+/// It is defined for periodic motions that are sought as such.
+void check_loss_factor(const Document& document, const Scene& scene) {
+  if (scene.structure.loss_factor == 0.0) return;
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    fail_rule(document, {"structure.loss_factor"},
+              "expected 0 for a nonlinear mode, which is a motion without damping");
+  const std::string instead =
+      scene.structure.type == StructureType::bar
+          ? "stiffness_damping = loss_factor / omega, which damps as much at the angular frequency omega"
+          : "modal_damping = loss_factor / 2, which damps each mode as much at its own frequency";
+  if (scene.analysis.type == AnalysisType::time_stepping)
+    fail_rule(
+        document, {"structure.loss_factor", "analysis.type"},
+        "not with time stepping: structural damping has no equation in time; expected 0, or " + instead);
+  if (scene.analysis.branches)
+    fail_rule(
+        document, {"structure.loss_factor", "analysis.branches"},
+        "not with analysis.branches, which need stability: structural damping has no equation in time; expected "
+        "0, or " +
+            instead);
+}
+
 void check_blade(const Document& document, const Structure& structure) {
   const auto& axis = structure.blade.rotation_axis;
   if (std::hypot(axis[0], axis[1], axis[2]) == 0.0)
@@ -99,10 +134,12 @@ void check_structure_rules(const Document& document, Scene& scene) {
     fail_rule(document, {"structure.elements"},
               "expected 2 or more with massless_tip or rigid contact: the tip's mass goes to a neighbour");
   check_damping(document, scene);
+  check_loss_factor(document, scene);
   if (structure.type == StructureType::blade) check_blade(document, structure);
   if (structure.type == StructureType::matrices) {
     check_directions(document, scene);
     check_files(document, scene);
+    check_free(document, scene);
   }
   check_gaps(document, scene);
 }

@@ -11,4 +11,13 @@ inline Eigen::SparseMatrix<double> symmetric_part(const Eigen::SparseMatrix<doub
   return 0.5 * (matrix + Eigen::SparseMatrix<double>(matrix.transpose()));
 }
 
+/// A shift for the modes of a structure, (rad/s)^2 [fem::EigenmodesOptions]: below zero where it is free to
+/// move.
+inline double shift_of(bool free, const Eigen::SparseMatrix<double>& stiffness,
+                       const Eigen::SparseMatrix<double>& mass) {
+  if (!free) return 0.0;
+  const double largest = (stiffness.diagonal().array() / mass.diagonal().array()).maxCoeff();
+  return largest > 0.0 ? -1e-8 * largest : -1.0;
+}
+
 }  // namespace wavebalance::app

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "balance/condensed_hold.hpp"
 #include "linalg/safe_norm.hpp"
 #include "linalg/spans.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -29,6 +30,7 @@ CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structu
       load_harmonics_(std::move(load_harmonics)),
       condensation_(structure, method),
       columns_are_current_(static_cast<std::size_t>(structure.contacts()), false),
+      hold_(structure.is_free() ? std::make_unique<Hold>(structure, pair_) : nullptr),
       work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {
   set_unit_loads();
   update_load();
@@ -118,9 +120,13 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   const int solved = pair_.solved_size();
   const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
   factors_ = {symbol(2) * (frequency_ * frequency_), symbol(1) * frequency_, symbol(0)};
+  // Of the harmonics below M/2; K itself at k = 0, and at M/2, whose coefficient stands for both signs.
+  const int damped = (pair_.functions() - 1) / 2;
+  if (structure_->loss_factor > 0.0)
+    factors_[2].segment(1, damped) *= std::complex<double>(1.0, structure_->loss_factor);
   derivatives_ = {symbol(2) * (2.0 * frequency_), symbol(1), Eigen::VectorXcd::Zero(solved)};
   if (!structure_->forces.empty()) update_load();  // some grow with the frequency
-  condensation_.condense(factors_, derivatives_, condensed_, load_.topRows(solved));
+  condense();
   append_dropped();
   update_kernel();
   update_free_response();
@@ -147,7 +153,7 @@ void CondensedProblem::update_kernel() {
   kernel_ = condensed_.compliance;
   for (int c = 0; c < regularization_.size(); ++c)
     kernel_.col(c + contacts() * c).head(pair_.solved_size()) -=
-        regularization_[c] * factors_[2].cwiseInverse();
+        regularization_[c] * pair_.symbol(0).head(pair_.solved_size()).cwiseInverse();
 }
 
 // The median of three harmonics leaves out one at a resonance, and the static one of a structure that is
@@ -157,7 +163,7 @@ Eigen::VectorXd CondensedProblem::median_compliance(int harmonics) const {
   Eigen::VectorXd moduli(harmonics), medians(contacts());
   for (int c = 0; c < contacts(); ++c) {
     for (int k = 0; k < harmonics; ++k)
-      moduli[k] = std::abs(condensed_.compliance(k, c + contacts() * c) * factors_[2][k]);
+      moduli[k] = std::abs(condensed_.compliance(k, c + contacts() * c) * pair_.symbol(0)[k]);
     std::nth_element(moduli.begin(), moduli.begin() + harmonics / 2, moduli.end());
     medians[c] = moduli[harmonics / 2];
   }
@@ -305,8 +311,10 @@ Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
   return respond(condensed_.compliance, force);
 }
 
-Eigen::MatrixXcd CondensedProblem::unknown_coefficients(const Eigen::VectorXd& force) {
-  return respond(kernel_, force);
+Eigen::MatrixXcd CondensedProblem::unknown_coefficients(const Eigen::VectorXd& force,
+                                                        const Eigen::VectorXd& held) {
+  if (!is_free()) return respond(kernel_, force);
+  return coefficients(held) + respond(kernel_, force) - respond(condensed_.compliance, force);
 }
 
 // Of the contact-free response, (M/2 + 1) x C.
@@ -353,7 +361,14 @@ Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& forc
   Eigen::VectorXcd forces(contacts());
   for (int k = 0; k < pair_.solved_size(); ++k) {
     for (int c = 0; c < contacts(); ++c) forces[c] = work_->translates[static_cast<std::size_t>(c)][k];
-    spectra.col(k) = condensation_.recover(factors(k), load_.row(k).transpose(), forces);
+    const bool rests = is_free() && k == 0;
+    const Eigen::VectorXcd loads = load_.row(k).transpose();
+    spectra.col(k) = (rests ? hold_->condensation : condensation_).recover(factors(k), loads, forces);
+  }
+  if (is_free()) {
+    const Eigen::MatrixXcd drifting = hold_->held.drifting.cast<std::complex<double>>();
+    const Eigen::VectorXcd momentum = structure_->mass * spectra.col(0);
+    spectra.col(0) -= drifting * (drifting.transpose() * momentum);
   }
   return spectra;
 }

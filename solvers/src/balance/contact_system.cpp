@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "balance/jacobian_solver.hpp"
+#include "balance/rigid_position.hpp"
 #include "balance/velocity_block.hpp"
 #include "linalg/safe_norm.hpp"
 
@@ -55,6 +56,7 @@ ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
       laws_(std::move(laws)),
       force_(problem.samples()),
       tangent_(problem.samples()),
+      position_(problem.is_free() ? std::make_unique<RigidPosition>() : nullptr),
       jacobian_(std::make_unique<JacobianSolver>()) {
   laws_.require(problem.contacts());
   if (laws_.depend_on_velocity()) {
@@ -143,6 +145,10 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
     const double contacts = problem_->contacts(), points = problem_->points();
     products_ += contacts * points * (20.0 * std::log2(points + 1.0) + 8.0 * contacts);
   }
+  if (position_) {
+    state_ = displacement;
+    product_ -= problem_->hold_response() * problem_->rigid_position(displacement, force_);
+  }
   residual_ = displacement - free + product_;
   if (added_motion_.size() > 0) residual_ -= added_motion_;
   relative_residual_ = relative_to(safe_norm(free) + safe_norm(product_), safe_norm(residual_));
@@ -152,17 +158,38 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
 
 void ContactSystem::set_linear_solver(LinearSolver method) { jacobian_->set_method(method); }
 
-bool ContactSystem::factorize() {
-  if (velocity_) return velocity_->block.factorize(*problem_, tangent_, velocity_->damping);
-  return jacobian_->factorize(*problem_, tangent_);
+Eigen::VectorXd ContactSystem::held_force() const {
+  return position_ ? problem_->held_force(force_, state_) : force_;
 }
 
-bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
+bool ContactSystem::factorize_position(bool bordered) {
+  constexpr double reduction = 1e-12;
+  return position_->factorize(
+      *problem_, tangent_, [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
+        y = 0.0;
+        return bordered ? solve_at_position(r, 0.0, x, y, reduction) : solve_at_position(r, x, reduction);
+      });
+}
+
+bool ContactSystem::factorize() {
+  const bool factorized = velocity_ ? velocity_->block.factorize(*problem_, tangent_, velocity_->damping)
+                                    : jacobian_->factorize(*problem_, tangent_);
+  return factorized && (!position_ || factorize_position(false));
+}
+
+bool ContactSystem::solve_at_position(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
   if (velocity_) {
     velocity_->block.solve(*problem_, r, x);
     return true;
   }
   return jacobian_->solve(*problem_, r, reduction, x);
+}
+
+bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
+  const bool solved = solve_at_position(r, x, reduction);
+  double none = 0.0;
+  if (position_) position_->correct(*problem_, tangent_, x, none);
+  return solved;
 }
 
 double ContactSystem::operations() const {
@@ -176,26 +203,32 @@ double ContactSystem::condition() {
 bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   column_scale_ = border_scale(b);
   row_scale_ = border_scale(c);
-  if (velocity_)
-    return velocity_->block.factorize_bordered(*problem_, tangent_, velocity_->damping, column_scale_ * b,
-                                               row_scale_ * c, column_scale_ * d * row_scale_);
-  return jacobian_->factorize_bordered(*problem_, tangent_, column_scale_ * b, row_scale_ * c,
-                                       column_scale_ * d * row_scale_);
+  const Eigen::VectorXd column = column_scale_ * b, row = row_scale_ * c;
+  const double corner = column_scale_ * d * row_scale_;
+  const bool factorized = velocity_ ? velocity_->block.factorize_bordered(
+                                          *problem_, tangent_, velocity_->damping, column, row, corner)
+                                    : jacobian_->factorize_bordered(*problem_, tangent_, column, row, corner);
+  return factorized && (!position_ || factorize_position(true));
+}
+
+bool ContactSystem::solve_at_position(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
+                                      double reduction) {
+  if (!velocity_) return jacobian_->solve_bordered(*problem_, r, s, reduction, x, y);
+  velocity_->block.solve_bordered(*problem_, r, s, x, y);
+  return true;
 }
 
 bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                                    double reduction) {
-  bool solved = true;
-  if (velocity_)
-    velocity_->block.solve_bordered(*problem_, r, row_scale_ * s, x, y);
-  else
-    solved = jacobian_->solve_bordered(*problem_, r, row_scale_ * s, reduction, x, y);
+  const bool solved = solve_at_position(r, row_scale_ * s, x, y, reduction);
+  if (position_) position_->correct(*problem_, tangent_, x, y);
   y *= column_scale_;
   return solved;
 }
 
 int ContactSystem::determinant_sign() const {
-  return velocity_ ? velocity_->block.determinant_sign() : jacobian_->determinant_sign();
+  const int sign = velocity_ ? velocity_->block.determinant_sign() : jacobian_->determinant_sign();
+  return position_ ? sign * position_->sign() : sign;
 }
 
 }  // namespace wavebalance::solvers

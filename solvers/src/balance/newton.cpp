@@ -22,6 +22,8 @@ std::string_view to_string(SolveStatus status) {
       return "effort_limit";
     case SolveStatus::singular:
       return "singular";
+    case SolveStatus::unbalanced:
+      return "unbalanced";
     case SolveStatus::cancelled:
       return "cancelled";
   }

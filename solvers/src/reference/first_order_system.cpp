@@ -32,6 +32,7 @@ FirstOrderSystem::FirstOrderSystem(const LinearStructure& structure, ContactLaws
       directions_(structure.contact_directions),
       angular_frequency_(two_pi * frequency_hz) {
   structure.validate();
+  structure.require_causal_damping("FirstOrderSystem");
   laws_.require(structure.contacts());
   detail::require_positive("FirstOrderSystem", "frequency_hz", frequency_hz);
   const double period = 1.0 / frequency_hz;

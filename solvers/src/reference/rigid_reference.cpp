@@ -25,6 +25,7 @@ class Flows {
     const Eigen::MatrixXd m = structure.mass, c = structure.damping, k = structure.stiffness;
     const int n = masses_, size = 2 * n + 3;
     structure.require_single_contact("rigid_reference");
+    structure.require_causal_damping("rigid_reference");
     if (structure.selected_dof(0) != n || m.row(n).cwiseAbs().maxCoeff() != 0.0 || c(n, n) <= 0.0)
       throw std::invalid_argument(
           "rigid_reference: the last degree of freedom must touch, have no mass and "

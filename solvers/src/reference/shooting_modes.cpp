@@ -30,6 +30,7 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
+  structure.require_causal_damping("shoot");
   if (!is_symmetric(structure.stiffness))
     throw std::invalid_argument(
         "shoot: stiffness is not symmetric, so that no real modes decouple the structure; "

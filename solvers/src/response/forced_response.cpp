@@ -10,6 +10,7 @@
 #include "balance/unknown_in_form.hpp"
 #include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
+#include "response/free_balance.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::solvers {
@@ -84,6 +85,13 @@ struct Task {
 
 Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& regularization) {
   return detail::unknown_in_form(start.displacement, start.force, regularization);
+}
+
+/// Of a structure that is free to move: near its position, without which no contact may hold it.
+Start balanced_start(const Task& task, bool moving) {
+  const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
+  BalancedMotion motion = balanced_motion(task.problem, task.laws, form, moving);
+  return {std::move(motion.displacement), std::move(motion.force)};
 }
 
 Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, Strategy strategy) {
@@ -203,10 +211,10 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
 /// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.
 double rounding_error_of(CondensedProblem& problem, ContactSystem& system, const PeriodicResponse& response) {
   constexpr double negligible = 1e-6;
-  const double at_these_forces = problem.rounding_error(response.contact_force);
+  const double at_these_forces = problem.rounding_error(response.held_force);
   if (!response.converged() || !(at_these_forces > negligible) || !system.factorize()) return at_these_forces;
   Eigen::VectorXd change;
-  if (!system.solve(problem.rounding_motion(response.contact_force), change)) return at_these_forces;
+  if (!system.solve(problem.rounding_motion(response.held_force), change)) return at_these_forces;
   return relative_to(safe_norm(response.unknown), safe_norm(change));
 }
 
@@ -244,7 +252,22 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   const DisplacementFormAtTheEnd restored(problem);
   const Task task{problem, laws, options};
   int attractor_periods = SettledMotion::not_integrated;
-  Candidate candidate = solve(task, start, guessed, attractor_periods);
+  Candidate candidate;
+  if (problem.is_free() && !static_load_is_balanced(problem, laws)) {
+    candidate = no_solution();
+    candidate.newton.status = SolveStatus::unbalanced;
+    candidate.unknown = problem.contact_free_response();
+    candidate.regularization = contact_regularization(problem, laws, options.form);
+  } else {
+    const bool places = problem.is_free() && guess.size() == 0;
+    // A static load presses contacts that may last: the structure then moves much less than without contact.
+    const bool pressed = places && problem.balancing_force().norm() > 1e-9 * problem.spring_force();
+    if (places) start = balanced_start(task, !pressed);
+    candidate = solve(task, start, guessed, attractor_periods);
+    if (places && !candidate.ended())
+      candidate = better(std::move(candidate),
+                         solve(task, balanced_start(task, pressed), guessed, attractor_periods));
+  }
   PeriodicResponse response = response_of(task, std::move(candidate));
   response.attractor_periods = attractor_periods;
   return response;

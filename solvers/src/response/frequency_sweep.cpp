@@ -246,7 +246,7 @@ class Sweep {
   SweepPoint measure(const CurvePoint& point) {
     SweepPoint measured = sweep_point(system_, evaluator_, point, parameter_);
     result_.condition = std::max(result_.condition, problem_.condensation().condition());
-    result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.force()));
+    result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.held_force()));
     if (!options_.keep_unknowns) measured.unknown.resize(0);
     return measured;
   }
@@ -290,7 +290,7 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
   CondensedProblem& problem = system.problem();
   curve_parameter(parameter).set(system, point.parameter);
   system.evaluate(point.displacement);
-  const Eigen::MatrixXcd coefficients = problem.coefficients(system.force());
+  const Eigen::MatrixXcd coefficients = problem.coefficients(system.held_force());
   SweepPoint measured;
   measured.frequency = problem.frequency();
   measured.load_scale = problem.load_scale();

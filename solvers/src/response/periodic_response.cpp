@@ -31,11 +31,13 @@ PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown) {
   response.residual = system.evaluate(unknown);
   response.frequency = problem.frequency();
   response.contact_force = system.force();
-  response.coefficients = system.problem().coefficients(response.contact_force);
-  response.unknown_coefficients = system.problem().unknown_coefficients(response.contact_force);
+  response.held_force = system.held_force();
+  response.coefficients = system.problem().coefficients(response.held_force);
+  response.unknown_coefficients =
+      system.problem().unknown_coefficients(response.contact_force, response.held_force);
   response.regularization = problem.regularization();
   response.displacement =
-      response.regularization.size() == 0 ? unknown : system.problem().displacement(response.contact_force);
+      response.regularization.size() == 0 ? unknown : system.problem().displacement(response.held_force);
   response.unknown = std::move(unknown);
   return response;
 }

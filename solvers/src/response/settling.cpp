@@ -80,7 +80,8 @@ Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::M
   for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
     if (amplitudes.col(n).isZero(0.0)) continue;
     const Complex rate(0.0, 2.0 * std::numbers::pi * frequency * double(n));
-    const Eigen::MatrixXcd impedance = Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
+    const Complex elastic(1.0, n > 0 ? structure.loss_factor : 0.0);
+    const Eigen::MatrixXcd impedance = elastic * Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
                                        rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
                                        rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
     responses.col(n) = detail::Lu<Complex>(impedance).solve(Eigen::VectorXcd(amplitudes.col(n)));
@@ -255,7 +256,7 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
   options.validate();
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
-  if (structure.size() > options.max_size) return {};
+  if (structure.size() > options.max_size || structure.is_free()) return {};
   const double frequency = load_periods(problem) * problem.frequency();
   const double step = 1.0 / (frequency * options.steps);
   auto flow = ModalFlow::make(structure, frequency, step, options.max_modes);

@@ -122,6 +122,8 @@ void add_poles(double m, double c, double k, const Eigen::VectorXd& shape, std::
     poles.push_back({-k / c, 1.0 / c, shape, shape});
     return;
   }
+  // A motion that nothing resists has a double exponent 0, which has no residues either.
+  if (c == 0.0 && k == 0.0) k = m * 1e-18;
   double discriminant = 0.25 * c * c - m * k;
   // Equal exponents have no residues; a change by 5e-7 of them does not matter.
   const double least = 2.5e-13 * c * c;
@@ -185,6 +187,33 @@ Parts complex_parts(const LinearStructure& structure) {
 
 }  // namespace
 
+namespace {
+
+// The squared frequency that the springs give to a rigid body, a hundredth of that of the first elastic mode.
+double square_of_springs(const LinearStructure& structure, bool small) {
+  const double largest =
+      (structure.stiffness.diagonal().array() / structure.mass.diagonal().array()).abs().maxCoeff();
+  if (!(largest > 0.0)) return 1.0;  // nothing is elastic
+  if (!small) return 1e-8 * largest;
+  const auto modes =
+      detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
+  const Eigen::Index rigid = structure.rigid_modes.cols();
+  return modes && rigid < modes->values.size() ? 1e-2 * modes->values[rigid] : 1e-8 * largest;
+}
+
+// Adds kappa S^T S to the stiffness of a structure that is free to move.
+double hold_by_springs(LinearStructure& structure, bool small) {
+  const Eigen::MatrixXd moved = structure.contact_directions * structure.rigid_modes;  // S R
+  const double size = moved.squaredNorm();
+  const double kappa = size > 0.0 ? square_of_springs(structure, small) / size : 0.0;
+  const Eigen::SparseMatrix<double> directions = structure.contact_directions;
+  structure.stiffness += kappa * Eigen::SparseMatrix<double>(directions.transpose() * directions);
+  structure.rigid_modes.resize(structure.size(), 0);
+  return kappa;
+}
+
+}  // namespace
+
 void ContactDynamicsOptions::validate() const {
   detail::require_at_least("ContactDynamicsOptions", "max_size", max_size, 1);
   detail::require_at_least("ContactDynamicsOptions", "reduced_size", reduced_size, 0);
@@ -195,8 +224,11 @@ ContactDynamics::ContactDynamics(const LinearStructure& structure, const Contact
   structure.validate();
   const int contacts = structure.contacts();
   reduced_ = structure.size() > options.max_size;
+  structurally_damped_ = structure.loss_factor > 0.0;
   const int vectors = options.reduced_size > 0 ? options.reduced_size : std::max(80, 12 * contacts);
-  const LinearStructure own = reduced_ ? krylov_reduction(structure, vectors) : structure;
+  LinearStructure held = structure;
+  if (structure.is_free()) holding_ = hold_by_springs(held, !reduced_);
+  const LinearStructure own = reduced_ ? krylov_reduction(held, vectors) : std::move(held);
   const auto modes = modal_form(own);
   Parts parts = modes ? decoupled_parts(own, *modes) : complex_parts(own);
   constant_ = std::move(parts.constant);

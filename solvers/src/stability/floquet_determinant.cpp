@@ -315,6 +315,7 @@ Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicS
 
 StabilityStatus require_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {
   if (stiffness.status != StabilityStatus::converged) return stiffness.status;
+  if (dynamics.structurally_damped()) return StabilityStatus::structural_damping;
   Eigen::MatrixXd coupling = dynamics.constant();
   const double own = coupling.diagonal().cwiseAbs().maxCoeff();
   coupling.diagonal().setZero();
@@ -324,6 +325,7 @@ StabilityStatus require_stiffness(const ContactDynamics& dynamics, const Periodi
 
 StabilityStatus require_countable(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                   double angular_frequency) {
+  if (dynamics.structurally_damped()) return StabilityStatus::structural_damping;
   constexpr double least = 1e-10;
   for (const ContactPole& pole : dynamics.poles())
     if (std::abs(pole.exponent.real()) <= least * std::max(std::abs(pole.exponent), angular_frequency))

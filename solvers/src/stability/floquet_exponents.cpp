@@ -206,12 +206,17 @@ void FloquetOptions::validate() const {
   detail::require_positive("FloquetOptions", "tolerance", tolerance);
 }
 
-FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                                    double frequency, const FloquetOptions& options) {
+  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   options.validate();
   FloquetExponents result;
   result.status = stiffness.status;
   if (result.status != StabilityStatus::converged) return result;
+  if (dynamics.structurally_damped()) {
+    result.status = StabilityStatus::structural_damping;
+    return result;
+  }
   require_stability_arguments("floquet_exponents", dynamics, stiffness, frequency,
                               options.stability.harmonics);
   if (stiffness.damping) return damped_exponents(dynamics, stiffness, frequency, options);

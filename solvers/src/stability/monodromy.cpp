@@ -331,6 +331,13 @@ bool hold(const States& states, const ContactDynamics& dynamics, const std::vect
   return true;
 }
 
+void require_causal(const char* who, const ContactDynamics& dynamics) {
+  if (dynamics.structurally_damped())
+    throw std::invalid_argument(
+        std::string(who) +
+        ": the structure has a loss_factor, and structural damping has no equation in time");
+}
+
 }  // namespace
 
 Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map) {
@@ -403,10 +410,12 @@ std::optional<std::vector<Piece>> resolving_pieces(const ContactDynamics& dynami
 
 }  // namespace
 
-Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                               double frequency, const MonodromyOptions& options) {
   options.validate();
+  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   require_stability_arguments("monodromy", dynamics, stiffness, frequency, 1);
+  require_causal("monodromy", dynamics);
   if (stiffness.status != StabilityStatus::converged)
     throw std::invalid_argument("monodromy: the status of the stiffness is " +
                                 std::string(to_string(stiffness.status)) + "; it must be converged");
@@ -443,6 +452,7 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
 Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
                                  double frequency) {
   require_stability_arguments("rigid_monodromy", dynamics, contact, frequency, 1);
+  require_causal("rigid_monodromy", dynamics);
   const States states(dynamics, 1.0 / frequency);
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(states.size(), states.size());
   for (const Piece& piece : pieces(contact, 1.0)) {

@@ -91,8 +91,9 @@ std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& d
 UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
                                       double frequency, const StabilityOptions& options) {
   UnstableMultipliers result = without_count(contact.status);
-  if (contact.intervals.empty() || dynamics.reduced() ||
-      2 * int(dynamics.poles().size()) > options.max_states)
+  if (dynamics.structurally_damped()) result.status = StabilityStatus::structural_damping;
+  if (dynamics.structurally_damped() || dynamics.holding() > 0.0 || contact.intervals.empty() ||
+      dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states)
     return result;
   const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
   if (!multipliers.allFinite()) return result;
@@ -146,8 +147,12 @@ StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
 
 }  // namespace
 
-UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                                         double frequency, const StabilityOptions& options) {
+UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
+                                         const PeriodicStiffness& of_contacts, double frequency,
+                                         const StabilityOptions& options) {
+  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
+  if (stiffness.damping && dynamics.structurally_damped())
+    return without_count(StabilityStatus::structural_damping);
   if (stiffness.damping) {
     const StabilityStatus status = status_of_damped(dynamics, stiffness, options);
     if (status != StabilityStatus::converged) return without_count(status);
@@ -203,9 +208,14 @@ UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const 
   return unstable_multipliers(ContactDynamics(problem.structure()), problem, laws, response, options);
 }
 
-StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                                double frequency, const StabilityOptions& options) {
+  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   StabilitySigns signs;
+  if (stiffness.damping && dynamics.structurally_damped()) {
+    signs.status = StabilityStatus::structural_damping;
+    return signs;
+  }
   signs.status = stiffness.damping
                      ? status_of_damped(dynamics, stiffness, options)
                      : status_before("stability_signs", dynamics, stiffness, frequency, options);

@@ -79,6 +79,15 @@ void LinearStructure::validate() const {
   require_square(stiffness, load.size(), "stiffness");
   require_directions(contact_directions, load.size());
   for (std::size_t l = 0; l < forces.size(); ++l) require_force(forces[l], l, load.size());
+  if (is_free() && rigid_modes.rows() != load.size())
+    throw std::invalid_argument("LinearStructure: rigid_modes has " + std::to_string(rigid_modes.rows()) +
+                                " rows; the load has " + std::to_string(load.size()) + " entries");
+  if (is_free() && !is_symmetric(stiffness))
+    throw std::invalid_argument(
+        "LinearStructure: a structure with rigid_modes must have a symmetric stiffness");
+  if (!(loss_factor >= 0.0) || !std::isfinite(loss_factor))
+    throw std::invalid_argument("LinearStructure: loss_factor is " + std::to_string(loss_factor) +
+                                "; it must be at least 0 and finite");
 }
 
 Eigen::MatrixXd LinearStructure::load_shapes() const {
@@ -103,6 +112,14 @@ Eigen::MatrixXcd LinearStructure::load_amplitudes(double frequency) const {
     result.leftCols(amplitudes.size()) += force.shape * amplitudes.transpose();
   }
   return result;
+}
+
+void LinearStructure::require_causal_damping(const char* caller) const {
+  if (loss_factor == 0.0) return;
+  throw std::invalid_argument(
+      std::string(caller) + ": loss_factor is " + std::to_string(loss_factor) +
+      ", but structural damping has no equation in time; expected 0, or a modal damping of half the loss "
+      "factor, which damps each mode as much at its own frequency");
 }
 
 int LinearStructure::selected_dof(int contact) const {

@@ -47,7 +47,9 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   flow.sigma_ = stiffness.cwiseMax(0.0).cwiseSqrt().cwiseMax(2.0 * std::numbers::pi * frequency);
   const Eigen::MatrixXd contact = structure.contact_directions * eigen->vectors;
   flow.contact_ = contact.leftCols(m);
-  const Eigen::MatrixXd damping = detail::transposed_product(flow.shapes_, structure.damping * flow.shapes_);
+  Eigen::MatrixXd damping = detail::transposed_product(flow.shapes_, structure.damping * flow.shapes_);
+  if (structure.loss_factor > 0.0)
+    damping.diagonal() += structure.loss_factor * stiffness.cwiseMax(0.0).cwiseSqrt();
   std::optional<Eigen::MatrixXd> skew;
   if (circulatory)
     skew = detail::transposed_product(flow.shapes_,

@@ -12,8 +12,9 @@ namespace wavebalance::solvers {
 ///
 /// y = (sigma q, dq/dt) the state of its modes q, in which the norm of y is that of the energy: sigma is the
 /// natural angular frequency or, if that is larger, the load's. Modes are those of M and the symmetric part
-/// of K, and the skew parts of C and K couple them. E, B0 and B1 are integrals of the matrix exponential [C.
-/// F. Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m modes.
+/// of K, and the skew parts of C and K couple them. Structural damping is replaced by the viscous one that
+/// damps each mode as much at its own frequency. E, B0 and B1 are integrals of the matrix exponential [C. F.
+/// Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m modes.
 class ModalFlow {
  public:
   /// step in s, frequency in Hz (> 0). The lowest `max_modes` modes are taken; the others follow their static

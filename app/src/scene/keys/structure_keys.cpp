@@ -38,14 +38,21 @@ void add_matrices(std::vector<SceneKey>& keys) {
            "mass matrix M, symmetric and positive definite: a file in the format of Matrix Market (.mtx), "
            "CalculiX (.sti, .mas) or Harwell-Boeing (.rsa, .rua; Ansys, LS-DYNA), known by its first lines",
            path);
-  matrices(&MatricesStructure::stiffness, "stiffness", "N/m",
-           "stiffness matrix K, likewise; the structure must not be free to move", path);
+  matrices(
+      &MatricesStructure::stiffness, "stiffness", "N/m",
+      "stiffness matrix K, likewise; the structure must not be free to move unless structure.free says so",
+      path);
   matrices(&MatricesStructure::damping, "damping", "N s/m",
            "damping matrix C, symmetric; in place of stiffness_damping or modal_damping", path, optional);
   matrices(
       &MatricesStructure::unsymmetric, "unsymmetric", "",
       "true accepts a gyroscopic damping and a circulatory stiffness; false takes what is not symmetric for "
       "half of a matrix",
+      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping"})));
+  matrices(
+      &MatricesStructure::free, "free", "",
+      "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "
+      "what no contact resists keeps a zero mean",
       optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping"})));
   matrices(
       &MatricesStructure::dof_map, "dof_map", "",
@@ -67,6 +74,11 @@ void add_damping_and_reduction(std::vector<SceneKey>& keys) {
   structure(&Structure::modal_damping, "modal_damping", "",
             "damping of every linear mode over its critical one; in place of another damping", within(0, 10),
             optional, only_with(modal));
+  structure(
+      &Structure::loss_factor, "loss_factor", "",
+      "eta of structural damping, K (1 + i eta) at the harmonics above zero; beside another damping or alone. It "
+      "has no equation in time: stability is unknown",
+      not_negative, optional);
   structure(
       &Structure::kept_modes, "kept_modes", "",
       "modes that a Craig-Bampton reduction keeps beside the degrees of freedom in contact and under "

@@ -69,6 +69,7 @@ struct MatricesStructure {
   std::string damping = {};            ///< likewise, N s/m; or empty
   std::string dof_map = {};            ///< file that names the n rows by nodes [fem::read_dof_map]; or empty
   bool unsymmetric = false;            ///< damping and stiffness may be unsymmetric
+  bool free = false;                   ///< the structure is free to move
   std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side
   ReadFiles files = {};
 
@@ -108,6 +109,7 @@ struct Structure {
   double lumped_mass_fraction = 0.0;  ///< 0 consistent mass, 1 lumped mass, between them a mixture
   bool massless_tip = false;          ///< the tip's mass is moved to its neighbour: forced_response and sweep
   double modal_damping = 0.0;         ///< ratio to critical of every mode; not a bar's
+  double loss_factor = 0.0;           ///< eta in K (1 + i eta) at positive harmonics, >= 0
   int kept_modes = -1;                ///< modes that a Craig-Bampton reduction keeps; -1: no reduction
   MatricesStructure matrices = {};
   BladeStructure blade = {};

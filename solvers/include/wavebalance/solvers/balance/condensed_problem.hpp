@@ -19,6 +19,11 @@ namespace wavebalance::solvers {
 /// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
 /// columns onto each other.
 ///
+/// Structural damping (LinearStructure::loss_factor) is K (1 + i eta sign(k)) in Z(k), with k = -M/2..M/2 the
+/// least harmonic that the coefficient k over translates stands for: the operator of the damping acts on the
+/// translates, whatever their generator. k and -k stay conjugate, so that motions are real. The static
+/// coefficient and an alternating one, k = M/2, which stands for both signs, have none.
+///
 /// A Nyquist coefficient that the pair drops is never condensed: its compliance, load response and, in the
 /// force form, its part of P are zero.
 ///
@@ -30,6 +35,16 @@ namespace wavebalance::solvers {
 /// rho the resolvent of the contact law (ContactLaws::resolvents). This is the same equation for another K,
 /// which set_regularization() makes: one residual, one Newton matrix and one curve serve both forms. A rigid
 /// obstacle has a resolvent of slope epsilon, and epsilon -> infinity is the displacement form.
+///
+/// A structure that is free to move (LinearStructure::rigid_modes) has no static compliance along the rigid
+/// contact displacements Q, an orthonormal basis of S R: the mean contact forces must balance the static load
+/// there, and the mean displacement Q^T u is an unknown. Springs kappa Q Q^T hold the structure in the static
+/// compliance, and their force is taken back from the contact forces:
+///
+///   u = u0 - K (f_c(u) - kappa Q Q^T mean(u)),
+///
+/// which has the solutions of the free structure for any kappa. Motions that no contact resists keep a zero
+/// mean.
 ///
 /// Owns plans and buffers: one object per thread.
 class CondensedProblem {
@@ -78,6 +93,25 @@ class CondensedProblem {
   /// 1 / epsilon of each contact, m/N; empty in the displacement form.
   const Eigen::VectorXd& regularization() const { return regularization_; }
 
+  /// Whether the structure is free to move.
+  bool is_free() const { return hold_ != nullptr; }
+  /// K of the springs' forces kappa Q, constant in time, samples() x q; a free structure's alone. O(q N log
+  /// N) on first use.
+  const Eigen::MatrixXd& hold_response();
+  /// Q^T mean(u), q values, m, of an unknown of the form and its contact force, samples() each. O(C N).
+  Eigen::VectorXd rigid_position(const Eigen::VectorXd& unknown, const Eigen::VectorXd& force) const;
+  /// The contact force less kappa Q Q^T mean(u), N, samples() values: what the motion follows from in all
+  /// functions below. The force itself for a structure that is held.
+  Eigen::VectorXd held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown) const;
+  /// Q, C x q, and the mean contact forces Q^T f that balance the static load, q values, N.
+  const Eigen::MatrixXd& rigid_directions() const;
+  Eigen::VectorXd balancing_force() const;
+  /// kappa times the largest displacement without contact, N: the size that rounding of balancing_force()
+  /// has.
+  double spring_force() const;
+  /// Whether the static load does no work on the motions that no contact resists, to rounding.
+  bool drift_is_balanced() const;
+
   /// How far each contact yields to a unit force at it, m/N: the median of the moduli at the harmonics 0, 1
   /// and 2, or the static one for fewer than five functions.
   Eigen::VectorXd contact_compliance() const;
@@ -108,8 +142,9 @@ class CondensedProblem {
   /// Spectra over translates, (M/2 + 1) x C, of the coefficients that belong to force samples (samples()):
   /// a(k) = contact-free response - compliance * <p, f>. O(C N log N + C^2 M).
   Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
-  /// The same of v, the unknown of the form: coefficients() in the displacement form.
-  Eigen::MatrixXcd unknown_coefficients(const Eigen::VectorXd& force);
+  /// The same of v, the unknown of the form: coefficients() in the displacement form. `held` is the
+  /// held_force() of a free structure, and not used for others.
+  Eigen::MatrixXcd unknown_coefficients(const Eigen::VectorXd& force, const Eigen::VectorXd& held = {});
 
   /// Estimated rounding error of the condensation in the motion of those coefficients, at fixed forces: the
   /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
@@ -138,6 +173,7 @@ class CondensedProblem {
   void update_load();
   void update_free_response();
   void update_kernel();
+  void condense();
   void append_dropped();
 
   TimePair pair_;
@@ -156,6 +192,8 @@ class CondensedProblem {
   bool slope_is_current_ = false;
   Eigen::MatrixXd columns_;
   std::vector<bool> columns_are_current_;  // one entry per contact
+  struct Hold;                             // of a structure that is free to move
+  std::unique_ptr<Hold> hold_;
   struct Work;
   std::unique_ptr<Work> work_;
 };

@@ -10,6 +10,7 @@
 namespace wavebalance::solvers {
 
 class JacobianSolver;
+class RigidPosition;
 
 /// The piece of its law that each sample lies on: the number of kinks below its displacement. With one kink,
 /// at the gap, 1 in contact and 0 outside.
@@ -68,7 +69,9 @@ class ContactSystem {
   /// smooth across the kinks.
   double evaluate(const Eigen::VectorXd& displacement, const LawPieces& pieces);
 
-  const Eigen::VectorXd& force() const { return force_; }        ///< f_c(u), N
+  const Eigen::VectorXd& force() const { return force_; }  ///< f_c(u), N
+  /// CondensedProblem::held_force() of the state: force() where the structure is held.
+  Eigen::VectorXd held_force() const;
   const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
   const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
   /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
@@ -123,6 +126,10 @@ class ContactSystem {
   void evaluate_laws(const Eigen::VectorXd& displacement);
   void take_side(int sample, const LawKink& kink, bool beyond);
   void continue_piece(int sample, double displacement, const LawKink& kink, bool beyond);
+  bool factorize_position(bool bordered);
+  // With J at a fixed position of a free structure, bordered or not.
+  bool solve_at_position(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction);
+  bool solve_at_position(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y, double reduction);
 
   CondensedProblem* problem_;
   ContactLaws laws_;
@@ -133,6 +140,8 @@ class ContactSystem {
   double column_scale_ = 1.0, row_scale_ = 1.0;  // of the border last factorized
   double products_ = 0.0;                        // operations of products with K
   Eigen::VectorXd force_, tangent_, residual_, product_;
+  Eigen::VectorXd state_;                    // of a free structure
+  std::unique_ptr<RigidPosition> position_;  // of a free structure
   std::unique_ptr<JacobianSolver> jacobian_;
   std::unique_ptr<VelocityPart> velocity_;  // null where no law depends on the velocity
 };

@@ -15,6 +15,7 @@ enum class SolveStatus {
   iteration_limit,  ///< max_iterations was reached
   effort_limit,     ///< the limit of operations was reached
   singular,         ///< the Newton matrix is singular, or so nearly that GMRES does not converge
+  unbalanced,       ///< nothing balances the static load of a structure that is free to move
   cancelled         ///< the observer returned false
 };
 

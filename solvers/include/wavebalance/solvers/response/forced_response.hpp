@@ -31,8 +31,10 @@ struct ForcedResponseOptions {
 /// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The force
 /// form also starts from `guess_force` (samples() values, N), the contact force of the guess, zero when it is
 /// empty. The problem is left in the displacement form, whatever the form of the response. If it does not
-/// converge, the status gives the reason. Throws std::invalid_argument for guesses or a list of laws of
-/// another length, for a problem without frequency and for options out of range.
+/// converge, the status gives the reason. A structure that is free to move starts at the position in which
+/// the mean contact forces balance its static load; its status is unbalanced where no such forces exist.
+/// Throws std::invalid_argument for guesses or a list of laws of another length, for a problem without
+/// frequency and for options out of range.
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {},
                                  const Eigen::VectorXd& guess_force = {});

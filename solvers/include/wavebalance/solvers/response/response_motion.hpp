@@ -16,7 +16,8 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
                       const ContactLaws& laws, int points);
 
 /// The motion of all n degrees of freedom, without forces, under contact force samples (samples() values, N)
-/// of a solved problem. Throws SingularSystem. O(n (M + points log points)).
+/// of a solved problem; of a free structure PeriodicResponse::held_force. Throws SingularSystem. O(n (M +
+/// points log points)).
 Motion structure_motion(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points);
 
 /// E = u'^T M u' / 2 + u^T K u / 2 + the potentials of all contacts, J, at each point [JL14, eq. (35)], of a

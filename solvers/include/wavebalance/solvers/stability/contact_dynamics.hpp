@@ -58,6 +58,11 @@ class ContactDynamics {
   int contacts() const { return static_cast<int>(constant_.rows()); }  ///< C
   /// Whether the structure was reduced, so that exponents() is not complete.
   bool reduced() const { return reduced_; }
+  /// kappa, N/m, of springs along all contacts that hold a structure which is free to move, so that its poles
+  /// do not lie at zero; 0 for others. held_stiffness() takes them back.
+  double holding() const { return holding_; }
+  /// Whether the structure has a loss factor, which is left out here: stability is then unknown.
+  bool structurally_damped() const { return structurally_damped_; }
   /// The poles, each conjugate pair once.
   const std::vector<ContactPole>& poles() const { return poles_; }
   /// The limit of the compliance for |s| -> infinity, C x C, m/N: zero unless contacts have neither mass nor
@@ -85,7 +90,8 @@ class ContactDynamics {
 
   std::vector<ContactPole> poles_;
   Eigen::MatrixXd constant_;
-  bool reduced_ = false;
+  double holding_ = 0.0;
+  bool reduced_ = false, structurally_damped_ = false;
   Eigen::MatrixX3d denominator_;        // one row per section
   Eigen::MatrixXd constant_numerator_;  // sections x C^2
   Eigen::MatrixXd linear_numerator_;    // sections x C^2; empty where all are zero

@@ -21,7 +21,8 @@ enum class StabilityStatus {
   /// velocity
   coupled_massless,
   too_many_states,  ///< a law that depends on the velocity, at a structure with more states than max_states
-  effort_limit      ///< max_evaluations were not enough
+  structural_damping,  ///< it has no equation in time, so that no perturbation grows or decays by it
+  effort_limit         ///< max_evaluations were not enough
 };
 
 std::string_view to_string(StabilityStatus status);
@@ -48,7 +49,12 @@ struct PeriodicStiffness {
   /// N s/m, where the force jumps as an interval begins or ends: the impulse on a perturbation over its
   /// displacement, the jump over the velocity of the contact. Empty where no law depends on the velocity.
   std::function<double(int contact, double time)> impulse = {};
+  bool held = false;  ///< whether springs that hold a free structure were taken back from it
 };
+
+/// D(t) - kappa at all times of C contacts, for ContactDynamics::holding(). The stiffness itself where kappa
+/// is 0, it is held already or its status is not converged.
+PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contacts, double kappa);
 
 /// D(t) = f_c'(u(t)) of the laws along the motion of a response, whose instants of opening and closing are
 /// roots of u(t) - gap to rounding. The motion is the sum of the trial functions: of their harmonics where

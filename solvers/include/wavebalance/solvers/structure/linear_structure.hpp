@@ -31,6 +31,11 @@ struct LinearStructure {
   Eigen::VectorXd load;                    ///< n, N, amplitude of the cosine load
   ContactDirections contact_directions;    ///< S, C x n: at least one row, none of them zero
   std::vector<PeriodicForce> forces = {};  ///< beside `load`: static, of other harmonics, phases and places
+  /// eta of structural damping: K (1 + i eta) at the positive harmonics of a periodic motion, K at rest.
+  double loss_factor = 0.0;
+  /// n x r with K R = 0 and R^T M R = 1: the motions along which the structure is free [find_rigid_modes];
+  /// empty for one that is held.
+  Eigen::MatrixXd rigid_modes = {};
 
   int size() const { return static_cast<int>(load.size()); }
   int contacts() const { return static_cast<int>(contact_directions.rows()); }
@@ -47,8 +52,13 @@ struct LinearStructure {
   /// The degree of freedom that row `contact` selects with the coefficient 1, or -1 for any other direction.
   /// O(entries of the row).
   int selected_dof(int contact) const;
-  /// Throws std::invalid_argument naming the member whose size does not fit, with both sizes, or the
-  /// direction that is zero or not finite.
+  /// Whether it has rigid_modes.
+  bool is_free() const { return rigid_modes.cols() > 0; }
+  /// Throws std::invalid_argument naming `caller` where there is structural damping, which no equation in
+  /// time has.
+  void require_causal_damping(const char* caller) const;
+  /// Throws std::invalid_argument for a loss factor that is negative or not finite, and naming the member
+  /// whose size does not fit, with both sizes, or the direction that is zero or not finite.
   void validate() const;
   /// Throws std::invalid_argument naming `caller` when there is not exactly one contact.
   void require_single_contact(const char* caller) const;

@@ -1,0 +1,97 @@
+#include "balance/condensed_hold.hpp"
+
+#include <utility>
+
+namespace wavebalance::solvers {
+namespace {
+
+// `first` above the rows of `matrix`.
+template <class Matrix, class Row>
+void prepend(const Row& first, Matrix& matrix) {
+  Matrix joined(matrix.rows() + 1, matrix.cols());
+  joined << first.reshaped().transpose(), matrix;
+  matrix = std::move(joined);
+}
+
+}  // namespace
+
+// All coefficients, that at rest of a free structure by the held one.
+void CondensedProblem::condense() {
+  const Eigen::Index solved = factors_[0].size();
+  if (!is_free()) {
+    condensation_.condense(factors_, derivatives_, condensed_, load_.topRows(solved));
+    return;
+  }
+  const auto moving = [&](const StiffnessSpectrum& all) -> StiffnessSpectrum {
+    return {all[0].tail(solved - 1), all[1].tail(solved - 1), all[2].tail(solved - 1)};
+  };
+  condensation_.condense(moving(factors_), moving(derivatives_), condensed_, load_.middleRows(1, solved - 1));
+  const CondensedPoint& rest = hold_->at_rest;
+  prepend(rest.compliance, condensed_.compliance);
+  prepend(rest.load_response, condensed_.load_response);
+  prepend(rest.compliance_slope, condensed_.compliance_slope);
+  prepend(rest.load_response_slope, condensed_.load_response_slope);
+  prepend(rest.compliance_error, condensed_.compliance_error);
+  prepend(rest.load_response_error, condensed_.load_response_error);
+}
+
+const Eigen::MatrixXd& CondensedProblem::hold_response() {
+  if (hold_->response.rows() > 0) return hold_->response;
+  const Eigen::MatrixXd& directions = rigid_directions();
+  hold_->response.resize(samples(), directions.cols());
+  Eigen::VectorXd force(samples()), motion;
+  for (Eigen::Index i = 0; i < directions.cols(); ++i) {
+    for (int c = 0; c < contacts(); ++c)
+      force.segment(c * points(), points())
+          .setConstant(hold_->match * hold_->held.stiffness * directions(c, i));
+    apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), motion);
+    hold_->response.col(i) = motion;
+  }
+  return hold_->response;
+}
+
+Eigen::VectorXd CondensedProblem::rigid_position(const Eigen::VectorXd& unknown,
+                                                 const Eigen::VectorXd& force) const {
+  Eigen::VectorXd mean(contacts());
+  for (int c = 0; c < contacts(); ++c) {
+    mean[c] = unknown.segment(c * points(), points()).mean();
+    if (regularization_.size() > 0)
+      mean[c] -= regularization_[c] / hold_->match * force.segment(c * points(), points()).mean();
+  }
+  return rigid_directions().transpose() * mean;
+}
+
+Eigen::VectorXd CondensedProblem::held_force(const Eigen::VectorXd& force,
+                                             const Eigen::VectorXd& unknown) const {
+  if (!is_free()) return force;
+  const Eigen::VectorXd springs =
+      hold_->match * hold_->held.stiffness * (rigid_directions() * rigid_position(unknown, force));
+  Eigen::VectorXd held = force;
+  for (int c = 0; c < contacts(); ++c) held.segment(c * points(), points()).array() -= springs[c];
+  return held;
+}
+
+const Eigen::MatrixXd& CondensedProblem::rigid_directions() const { return hold_->held.directions; }
+
+Eigen::VectorXd CondensedProblem::balancing_force() const {
+  const Eigen::VectorXd mean = free_response_.reshaped(points(), contacts()).colwise().mean();
+  return hold_->match * hold_->held.stiffness * (rigid_directions().transpose() * mean);
+}
+
+double CondensedProblem::spring_force() const {
+  return hold_->held.stiffness * free_response_.cwiseAbs().maxCoeff();
+}
+
+bool CondensedProblem::drift_is_balanced() const {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(structure_->size());
+  if (load_harmonics_.size() > 0) load += load_harmonics_[0].real() * structure_->load;
+  for (const PeriodicForce& force : structure_->forces)
+    if (force.derivative == 0 && force.harmonics.size() > 0) load += force.harmonics[0].real() * force.shape;
+  const Eigen::MatrixXd& drifting = hold_->held.drifting;
+  constexpr double rounding = 1e-9;
+  return ((drifting.transpose() * load).cwiseAbs().array() <=
+          rounding * (drifting.cwiseAbs().transpose() * load.cwiseAbs()).array())
+      .all();
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,57 @@
+#include "structure/held_structure.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "linalg/dense.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// As many rows as R has columns, each the largest of what those before it leave of R.
+std::vector<Eigen::Index> pivot_rows(Eigen::MatrixXd rest) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < rest.cols(); ++i) {
+    Eigen::Index row = 0;
+    rest.rowwise().squaredNorm().maxCoeff(&row);
+    const Eigen::RowVectorXd direction = rest.row(row).normalized();
+    rest -= (rest * direction.transpose()) * direction;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Of the largest entry of K, or of M where nothing is elastic: it affects the rounding alone.
+double size_of_springs(const LinearStructure& structure) {
+  const double elastic = structure.stiffness.diagonal().cwiseAbs().maxCoeff();
+  return elastic > 0.0 ? elastic : structure.mass.diagonal().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+HeldStructure hold(const LinearStructure& structure) {
+  const Eigen::MatrixXd& rigid = structure.rigid_modes;
+  const Eigen::MatrixXd moved = structure.contact_directions * rigid;  // S R
+  constexpr double least = 1e-12;                                      // of squared sizes
+  const auto modes = detail::symmetric_eigen(detail::transposed_product(moved, moved));
+  HeldStructure held{structure, {}, size_of_springs(structure), {}};
+  held.structure.rigid_modes.resize(rigid.rows(), 0);
+  const double largest = modes ? modes->values.tail(1)[0] : 0.0;
+  const Eigen::Index drifting =
+      largest > 0.0 ? (modes->values.array() <= least * largest).count() : rigid.cols();
+  const Eigen::Index resisted = rigid.cols() - drifting;
+  held.directions.resize(moved.rows(), resisted);
+  for (Eigen::Index i = 0; i < resisted; ++i)
+    held.directions.col(i) =
+        moved * modes->vectors.col(drifting + i) / std::sqrt(modes->values[drifting + i]);
+  held.drifting = modes ? Eigen::MatrixXd(rigid * modes->vectors.leftCols(drifting)) : rigid;
+  const Eigen::SparseMatrix<double> springs =
+      Eigen::MatrixXd(structure.contact_directions.transpose() * held.directions)
+          .sparseView();  // S^T Q, n x q
+  held.structure.stiffness += held.stiffness * Eigen::SparseMatrix<double>(springs * springs.transpose());
+  for (const Eigen::Index row : pivot_rows(held.drifting))
+    held.structure.stiffness.coeffRef(row, row) += held.stiffness;
+  return held;
+}
+
+}  // namespace wavebalance::solvers

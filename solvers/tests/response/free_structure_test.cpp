@@ -1,0 +1,349 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <numeric>
+
+#include "constants.hpp"
+#include "support/condensation_cases.hpp"
+#include "support/oscillator.hpp"
+#include "support/refusal.hpp"
+#include "support/rigid_law.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+#include "wavebalance/solvers/structure/rigid_modes.hpp"
+
+// Structures that are free to move: contact alone holds them, or nothing does.
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+using testing::LinearContact;
+
+PeriodicForce static_force(const Eigen::VectorXd& shape) {
+  return {shape, Eigen::VectorXcd::Constant(1, 1.0), 0};
+}
+
+// A mass of 1 kg with a dashpot to the ground, pressed by a static force.
+LinearStructure pressed_mass(double damping, double pressure, double load) {
+  LinearStructure mass = testing::unit_oscillator(damping, load);
+  mass.stiffness.coeffRef(0, 0) = 0.0;
+  mass.forces = {static_force(Eigen::VectorXd::Constant(1, pressure))};
+  mass.rigid_modes = find_rigid_modes(mass.mass, mass.stiffness);
+  return mass;
+}
+
+// Masses of 1 kg in a row between springs of 1 N/m, free at both ends, with stops at both.
+LinearStructure free_rod(int size, double load) {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
+  for (int i = 0; i + 1 < size; ++i) {
+    stiffness.block<2, 2>(i, i) += Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}};
+  }
+  LinearStructure rod;
+  rod.stiffness = stiffness.sparseView();
+  rod.mass = Eigen::MatrixXd::Identity(size, size).sparseView();
+  rod.damping = 0.3 * rod.stiffness + 0.3 * rod.mass;
+  rod.load = load * Eigen::VectorXd::Unit(size, 0);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, size);
+  rows(0, size - 1) = 1.0;
+  rows(1, 0) = -1.0;
+  rod.contact_directions = rows.sparseView();
+  rod.rigid_modes = find_rigid_modes(rod.mass, rod.stiffness);
+  return rod;
+}
+
+// Two masses that a static force presses against each other, with a load on the first.
+LinearStructure two_masses(double pressure, double load) {
+  LinearStructure two;
+  two.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 3.0).asDiagonal()).sparseView();
+  two.stiffness.resize(2, 2);
+  two.damping = Eigen::MatrixXd(Eigen::Matrix2d{{0.9, -0.5}, {-0.5, 0.9}}).sparseView();
+  two.load = Eigen::Vector2d(load, 0.0);
+  two.forces = {static_force(Eigen::Vector2d(pressure, -pressure))};
+  two.contact_directions = Eigen::MatrixXd(Eigen::RowVector2d(1.0, -1.0)).sparseView();
+  two.rigid_modes = find_rigid_modes(two.mass, two.stiffness);
+  return two;
+}
+
+CondensedProblem problem_of(const LinearStructure& structure, double omega, TimePair pair) {
+  CondensedProblem problem(std::move(pair), structure, testing::cosine_load());
+  problem.set_frequency(omega / two_pi);
+  return problem;
+}
+
+double mean(const Eigen::VectorXd& values) { return values.mean(); }
+
+TEST(RigidModes, AreThoseThatStrainNothing) {
+  const LinearStructure rod = free_rod(6, 1.0);
+  ASSERT_EQ(rod.rigid_modes.cols(), 1);
+  EXPECT_LT((rod.stiffness * rod.rigid_modes).norm(), 1e-12);
+  EXPECT_NEAR((rod.rigid_modes.transpose() * (rod.mass * rod.rigid_modes))(0, 0), 1.0, 1e-12);
+  EXPECT_EQ(two_masses(1.0, 1.0).rigid_modes.cols(), 2);
+  std::mt19937 generator(51);
+  const LinearStructure held = testing::random_chain(6, generator);
+  EXPECT_EQ(find_rigid_modes(held.mass, held.stiffness).cols(), 0);
+  EXPECT_NE(
+      testing::refusal([&] { find_rigid_modes(held.mass, -held.stiffness); }).find("negative eigenvalue"),
+      std::string::npos);
+}
+
+TEST(RigidModes, OfLargeStructuresAreFoundByInverseIteration) {
+  constexpr int size = 1200;
+  Eigen::SparseMatrix<double> stiffness(size, size), mass(size, size);
+  mass.setIdentity();
+  for (int i = 0; i + 1 < size; ++i) {
+    if (i == size / 3) continue;  // two bodies
+    stiffness.coeffRef(i, i) += 1.0;
+    stiffness.coeffRef(i + 1, i + 1) += 1.0;
+    stiffness.coeffRef(i, i + 1) -= 1.0;
+    stiffness.coeffRef(i + 1, i) -= 1.0;
+  }
+  const Eigen::MatrixXd rigid = find_rigid_modes(mass, stiffness);
+  ASSERT_EQ(rigid.cols(), 2);
+  EXPECT_LT((stiffness * rigid).norm(), 1e-8);
+  stiffness.coeffRef(0, 0) += 1.0;
+  EXPECT_EQ(find_rigid_modes(mass, stiffness).cols(), 1);
+}
+
+// Always in contact the mass is an oscillator on the stop: u = gap + p / k + Re F exp(i omega t) / (k -
+// omega^2 + i c omega).
+TEST(FreeStructure, PressedAgainstAStopHasTheClosedFormForEveryPair) {
+  const LinearContact stop{4.0, 0.2};
+  for (TimePair& pair : testing::pair_kinds(8, 32)) {
+    CondensedProblem problem = problem_of(pressed_mass(0.3, 2.0, 0.5), 0.7, std::move(pair));
+    ASSERT_TRUE(problem.is_free());
+    const PeriodicResponse response = forced_response(problem, AnyContactLaw(stop), {});
+    EXPECT_TRUE(response.converged()) << to_string(response.status) << problem.pair().functions() << " "
+                                      << problem.points() << " " << problem.pair().shift_period() << " "
+                                      << response.residual << " " << response.displacement.transpose();
+    EXPECT_GT(response.contact_force.minCoeff(), 0.0);
+    EXPECT_NEAR(mean(response.contact_force), 2.0, 1e-9);
+    EXPECT_NEAR(mean(response.displacement), 0.2 + 2.0 / 4.0, 1e-9);
+    EXPECT_LE(response.residual, 1e-10);
+  }
+  CondensedProblem problem = problem_of(pressed_mass(0.3, 2.0, 0.5), 0.7, testing::fourier_pair(7, 32));
+  const PeriodicResponse response = forced_response(problem, AnyContactLaw(stop), {});
+  for (int l = 0; l < 32; ++l) {
+    const Complex amplitude = 0.5 / Complex(4.0 - 0.49, 0.21);
+    EXPECT_NEAR(response.displacement[l], 0.7 + std::real(amplitude * std::polar(1.0, two_pi * l / 32.0)),
+                1e-10);
+  }
+  EXPECT_LT((problem.displacement(response.held_force) - response.displacement).norm(), 1e-9);
+}
+
+void expect_time_stepping(const LinearStructure& structure, const ContactLaws& laws, double omega,
+                          bool opens) {
+  CondensedProblem problem = problem_of(structure, omega, testing::fourier_pair(255, 2048));
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
+  EXPECT_EQ(response.contact_force.minCoeff() == 0.0, opens);
+  TimeSteppingOptions stepping;
+  stepping.output_points = 2048;
+  stepping.period_tolerance = 1e-7;
+  const auto stepped = integrate_to_periodic(structure, laws, problem.frequency(), stepping);
+  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+  const Eigen::VectorXd expected = stepped.contacts.displacement.transpose().reshaped();
+  EXPECT_LT((response.displacement - expected).norm(), 2e-3 * expected.norm());
+}
+
+TEST(FreeStructure, ThatLeavesItsStopMovesAsTimeSteppingSays) {
+  expect_time_stepping(pressed_mass(0.8, 1.0, 2.0), AnyContactLaw(LinearContact{4.0, 0.2}), 1.1, true);
+}
+
+TEST(FreeStructure, BetweenTwoStopsMovesAsTimeSteppingSays) {
+  const std::vector<AnyContactLaw> laws{LinearContact{5.0, 0.3}, LinearContact{5.0, 0.5}};
+  expect_time_stepping(free_rod(5, 1.0), laws, 0.8, true);
+}
+
+TEST(FreeStructure, OfTwoBodiesThatTouchEachOtherMovesAsTimeSteppingSays) {
+  expect_time_stepping(two_masses(1.0, 2.5), AnyContactLaw(LinearContact{4.0, 0.2}), 1.3, true);
+}
+
+TEST(FreeStructure, KeepsAZeroMeanWhereNothingTouches) {
+  const LinearStructure rod = free_rod(5, 1.0);
+  CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(15, 64));
+  for (const AnyContactLaw& law : {AnyContactLaw(), AnyContactLaw(LinearContact{5.0, 50.0})}) {
+    const PeriodicResponse response = forced_response(problem, law, {});
+    ASSERT_TRUE(response.converged());
+    EXPECT_TRUE(response.contact_force.isZero(0.0));
+    EXPECT_NEAR(mean(response.displacement.head(64)), 0.0, 1e-12);
+  }
+  // The mean momentum-weighted position of the two bodies, along which no contact acts.
+  const LinearStructure two = two_masses(1.0, 2.5);
+  CondensedProblem pair = problem_of(two, 1.3, testing::fourier_pair(63, 256));
+  const PeriodicResponse response = forced_response(pair, AnyContactLaw(LinearContact{4.0, 0.2}), {});
+  const Motion motion = structure_motion(pair, response.held_force, 256);
+  const Eigen::Vector2d position = motion.displacement.rowwise().mean();
+  EXPECT_NEAR(position[0] + 3.0 * position[1], 0.0, 1e-10);
+  EXPECT_LT(
+      (motion.displacement.row(0) - motion.displacement.row(1) - response.displacement.transpose()).norm(),
+      1e-9);
+}
+
+TEST(FreeStructure, WhoseStaticLoadNothingBalancesHasNoPeriodicMotion) {
+  const ContactLaws stop = AnyContactLaw(LinearContact{4.0, 0.2});
+  const auto status = [](const LinearStructure& structure, const ContactLaws& laws) {
+    CondensedProblem problem = problem_of(structure, 0.8, testing::fourier_pair(15, 64));
+    return forced_response(problem, laws, {}).status;
+  };
+  EXPECT_EQ(status(pressed_mass(0.3, -1.0, 0.5), stop), SolveStatus::unbalanced);  // pulled away
+  EXPECT_EQ(status(pressed_mass(0.3, 1.0, 0.5), AnyContactLaw()), SolveStatus::unbalanced);
+  LinearStructure pushed = two_masses(1.0, 2.5);  // both of them in one direction
+  pushed.forces.push_back(static_force(Eigen::Vector2d(0.5, 0.0)));
+  EXPECT_EQ(status(pushed, stop), SolveStatus::unbalanced);
+  LinearStructure rod = free_rod(5, 1.0);  // either stop balances a force towards it
+  for (const double pressure : {-0.5, 0.5}) {
+    rod.forces = {static_force(pressure * Eigen::VectorXd::Unit(5, 2))};
+    EXPECT_EQ(status(rod, std::vector<AnyContactLaw>{LinearContact{5.0, 0.3}, LinearContact{5.0, 0.5}}),
+              SolveStatus::converged);
+    EXPECT_EQ(status(rod, std::vector<AnyContactLaw>{LinearContact{5.0, 0.3}, AnyContactLaw()}),
+              pressure > 0.0 ? SolveStatus::converged : SolveStatus::unbalanced);
+  }
+  EXPECT_EQ(to_string(SolveStatus::unbalanced), "unbalanced");
+}
+
+// Solves with J, bordered and not, are those with the derivative of the residual, in both forms.
+TEST(FreeStructure, HasTheNewtonMatrixOfItsResidual) {
+  std::mt19937 generator(52);
+  for (const bool force_form : {false, true})
+    for (TimePair& pair : testing::pair_kinds(8, 32)) {
+      CondensedProblem problem = problem_of(free_rod(4, 1.0), 0.8, std::move(pair));
+      if (force_form) problem.set_regularization(Eigen::Vector2d(0.3, 0.2));
+      ContactSystem system(problem, AnyContactLaw(LinearContact{4.0, -0.1}));
+      const Eigen::VectorXd state = testing::random_vector(problem.samples(), generator),
+                            right = testing::random_vector(problem.samples(), generator),
+                            column = testing::random_vector(problem.samples(), generator),
+                            row = testing::random_vector(problem.samples(), generator);
+      const auto derivative = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        constexpr double step = 1e-7;
+        system.evaluate(state + step * x);
+        const Eigen::VectorXd ahead = system.residual();
+        system.evaluate(state - step * x);
+        return (ahead - system.residual()) / (2.0 * step);
+      };
+      system.evaluate(state);
+      ASSERT_TRUE(system.factorize());
+      Eigen::VectorXd x;
+      ASSERT_TRUE(system.solve(right, x));
+      EXPECT_LT((derivative(x) - right).norm(), 1e-5 * right.norm());
+      system.evaluate(state);
+      ASSERT_TRUE(system.factorize_bordered(column, row, 0.7));
+      double y = 0.0;
+      ASSERT_TRUE(system.solve_bordered(right, 0.4, x, y));
+      EXPECT_LT((derivative(x) + y * column - right).norm(), 1e-5 * right.norm());
+      EXPECT_NEAR(row.dot(x) + 0.7 * y, 0.4, 1e-8 * x.norm());
+    }
+}
+
+TEST(FreeStructure, IsFollowedOverTheFrequency) {
+  const LinearStructure mass = pressed_mass(0.6, 1.0, 0.9);
+  const ContactLaws stop = AnyContactLaw(LinearContact{4.0, 0.2});
+  CondensedProblem problem = problem_of(mass, 0.8, testing::fourier_pair(63, 512));
+  FrequencySweepOptions options;
+  options.from = 2.6 / two_pi;
+  options.to = 1.2 / two_pi;
+  options.keep_unknowns = true;
+  const FrequencySweep sweep = frequency_sweep(problem, stop, options);
+  EXPECT_EQ(sweep.status, SweepStatus::reached_end);
+  ASSERT_GT(sweep.points.size(), 10u);
+  for (std::size_t i = 0; i < sweep.points.size(); i += 7) {
+    CondensedProblem at =
+        problem_of(mass, sweep.points[i].frequency * two_pi, testing::fourier_pair(63, 512));
+    const PeriodicResponse response = forced_response(at, stop, {}, sweep.points[i].unknown);
+    ASSERT_TRUE(response.converged());
+    EXPECT_NEAR(response.displacement.maxCoeff(), sweep.points[i].max_displacement, 2e-3);
+    EXPECT_NEAR(mean(response.contact_force), 1.0, 1e-8);
+  }
+}
+
+// One period of the pressed mass by the classical method of Runge and Kutta.
+Eigen::Vector2d integrated(const LinearContact& law, double omega, Eigen::Vector2d state) {
+  const auto rate = [&](double time, const Eigen::Vector2d& at) {
+    return Eigen::Vector2d(at[1], 1.0 + 3.0 * std::cos(omega * time) - 0.3 * at[1] - law.force(at[0]));
+  };
+  constexpr int steps = 20000;
+  const double h = two_pi / omega / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::Vector2d a = rate(i * h, state), b = rate((i + 0.5) * h, state + 0.5 * h * a),
+                          c = rate((i + 0.5) * h, state + 0.5 * h * b), d = rate((i + 1) * h, state + h * c);
+    state += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  }
+  return state;
+}
+
+TEST(FreeStructure, HasTheMultipliersOfItsPeriodMap) {
+  const LinearContact law{4.0, 0.2};
+  int unstable = 0;
+  for (const double omega : {1.1, 2.0, 3.4}) {
+    CondensedProblem problem =
+        problem_of(pressed_mass(0.3, 1.0, 3.0), omega, testing::fourier_pair(127, 1024));
+    const ContactLaws laws = AnyContactLaw(law);
+    const PeriodicResponse response = forced_response(problem, laws, {});
+    ASSERT_TRUE(response.converged()) << omega;
+    EXPECT_EQ(response.contact_force.minCoeff(), 0.0) << omega;
+    const Motion motion = contact_motion(problem, response, laws, 1024);
+    const Eigen::Vector2d start(motion.displacement(0, 0), motion.velocity(0, 0));
+    const Eigen::Vector2d end = integrated(law, omega, start);
+    EXPECT_LT((end - start).norm(), 1e-2 * start.norm()) << omega;
+    Eigen::Matrix2d map;
+    for (int i = 0; i < 2; ++i)
+      map.col(i) = (integrated(law, omega, start + 1e-6 * Eigen::Vector2d::Unit(i)) - end) / 1e-6;
+    const Eigen::VectorXcd exact = map.eigenvalues();
+    const ContactDynamics dynamics(problem.structure());
+    EXPECT_GT(dynamics.holding(), 0.0);
+    for (const Complex multiplier :
+         monodromy(dynamics, contact_stiffness(problem, laws, response), problem.frequency()))
+      EXPECT_LT((exact.array() - multiplier).abs().minCoeff(), 1e-2) << omega;
+    const UnstableMultipliers count = unstable_multipliers(dynamics, problem, laws, response);
+    EXPECT_EQ(count.status, StabilityStatus::converged) << omega;
+    EXPECT_EQ(count.count, (exact.cwiseAbs().array() > 1.0).count()) << omega;
+    StabilityOptions alone;
+    alone.max_states = 0;  // by the determinant
+    const UnstableMultipliers wound = unstable_multipliers(dynamics, problem, laws, response, alone);
+    const bool winds = wound.status == StabilityStatus::converged;
+    EXPECT_EQ(winds ? wound.count : count.count, count.count) << omega;
+    unstable += count.count > 0;
+  }
+  RecordProperty("unstable", unstable);
+}
+
+// A mass on a spring with a tip without mass, pressed against a rigid stop: the tip rests at the stop.
+TEST(FreeStructure, IsHeldByARigidStopAtAContactWithoutMass) {
+  LinearStructure body;
+  body.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 0.0).asDiagonal()).sparseView();
+  body.stiffness = Eigen::MatrixXd(Eigen::Matrix2d{{2.0, -2.0}, {-2.0, 2.0}}).sparseView();
+  body.damping = 0.1 * body.stiffness;
+  body.load = Eigen::Vector2d(0.5, 0.0);
+  body.forces = {static_force(Eigen::Vector2d(1.5, 0.0))};
+  body.contact_directions = contact_rows({1}, 2);
+  body.rigid_modes = Eigen::Vector2d(1.0, 1.0);
+  CondensedProblem problem = problem_of(body, 0.6, testing::fourier_pair(31, 128));
+  const PeriodicResponse response = forced_response(problem, AnyContactLaw(testing::Rigid{0.25}), {});
+  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  EXPECT_LT((response.displacement.array() - 0.25).abs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(mean(response.contact_force), 1.5, 1e-9);
+  const Motion motion = structure_motion(problem, response.held_force, 128);
+  for (int l = 0; l < 128; ++l) {
+    const Complex amplitude = 0.5 / Complex(2.0 - 0.36, 0.2 * 0.6);
+    EXPECT_NEAR(motion.displacement(0, l),
+                0.25 + 0.75 + std::real(amplitude * std::polar(1.0, two_pi * l / 128.0)), 1e-9);
+  }
+}
+
+TEST(FreeStructure, RefusesRigidModesOfAnotherSizeAndACirculatoryStiffness) {
+  LinearStructure rod = free_rod(3, 1.0);
+  rod.rigid_modes.conservativeResize(2, 1);
+  EXPECT_NE(testing::refusal([&] { rod.validate(); }).find("rigid_modes has 2 rows"), std::string::npos);
+  rod = free_rod(3, 1.0);
+  rod.stiffness.coeffRef(0, 2) = 0.3;
+  EXPECT_NE(testing::refusal([&] { rod.validate(); }).find("must have a symmetric stiffness"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
