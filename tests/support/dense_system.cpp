@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <numbers>
+
 namespace wavebalance::dense {
 namespace {
 
@@ -33,11 +35,29 @@ void DenseSystem::add_load(const Eigen::VectorXd& shape, const Eigen::VectorXd& 
     load_.segment(i * projections.size(), projections.size()) += shape[i] * projections;
 }
 
+namespace {
+
+// The circulant matrix that turns each harmonic k of the coefficients by a quarter of its period: eigenvalues
+// i sign(k), and 0 for k = 0 and M/2.
+Eigen::MatrixXd phase_shift(int functions) {
+  return Eigen::MatrixXd::NullaryExpr(functions, functions, [&](Eigen::Index i, Eigen::Index j) {
+    double sum = 0.0;
+    for (int k = 1; 2 * k < functions; ++k)
+      sum -= 2.0 / functions * std::sin(2.0 * std::numbers::pi * k * double(i - j) / functions);
+    return sum;
+  });
+}
+
+}  // namespace
+
 void DenseSystem::set_frequency(double frequency_hz) {
   matrix_.setZero(unknowns(), unknowns());
   add_kronecker(matrix_, frequency_hz * frequency_hz, structure_.mass, time_.products[2]);
   add_kronecker(matrix_, frequency_hz, structure_.damping, time_.products[1]);
   add_kronecker(matrix_, 1.0, structure_.stiffness, time_.products[0]);
+  if (structure_.loss_factor > 0.0)
+    add_kronecker(matrix_, structure_.loss_factor, structure_.stiffness,
+                  time_.products[0] * phase_shift(functions()));
 }
 
 Eigen::VectorXd DenseSystem::solve(const Eigen::VectorXd& r) const { return matrix_.partialPivLu().solve(r); }
