@@ -10,6 +10,7 @@
 #include "linalg/parallel_for.hpp"
 #include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
+#include "structure/largest_entry.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -19,14 +20,6 @@ bool is_tridiagonal(const Eigen::SparseMatrix<double>& matrix) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
       if (std::abs(entry.row() - entry.col()) > 1 && entry.value() != 0.0) return false;
   return true;
-}
-
-double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
-  double largest = 0.0;
-  for (int column = 0; column < matrix.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
-      largest = std::max(largest, std::abs(entry.value()));
-  return largest;
 }
 
 void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* name, const char* reason) {

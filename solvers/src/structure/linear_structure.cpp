@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "structure/largest_entry.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -14,14 +16,6 @@ void require_square(const Eigen::SparseMatrix<double>& matrix, Eigen::Index size
                               std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
                               "; the load has " + std::to_string(size) +
                               " entries, so it must be square of that size");
-}
-
-double largest_entry(const Eigen::SparseMatrix<double>& matrix) {
-  double largest = 0.0;
-  for (int column = 0; column < matrix.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
-      largest = std::max(largest, std::abs(entry.value()));
-  return largest;
 }
 
 void require_directions(const ContactDirections& directions, Eigen::Index size) {

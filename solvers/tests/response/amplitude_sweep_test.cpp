@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "constants.hpp"
+#include "support/duffing_spring.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
@@ -22,13 +22,6 @@ double load_of(double amplitude, double stiffness, double damping, double w) {
   return amplitude * std::hypot(stiffness - w * w, damping * w);
 }
 
-struct Cubic {
-  double force(double u) const { return u * u * u; }
-  double tangent(double u) const { return 3.0 * u * u; }
-  double potential(double u) const { return 0.25 * u * u * u * u; }
-  double gap() const { return std::numeric_limits<double>::infinity(); }
-};
-
 TEST(AmplitudeSweep, PointsAndFoldsAreThoseOfTheClosedFormOfTheDuffingCurve) {
   const double damping = 0.05, w = 1.6;
   const auto load = [&](double a) { return load_of(a, 1.0 + 0.75 * a * a, damping, w); };
@@ -43,7 +36,7 @@ TEST(AmplitudeSweep, PointsAndFoldsAreThoseOfTheClosedFormOfTheDuffingCurve) {
   for (const bool rising : {true, false}) {
     options.from = rising ? 0.1 : 3.0;
     options.to = rising ? 3.0 : 0.1;
-    const FrequencySweep sweep = amplitude_sweep(problem, Cubic{}, options);
+    const FrequencySweep sweep = amplitude_sweep(problem, testing::DuffingSpring{}, options);
     ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
     EXPECT_EQ(sweep.parameter, SweepParameter::load_scale);
     for (const SweepPoint& point : sweep.points) {
@@ -149,7 +142,7 @@ TEST(AmplitudeSweep, OfAProblemWithoutAFrequencyIsRefused) {
   FrequencySweepOptions options;
   options.from = 1.0;
   options.to = 2.0;
-  EXPECT_EQ(testing::refusal([&] { amplitude_sweep(problem, Cubic{}, options); }),
+  EXPECT_EQ(testing::refusal([&] { amplitude_sweep(problem, testing::DuffingSpring{}, options); }),
             "amplitude_sweep: the problem has no frequency yet; call set_frequency first");
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "constants.hpp"
+#include "support/duffing_spring.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -16,13 +16,6 @@ namespace {
 
 // u'' + 2 zeta u' + u + u^3 = cos, time in units of 1/omega_0: with one harmonic and enough points for the
 // third, balance is exact and has a closed form.
-struct Cubic {
-  double force(double u) const { return u * u * u; }
-  double tangent(double u) const { return 3.0 * u * u; }
-  double potential(double u) const { return 0.25 * u * u * u * u; }
-  double gap() const { return std::numeric_limits<double>::infinity(); }
-};
-
 constexpr double duffing_load = 0.3, duffing_damping = 0.05;
 
 // Frequencies (Hz) on the Duffing curve at amplitude a, lower and upper branch of
@@ -53,7 +46,7 @@ FrequencySweep duffing_sweep(double from, double to) {
   FrequencySweepOptions options;
   options.from = from;
   options.to = to;
-  return frequency_sweep(problem, Cubic{}, options);
+  return frequency_sweep(problem, testing::DuffingSpring{}, options);
 }
 
 TEST(FrequencySweep, PointsLieOnTheClosedFormOfTheDuffingCurve) {
@@ -135,7 +128,7 @@ TEST(FrequencySweep, SaysWhenTheCurveReturnsToWhereItStarted) {
   FrequencySweepOptions options;
   options.from = 0.3;
   options.to = 0.05;
-  const FrequencySweep sweep = frequency_sweep(problem, Cubic{}, options);
+  const FrequencySweep sweep = frequency_sweep(problem, testing::DuffingSpring{}, options);
   ASSERT_LT(sweep.points.front().max_displacement, 0.5) << "the low branch";
   EXPECT_EQ(sweep.status, SweepStatus::returned);
   EXPECT_EQ(sweep.turning_points.size(), 1u);

@@ -24,7 +24,8 @@ using Complex = std::complex<double>;
 
 // The largest difference to a condensation at complex exponents, and of the sum over the poles to it,
 // relative to the largest compliance.
-double error_of(const ContactDynamics& dynamics, const LinearStructure& structure, double lowest = 0.0) {
+double unsymmetric_error(const ContactDynamics& dynamics, const LinearStructure& structure,
+                         double lowest = 0.0) {
   Condensation condensation(structure, CondensationMethod::dense);
   const int count = structure.contacts();
   double error = 0.0, largest = 0.0;
@@ -55,12 +56,12 @@ TEST(UnsymmetricDynamics, AreTheCondensedCompliance) {
   for (int contacts = 1; contacts <= 3; ++contacts) {
     LinearStructure chain = testing::unsymmetric_chain(7, 0.3, 0.2, generator);
     chain.contact_directions = testing::random_directions(contacts, 7, generator);
-    EXPECT_LT(error_of(ContactDynamics(chain), chain), 1e-9);
+    EXPECT_LT(unsymmetric_error(ContactDynamics(chain), chain), 1e-9);
     chain.stiffness =
         Eigen::MatrixXd(Eigen::MatrixXd(chain.stiffness) -
                         Eigen::MatrixXd(chain.stiffness).col(0) * Eigen::RowVectorXd::Unit(7, 0))
             .sparseView();  // singular, so that the modes are found by the mass
-    EXPECT_LT(error_of(ContactDynamics(chain), chain, 0.1), 1e-9);
+    EXPECT_LT(unsymmetric_error(ContactDynamics(chain), chain, 0.1), 1e-9);
   }
 }
 
@@ -78,7 +79,7 @@ TEST(UnsymmetricDynamics, TakeContactsWithoutMass) {
     chain.contact_directions = contact_rows({4, 2}, 5);
     const ContactDynamics dynamics(chain);
     EXPECT_EQ(dynamics.constant()(0, 0) > 0.1, !damped);
-    EXPECT_LT(error_of(dynamics, chain), 1e-9);
+    EXPECT_LT(unsymmetric_error(dynamics, chain), 1e-9);
   }
 }
 

@@ -53,7 +53,9 @@ LinearStructure lattice(int n, std::mt19937& generator) {
 ImpedanceCoefficients at(double rate) { return {Complex(-rate * rate), Complex(0.0, rate), 1.0}; }
 ImpedanceCoefficients slope_at(double rate) { return {Complex(-2.0 * rate), Complex(0.0, 1.0), 0.0}; }
 
-double distance(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) { return (a - b).norm() / b.norm(); }
+double relative_distance(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  return (a - b).norm() / b.norm();
+}
 
 void expect_same_by_both(const LinearStructure& structure, std::mt19937& generator) {
   const auto fast = make_sparse_method(structure), plain = make_plain_sparse_method(structure);
@@ -62,13 +64,15 @@ void expect_same_by_both(const LinearStructure& structure, std::mt19937& generat
   for (const double rate : {0.0, 0.3, 1.1, 2.5, 40.0}) {
     const auto found = fast->dynamic_compliance(at(rate), slope_at(rate));
     const auto expected = plain->dynamic_compliance(at(rate), slope_at(rate));
-    EXPECT_LE(distance(found.compliance, expected.compliance), 1e-10) << rate;
-    EXPECT_LE(distance(found.load_response, expected.load_response), 1e-10) << rate;
-    EXPECT_LE(distance(found.compliance_slope, expected.compliance_slope), 1e-10) << rate;
-    EXPECT_LE(distance(found.load_response_slope, expected.load_response_slope), 1e-10) << rate;
-    EXPECT_LE(distance(found.load_response_error, expected.load_response_error), 1e-6) << rate;
+    EXPECT_LE(relative_distance(found.compliance, expected.compliance), 1e-10) << rate;
+    EXPECT_LE(relative_distance(found.load_response, expected.load_response), 1e-10) << rate;
+    EXPECT_LE(relative_distance(found.compliance_slope, expected.compliance_slope), 1e-10) << rate;
+    EXPECT_LE(relative_distance(found.load_response_slope, expected.load_response_slope), 1e-10) << rate;
+    EXPECT_LE(relative_distance(found.load_response_error, expected.load_response_error), 1e-6) << rate;
     EXPECT_NEAR(fast->condition() / plain->condition(), 1.0, 1e-9) << rate;
-    EXPECT_LE(distance(fast->recover(at(rate), load, forces), plain->recover(at(rate), load, forces)), 1e-10)
+    EXPECT_LE(
+        relative_distance(fast->recover(at(rate), load, forces), plain->recover(at(rate), load, forces)),
+        1e-10)
         << rate;
   }
 }
