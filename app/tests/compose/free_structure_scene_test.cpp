@@ -81,7 +81,8 @@ TEST(FreeStructureScene, IsAnErrorUnlessMeant) {
 
 TEST(LossFactor, OfTheBarLimitsItsResonance) {
   const std::string text = with(bar_scene, "stiffness_damping = 1e-4", "loss_factor = 0.1");
-  const Scene scene = parse_scene(text, "case.toml", {"contact.law=none", "forcing.frequency=300"});
+  const Scene scene =
+      parse_scene(text, "case.toml", std::vector<std::string>{"contact.law=none", "forcing.frequency=300"});
   EXPECT_EQ(make_structure(scene).loss_factor, 0.1);
   const Response response = weighted_residual_response(scene, {.stability = true});
   ASSERT_TRUE(response.converged);

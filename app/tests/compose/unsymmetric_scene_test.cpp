@@ -42,7 +42,7 @@ TEST(RotorScene, FluttersWhereTheDampingOfTheShaftExceedsThatOutside) {
                      "\n2 2 801577.366\n4 2 -200394.341\n1 3 -200394.341\n3 3 66798.1138\n2 4 -200394.341\n"
                      "4 4 66798.1138\n");
     const Response response = weighted_residual_response(
-        load_scene(folder / "rotor.toml", {"contact.law=none"}), {.stability = true});
+        load_scene(folder / "rotor.toml", std::vector<std::string>{"contact.law=none"}), {.stability = true});
     ASSERT_TRUE(response.stability);
     EXPECT_EQ(response.stability->status, circulatory < 8000.0 ? "stable" : "unstable");
   }
