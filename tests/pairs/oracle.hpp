@@ -104,7 +104,7 @@ class Oracle {
     const solvers::PeriodicResponse response = solvers::forced_response(problem_, laws_, {});
     EXPECT_TRUE(response.converged());
     const Eigen::VectorXd found = stacked(problem_.full_coefficients(response.contact_force), functions_);
-    EXPECT_LE(dense_.relative_residual(found), tolerance);
+    EXPECT_LE(dense_.relative_residual(found), 2.0 * tolerance);  // of two factorisations
     dense::Solution own = dense_.newton(dense_.linear_response());
     // Another solution, or none, may be what Newton finds from afar: then it must find this one from nearby.
     if (!own.converged || (own.coefficients - found).norm() > 1e-3 * found.norm())
