@@ -32,7 +32,8 @@ ForceAndTangent BilinearLaw::resolvent(double v, double flexibility) const {
   // v / below < kink_ where below > 0; for below < 0 the displacement is on this side for large v.
   if (below != 0.0 && v / below < kink_) return {detail::saturate_both(below_ * (v / below)), below_ / below};
   if (beyond != 0.0 && past / beyond >= 0.0)
-    return {detail::saturate_both(at_kink + beyond_ * (past / beyond)), beyond_ / beyond};
+    // One division of the whole, since at_kink and the rest cancel where the flexibility is large.
+    return {detail::saturate_both((at_kink + beyond_ * (v - kink_)) / beyond), beyond_ / beyond};
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   return {none, none};
 }

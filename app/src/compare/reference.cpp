@@ -113,7 +113,7 @@ class ReferenceSearch {
   /// The response without contact, where it keeps away from every obstacle.
   std::optional<Reference> linear() {
     if (!model_.structure.forces.empty()) return std::nullopt;  // of other harmonics, too
-    if (model_.structure.is_free()) return std::nullopt;  // its position follows from contact
+    if (model_.structure.is_free()) return std::nullopt;        // its position follows from contact
     const Scene three = discretised(scene_, {"fourier", "fourier"}, 3, 8);
     const solvers::CondensedProblem problem = make_problem(three, model_);
     const Eigen::MatrixXd samples = solvers::by_contact(problem.contact_free_response(), model_.contacts());

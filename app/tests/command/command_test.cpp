@@ -113,7 +113,8 @@ TEST(CommandLine, UnknownCommandIsNamedBesideThoseThereAre) {
   const TemporaryFolder folder;
   const Outcome outcome = run(folder, {"nonsense"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.errors, "wavebalance: unknown command nonsense; there are run, check, compare, overlay, keys\n");
+  EXPECT_EQ(outcome.errors,
+            "wavebalance: unknown command nonsense; there are run, check, compare, overlay, keys\n");
 }
 
 TEST(CommandLine, VersionIsTheProjects) {

@@ -28,9 +28,9 @@ TEST(CommandCompare, WritesItsFilesAndSaysWhatToTake) {
   const TemporaryFolder folder;
   const Outcome outcome = compare(folder, {"--pairs", "fourier:fourier,haar:fourier", "--budget", "2"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const char* name : {"summary.json", "comparison.csv", "comparison.md", "error_over_time.svg",
-                           "error_over_functions.svg", "scene.toml", "report.html",
-                           "error_over_time.figure.js", "error_over_functions.figure.js"})
+  for (const char* name :
+       {"summary.json", "comparison.csv", "comparison.md", "error_over_time.svg", "error_over_functions.svg",
+        "scene.toml", "report.html", "error_over_time.figure.js", "error_over_functions.figure.js"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
   EXPECT_EQ(TemporaryFolder::count(folder / "out"), 9);
   const std::string page = read_file(folder / "out" / "report.html");

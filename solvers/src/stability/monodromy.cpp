@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -12,44 +11,13 @@
 #include "linalg/option_checks.hpp"
 #include "stability/gauss_rule.hpp"
 #include "stability/monodromy_map.hpp"
+#include "stability/monodromy_pieces.hpp"
 #include "stability/stability_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
-
-// A piece of the period in which the same contacts are closed, in periods.
-struct Piece {
-  double begin, end;
-  std::vector<int> closed;
-  int parts;  // equal ones, each short enough
-};
-
-bool holds(const ContactInterval& interval, double time) {
-  const double since = time - interval.begin - std::floor(time - interval.begin);
-  return since < interval.length();
-}
-
-// Pieces between all instants of opening and closing, no part longer than `longest` while a contact is
-// closed.
-std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest) {
-  std::vector<double> ends{0.0, 1.0};
-  for (const ContactInterval& interval : stiffness.intervals)
-    for (const double time : {interval.begin, interval.end}) ends.push_back(time - std::floor(time));
-  std::sort(ends.begin(), ends.end());
-  std::vector<Piece> result;
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    const double length = ends[i] - ends[i - 1], middle = 0.5 * (ends[i] + ends[i - 1]);
-    if (!(length > 0.0)) continue;
-    std::vector<int> closed;
-    for (const ContactInterval& interval : stiffness.intervals)
-      if (holds(interval, middle)) closed.push_back(interval.contact);
-    const int parts = closed.empty() ? 1 : std::max(1, int(std::ceil(length / longest)));
-    result.push_back({ends[i - 1], ends[i], std::move(closed), parts});
-  }
-  return result;
-}
 
 // Row i: the values at points[i] of the polynomials that are 1 at one of the nodes and 0 at the others.
 Eigen::MatrixXd lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points) {
@@ -351,64 +319,11 @@ Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map) {
   return multipliers;
 }
 
-namespace {
-
-double largest_exponent(const ContactDynamics& dynamics) {
-  double largest = 0.0;
-  for (const ContactPole& pole : dynamics.poles()) largest = std::max(largest, std::abs(pole.exponent));
-  return largest;
-}
-
-// The largest rate, 1/s, of the contact's stiffness on the mass or the damping beside it, which are those of
-// h(t) at t = 0.
-double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {
-  const int contacts = dynamics.contacts();
-  Eigen::VectorXd jump = Eigen::VectorXd::Zero(contacts), rise = jump;
-  for (const ContactPole& pole : dynamics.poles()) {
-    const double times = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
-    const Eigen::VectorXcd squares = times * pole.residue * pole.shape.cwiseProduct(pole.left);
-    jump += squares.real();
-    rise += (pole.exponent * squares).real();
-  }
-  constexpr int samples = 8;
-  double fastest = 0.0;
-  for (const ContactInterval& interval : stiffness.intervals)
-    for (int i = 0; i <= samples; ++i) {
-      const double time = interval.begin + interval.length() * i / samples;
-      const double stop = std::abs(stiffness.tangent(interval.contact, time));
-      const double yielding = dynamics.constant()(interval.contact, interval.contact);
-      const double tangent = std::isinf(stop) ? 1.0 / yielding : stop / (1.0 + yielding * stop);
-      fastest = std::max({fastest, std::abs(jump[interval.contact]) * tangent,
-                          std::sqrt(std::abs(rise[interval.contact]) * tangent)});
-      if (stiffness.damping)
-        fastest =
-            std::max(fastest, std::abs(rise[interval.contact] * stiffness.damping(interval.contact, time)));
-    }
-  return fastest;
-}
-
-}  // namespace
-
 void MonodromyOptions::validate() const {
   detail::require_at_least("MonodromyOptions", "nodes", nodes, 2);
   detail::require_at_least("MonodromyOptions", "max_pieces", max_pieces, 1);
   detail::require_positive("MonodromyOptions", "max_phase", max_phase);
 }
-
-namespace {
-
-// The pieces of a period, cut where the fastest of modes and contacts needs it; nothing where max_pieces do
-// not resolve the contact.
-std::optional<std::vector<Piece>> resolving_pieces(const ContactDynamics& dynamics,
-                                                   const PeriodicStiffness& stiffness, double frequency,
-                                                   const MonodromyOptions& options) {
-  const double phase = options.max_phase * frequency, resolved = phase * options.max_pieces;
-  const double contact = contact_rate(dynamics, stiffness);
-  if (!(contact <= resolved)) return std::nullopt;
-  return pieces(stiffness, phase / std::clamp(largest_exponent(dynamics), contact, resolved));
-}
-
-}  // namespace
 
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                               double frequency, const MonodromyOptions& options) {

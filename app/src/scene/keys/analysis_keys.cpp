@@ -130,13 +130,14 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            derived("32 for a blade, 0 for matrices and where there is no motion", default_motion_points),
            only_with(structure_is({"blade", "matrices"}) &&
                      analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
-  analysis(&Analysis::stability, "stability", "",
-           "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
-           "curve, and finds the curve's special points",
-           derived("true; with more than 6 contacts false for modes, and for curves where contacts times "
-                   "functions exceed 400",
-                   stability_by_default),
-           only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
+  analysis(
+      &Analysis::stability, "stability", "",
+      "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
+      "curve, and finds the curve's special points",
+      derived("true; with more than 6 contacts false for modes, and for curves where contacts times "
+              "functions exceed 400",
+              stability_by_default),
+      only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
   analysis(&Analysis::subharmonic, "subharmonic", "",
            "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
            "output_points are then those of n periods",

@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "wavebalance/solvers/stability/monodromy.hpp"
+
+namespace wavebalance::solvers {
+
+/// A piece of the period in which the same contacts are closed, in periods.
+struct Piece {
+  double begin, end;
+  std::vector<int> closed;
+  int parts;  // equal ones, each short enough
+};
+
+/// Pieces between all instants of opening and closing, no part longer than `longest` while a contact is
+/// closed.
+std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest);
+
+/// The pieces of a period, cut where the fastest of modes and contacts needs it; nothing where max_pieces do
+/// not resolve the contact.
+std::optional<std::vector<Piece>> resolving_pieces(const ContactDynamics& dynamics,
+                                                   const PeriodicStiffness& stiffness, double frequency,
+                                                   const MonodromyOptions& options);
+
+}  // namespace wavebalance::solvers
