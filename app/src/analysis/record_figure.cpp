@@ -171,7 +171,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Displacement", "m", response.displacement(), response);
   add_motion(figure, "Velocity", "m/s", response.velocity(), response);
   add_motion(figure, "Contact force", "N", response.force(), response);
-  if (scene.contact.law != ContactLawType::none) {
+  if (has_gap(scene.contact.law)) {
     const double factor = scale_of(response.displacement().cwiseAbs().maxCoeff()).factor;
     figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact), "gap");
   }
@@ -254,7 +254,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
       marks.push_back(one);
   draw_special_points(panel, marks);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
-  if (scene.contact.law != ContactLawType::none && one_gap)
+  if (has_gap(scene.contact.law) && one_gap)
     panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   return figure;

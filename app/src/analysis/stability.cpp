@@ -113,9 +113,9 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   if (!known || folds.size() >= of_samples.size()) return;
   record.summary.emplace_back("turning_points_of_samples_" + suffix, of_samples);
   record.warnings.push_back(fmt::format(
-      "The curve turns {} times, but the motion has {} folds: the other turns are an error of the "
+      "The curve turns {} times, but the motion has {} fold{}: the other turns are an error of the "
       "quadrature points.",
-      of_samples.size(), folds.size()));
+      of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ void require_same_structure(const Scene& first, const Scene& scene, const fs::pa
 
 /// The one gap of a scene; NaN where there are several or none.
 double gap_in(const Scene& scene) {
-  if (scene.contact.law == ContactLawType::none || !scene.contact.gaps.empty()) return unknown;
+  if (!has_gap(scene.contact.law) || !scene.contact.gaps.empty()) return unknown;
   const auto& pairs = scene.contact.pairs;
   const bool one = std::all_of(pairs.begin(), pairs.end(),
                                [&](const ContactPair& pair) { return pair.gap == pairs.front().gap; });

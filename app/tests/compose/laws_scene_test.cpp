@@ -147,6 +147,7 @@ TEST(LawExample, DuffingsOscillatorHasItsPeakAndTwoFolds) {
   const double w = std::sqrt(0.5 + std::sqrt(0.25 + 0.75 * 0.5 * 0.01 / (0.04 * 0.04)));
   EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 0.1 / (0.04 * w),
               0.02 * 0.1 / (0.04 * w));
+  EXPECT_TRUE(record.figure.panels.at(0).segments.empty());  // no gap is drawn where the law has none
 }
 
 TEST(LawExample, BacklashTouchesBothSides) {
@@ -154,6 +155,7 @@ TEST(LawExample, BacklashTouchesBothSides) {
   EXPECT_TRUE(record.converged) << record.status;
   EXPECT_GT(value_of<double>(record.summary, "max_displacement_m"), 0.5);
   EXPECT_LT(value_of<double>(record.summary, "min_displacement_m"), -0.8);
+  EXPECT_EQ(value_of<std::vector<double>>(record.summary, "turning_points_Hz").size(), 2u);
 }
 
 TEST(LawExample, ARubberStopTakesMoreThanATenthOfTheWork) {
