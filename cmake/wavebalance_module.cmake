@@ -8,15 +8,20 @@ function(wavebalance_add_module name)
   list(TRANSFORM M_MODULES PREPEND wavebalance:: OUTPUT_VARIABLE siblings)
   add_library(${target})
   add_library(wavebalance::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name}
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  set(interface ${PROJECT_VERSION_MAJOR})
+  if(interface EQUAL 0)
+    set(interface 0.${PROJECT_VERSION_MINOR})  # before 1.0 the interface changes with the minor version
+  endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${interface})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_sources(${target} PRIVATE ${M_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
   target_include_directories(${target} PRIVATE src)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
   target_link_libraries(${target} PUBLIC ${siblings} ${M_PUBLIC} PRIVATE ${M_PRIVATE})
-  if("Eigen3::Eigen" IN_LIST M_PUBLIC)
+  if(BUILD_SHARED_LIBS)
+    wavebalance_export_headers(${target} ${M_HEADERS})
+  elseif("Eigen3::Eigen" IN_LIST M_PUBLIC)
     wavebalance_precompile_headers(${target})
   endif()
   wavebalance_set_warnings(${target})
@@ -65,6 +70,32 @@ function(wavebalance_precompile_headers target)
       <functional> <limits> <memory> <stdexcept> <string> <vector>)
   endif()
   target_precompile_headers(${target} REUSE_FROM wavebalance_headers)
+endfunction()
+
+# wavebalance_export_headers(target <headers>): a shared library exports what its public headers declare, and nothing else.
+# All of them stand in the precompiled header, between two pragmas, so that no header needs a macro at each function.
+function(wavebalance_export_headers target)
+  list(TRANSFORM ARGN REPLACE "^include/(.*)$" "#include <\\1>" OUTPUT_VARIABLE lines)
+  list(JOIN lines "\n" lines)
+  set(header ${CMAKE_CURRENT_BINARY_DIR}/${target}_exports.hpp)
+  file(CONFIGURE OUTPUT ${header} @ONLY
+    CONTENT "#pragma GCC visibility push(default)\n@lines@\n#pragma GCC visibility pop\n")
+  target_precompile_headers(${target} PRIVATE ${header})
+  # Members of types of Eigen, which stay hidden: each library has its own copy.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-attributes>)
+endfunction()
+
+# wavebalance_use_private_parts(test <modules>): lets the test reach what shared libraries of these modules do not export.
+# It then has their objects beside the libraries.
+function(wavebalance_use_private_parts test)
+  if(NOT BUILD_SHARED_LIBS OR NOT TARGET ${test})
+    return()
+  endif()
+  foreach(module IN LISTS ARGN)
+    target_sources(${test} PRIVATE $<TARGET_OBJECTS:wavebalance_${module}>)
+    get_target_property(libraries wavebalance_${module} LINK_LIBRARIES)
+    target_link_libraries(${test} PRIVATE ${libraries})
+  endforeach()
 endfunction()
 
 # wavebalance_set_hot(<sources>): loops that -O3 makes faster than the -O2 of all other sources.
