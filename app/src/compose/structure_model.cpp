@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "compose/loads.hpp"
@@ -101,17 +102,26 @@ fem::Observer reduction_observer(const solvers::Observer& observer) {
   };
 }
 
+/// The matrices with the symmetric parts of C and K; nothing where those are symmetric, since a copy of a
+/// large structure takes as much memory as the structure.
+std::optional<fem::Matrices> symmetric_parts(const fem::Matrices& matrices) {
+  const bool no_damping = matrices.damping.size() == 0;
+  if (solvers::is_symmetric(matrices.stiffness) && (no_damping || solvers::is_symmetric(matrices.damping)))
+    return std::nullopt;
+  return fem::Matrices{.mass = matrices.mass,
+                       .damping = no_damping ? matrices.damping : symmetric_part(matrices.damping),
+                       .stiffness = symmetric_part(matrices.stiffness)};
+}
+
 /// The modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
 /// gyroscopic and circulatory forces, are projected on them.
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
             const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes,
             const solvers::Observer& observer) {
-  const fem::Matrices symmetric{
-      .mass = matrices.mass,
-      .damping = matrices.damping.size() > 0 ? symmetric_part(matrices.damping) : matrices.damping,
-      .stiffness = symmetric_part(matrices.stiffness)};
-  fem::CraigBampton reduced = fem::craig_bampton(
-      symmetric, boundary, {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
+  const std::optional<fem::Matrices> parts = symmetric_parts(matrices);
+  fem::CraigBampton reduced =
+      fem::craig_bampton(parts ? *parts : matrices, boundary,
+                         {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
   if (reduced.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
                              ": the eigenvalue solver did not find them all");

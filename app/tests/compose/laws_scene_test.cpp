@@ -136,8 +136,8 @@ TEST_F(LawScene, IsSolvedAndARecordOfADamperSaysWhatItDissipates) {
   }
 }
 
-Record law_example(const std::string& name) {
-  return analyse(load_scene(std::filesystem::path(WAVEBALANCE_SCENES) / "laws" / name));
+Record law_example(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return analyse(load_scene(std::filesystem::path(WAVEBALANCE_SCENES) / "laws" / name, overrides));
 }
 
 // The peak of Duffing's oscillator lies on its backbone, w^2 = 1 + 3/4 k3 a^2, where c w a = F.
@@ -156,6 +156,17 @@ TEST(LawExample, BacklashTouchesBothSides) {
   EXPECT_GT(value_of<double>(record.summary, "max_displacement_m"), 0.5);
   EXPECT_LT(value_of<double>(record.summary, "min_displacement_m"), -0.8);
   EXPECT_EQ(value_of<std::vector<double>>(record.summary, "turning_points_Hz").size(), 2u);
+}
+
+// The kinks of 256 samples turn the curve 60 times near its peak, at which the stability changes once.
+TEST(LawExample, BacklashHasAFoldAtItsPeakAlsoWhereItsSamplesTurnTheCurve) {
+  const Record record = law_example("backlash.toml", std::vector<std::string>{"time.quadrature_points=256"});
+  const Table special = value_of<Table>(record.summary, "special_points");
+  const std::vector<std::string> types = special.texts("type");
+  EXPECT_EQ(std::count(types.begin(), types.end(), "branch"), 0);
+  ASSERT_EQ(std::count(types.begin(), types.end(), "fold"), 2);
+  const auto peak = std::find(types.begin(), types.end(), "fold") - types.begin();
+  EXPECT_NEAR(special.numbers("frequency_Hz")[static_cast<std::size_t>(peak)], 0.3667, 1e-4);
 }
 
 TEST(LawExample, ARubberStopTakesMoreThanATenthOfTheWork) {

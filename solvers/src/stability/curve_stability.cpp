@@ -195,17 +195,38 @@ class Tracker {
     return found;
   }
 
-  // Whether the curve stays on one side of a bracket. Near a fold it may turn at several samples, so that
-  // points closer than those turns do not count.
+  // Whether the curve stays on one side of a bracket, at the smallest scale at which it leaves the bracket
+  // both ways. Kinks of the samples make a curve turn to and fro by about the distance of its points near a
+  // fold, so that the side of its neighbours tells nothing.
   bool reverses_between(double from, double to) const {
     const double middle = 0.5 * (from + to);
-    const double close = std::max(1e-5 * middle, std::abs(from - to));
-    const auto is_apart = [&](const SweepPoint& point) { return std::abs(value_of(point) - middle) > close; };
     const auto here = curve_.points.begin() + static_cast<std::ptrdiff_t>(index_);
-    const auto after = std::find_if(here, curve_.points.end(), is_apart);
-    const auto before = std::find_if(std::make_reverse_iterator(here), curve_.points.rend(), is_apart);
-    if (after == curve_.points.end() || before == curve_.points.rend()) return false;
-    return (value_of(*before) - middle) * (value_of(*after) - middle) > 0.0;
+    const auto back = std::make_reverse_iterator(here);
+    if (here == curve_.points.begin()) return false;
+    const double spacing = std::abs(value_of(*here) - value_of(*back));
+    for (double scale = std::max({1e-5 * std::abs(middle), std::abs(from - to), spacing});; scale *= 2.0) {
+      const Departure before = departure(back, curve_.points.rend(), middle, scale);
+      const Departure after = departure(here, curve_.points.end(), middle, scale);
+      if (before == Departure::none || after == Departure::none) return false;
+      if (before != Departure::returns && after != Departure::returns) return before == after;
+    }
+  }
+
+  enum class Departure { below, above, returns, none };
+
+  // How a curve leaves a value: once it is farther than `scale` it stays so until it is twice as far or ends.
+  template <typename Iterator>
+  Departure departure(Iterator from, Iterator end, double value, double scale) const {
+    const auto is_near = [&](const SweepPoint& point) { return std::abs(value_of(point) - value) <= scale; };
+    const auto first = std::find_if_not(from, end, is_near);
+    if (first == end) return Departure::none;
+    const bool above = value_of(*first) > value;
+    for (auto point = first; point != end; ++point) {
+      const double distance = above ? value_of(*point) - value : value - value_of(*point);
+      if (distance <= scale) return Departure::returns;
+      if (distance > 2.0 * scale) break;
+    }
+    return above ? Departure::above : Departure::below;
   }
 
   SpecialPoint special_point(SpecialPointType type, const CurveSample& a, const CurveSample& b,
