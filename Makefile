@@ -1,7 +1,7 @@
 # Thin names for the CMake workflow presets of CMakePresets.json.
-.PHONY: command reproduce test bench dev sanitize native clean
+.PHONY: command reproduce docs test bench dev sanitize native clean
 
-command reproduce test bench dev sanitize native:
+command reproduce docs test bench dev sanitize native:
 	cmake --workflow --preset $@
 
 clean:

@@ -1,0 +1,185 @@
+// Draws the figures of the pages on theory from the libraries: theory_figures NAME [SCENE] writes NAME.svg,
+// or a table NAME.csv, into the folder where it is started.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/contact/exponential_law.hpp"
+#include "wavebalance/contact/linear_law.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/solvers/response/curve_responses.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+
+namespace {
+using namespace wavebalance;
+
+std::vector<double> uniform(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+  return values;
+}
+
+// The generators of 16 functions, each with the translate by three places.
+void draw_bases(const std::string&) {
+  constexpr int functions = 16, points = 1024;
+  const std::map<std::string, std::string> titles{{"fourier", "Fourier, 15 functions"},
+                                                  {"haar", "Haar"},
+                                                  {"daubechies6", "Daubechies, 6 coefficients"},
+                                                  {"bspline", "Orthonormal cubic B-spline"}};
+  app::Figure figure{.columns = 2, .panel_width = 380, .panel_height = 240};
+  for (const char* name : {"fourier", "haar", "daubechies6", "bspline"}) {
+    const solvers::AnyTimeBasis basis = app::make_basis(name, name[0] == 'f' ? functions - 1 : functions);
+    const Eigen::VectorXd g = basis.samples(points, 0);
+    Eigen::VectorXd moved(points);
+    const int shift = 3 * points / basis.functions();
+    for (int i = 0; i < points; ++i) moved[i] = g[(i + points - shift) % points];
+    const std::vector<double> time = uniform(0.0, 1.0 - 1.0 / points, points);
+    app::Panel& panel = figure.add_panel(titles.at(name));
+    panel.x = {.label = "Time (fraction of a period)", .lower = 0.0, .upper = 1.0};
+    panel.y.label = "Function (1)";
+    panel.add({"g(t)", time, g}).add({"g(t - 3/M)", time, moved});
+    panel.series.back().dash = app::Dash::dashed;
+  }
+  app::write_pictures("bases", figure);
+}
+
+void write_regularity(const std::string&) {
+  app::Table table({"basis", "sobolev_exponent", "pointwise_derivatives"});
+  for (const char* name : {"haar", "daubechies4", "daubechies6", "daubechies8", "daubechies10",
+                           "daubechies12", "daubechies20", "daubechies40", "bspline"}) {
+    const solvers::AnyTimeBasis basis = app::make_basis(name, 64);
+    table.append_row(
+        {std::string(name), basis.sobolev_exponent(), std::int64_t{basis.pointwise_derivatives()}});
+  }
+  app::write_csv("regularity.csv", table);
+}
+
+// How exactly a pair differentiates each harmonic twice: |lambda_2 / lambda_0| against (2 pi k)^2.
+void draw_symbols(const std::string&) {
+  constexpr int functions = 64;
+  app::Figure figure{.panel_width = 640, .panel_height = 340};
+  app::Panel& panel = figure.add_panel();
+  panel.x = {.label = "Harmonic k", .lower = 0.0, .upper = 32.0};
+  panel.y = {
+      .label = "Relative error of the second derivative", .lower = 1e-12, .upper = 10.0, .logarithmic = true};
+  panel.y.tick_format = "10^{%L}";
+  panel.legend = app::Legend::right_of_panel;
+  const std::vector<std::pair<std::string, std::string>> pairs{{"bspline", "bspline"},
+                                                               {"daubechies6", "daubechies6"},
+                                                               {"daubechies20", "daubechies20"},
+                                                               {"haar", "bspline"}};
+  for (const auto& [trial, weight] : pairs) {
+    app::Time time{.trial = trial, .weight = weight, .functions = functions, .quadrature_points = 256};
+    time.inner_products = app::InnerProducts::exact;
+    const solvers::TimePair pair = app::make_pair(time);
+    std::vector<double> harmonics, errors;
+    for (int k = 1; k < functions / 2; ++k) {
+      const double exact = std::pow(2.0 * std::numbers::pi * k, 2);
+      const double error = std::abs(pair.symbol(2)[k] / pair.symbol(0)[k] + exact) / exact;
+      harmonics.push_back(k);
+      errors.push_back(std::max(error, 1e-13));
+    }
+    panel.add({trial + ":" + weight, harmonics, errors, app::SeriesStyle::line_points});
+  }
+  app::write_pictures("symbols", figure);
+}
+
+// Force over displacement of three laws, and their resolvents, which are finite for the rigid one too.
+void draw_laws(const std::string&) {
+  constexpr double gap = 1e-3, flexibility = 2e-8;  // m, m/N
+  const contact::ExponentialLaw exponential(1e5, 1500.0, gap);
+  const contact::LinearLaw linear(2e8, gap);
+  const contact::RigidLaw rigid(gap);
+  const std::vector<double> u = uniform(0.6e-3, 1.6e-3, 201);
+  std::vector<double> millimetres;
+  for (double value : u) millimetres.push_back(1e3 * value);
+  const auto values = [&u](const auto& force) {
+    std::vector<double> result;
+    for (double value : u) result.push_back(1e-3 * force(value));
+    return result;
+  };
+  app::Figure figure{.columns = 2, .panel_width = 400, .panel_height = 300};
+  app::Panel& law = figure.add_panel("Force over displacement");
+  law.x = {.label = "u (mm)", .lower = 0.6, .upper = 1.6};
+  law.y = {.label = "Force (kN)", .lower = 0.0, .upper = 60.0};
+  law.legend = app::Legend::bottom_right;
+  law.add({"exponential", millimetres, values([&](double x) { return exponential.force(x); })});
+  law.add({"linear", millimetres, values([&](double x) { return linear.force(x); })});
+  law.add({"rigid", std::vector{0.6, 1.0, 1.0}, std::vector{0.0, 0.0, 60.0}});
+  app::Panel& resolvent = figure.add_panel("Resolvents");
+  resolvent.x = {.label = "v (mm)", .lower = 0.6, .upper = 1.6};
+  resolvent.y = {.label = "Force (kN)", .lower = 0.0, .upper = 60.0};
+  resolvent.legend = app::Legend::top_left;
+  const solvers::AnyContactLaw any(exponential);
+  resolvent.add(
+      {"exponential", millimetres, values([&](double x) { return any.resolvent(x, flexibility).force; })});
+  resolvent.add(
+      {"linear", millimetres, values([&](double x) { return linear.resolvent(x, flexibility).force; })});
+  resolvent.add(
+      {"rigid", millimetres, values([&](double x) { return rigid.resolvent(x, flexibility).force; })});
+  app::write_pictures("laws", figure);
+}
+
+// The largest multiplier on each part of the response curve of a sweep.
+void draw_multipliers(const std::string& file) {
+  const app::Scene scene = app::load_scene(file);
+  solvers::CondensedProblem problem = app::make_problem(scene);
+  const solvers::ContactLaws laws = app::make_laws(scene);
+  solvers::FrequencySweepOptions options{.from = scene.analysis.frequency_from,
+                                         .to = scene.analysis.frequency_to};
+  options.keep_unknowns = true;
+  const solvers::FrequencySweep curve = solvers::frequency_sweep(problem, laws, options);
+  const solvers::ContactDynamics dynamics(problem.structure());
+  std::vector<double> frequency, modulus, fold_frequency, one;
+  const std::size_t every = std::max<std::size_t>(curve.points.size() / 120, 1);
+  for (std::size_t i = 0; i < curve.points.size(); i += every) {
+    const solvers::SweepPoint& point = curve.points[i];
+    const solvers::PeriodicResponse response =
+        solvers::curve_response(problem, laws, curve, point.frequency, point.unknown);
+    const solvers::FloquetExponents found = solvers::floquet_exponents(dynamics, problem, laws, response);
+    if (found.values.empty()) continue;
+    frequency.push_back(point.frequency);
+    modulus.push_back(std::abs(found.values.front().multiplier));
+  }
+  if (modulus.empty()) throw std::runtime_error("no multiplier was found along the curve of " + file);
+  for (const solvers::TurningPoint& fold : curve.turning_points) {
+    fold_frequency.push_back(fold.frequency);
+    one.push_back(1.0);
+  }
+  app::Figure figure{.panel_width = 640, .panel_height = 320};
+  app::Panel& panel = figure.add_panel();
+  panel.x.label = "Frequency (Hz)";
+  panel.y.label = "Largest modulus of a multiplier";
+  panel.add({"along the curve", frequency, modulus, app::SeriesStyle::line_points});
+  panel.add({"folds", fold_frequency, one, app::SeriesStyle::points}).mark_y(1.0);
+  app::write_pictures("multipliers", figure);
+}
+}  // namespace
+
+int main(int count, char** arguments) try {
+  const std::map<std::string, void (*)(const std::string&)> figures{{"bases", draw_bases},
+                                                                    {"regularity", write_regularity},
+                                                                    {"symbols", draw_symbols},
+                                                                    {"laws", draw_laws},
+                                                                    {"multipliers", draw_multipliers}};
+  const auto figure = figures.find(count > 1 ? arguments[1] : "");
+  if (figure == figures.end()) {
+    std::fprintf(stderr, "usage: theory_figures bases|regularity|symbols|laws, or multipliers SCENE\n");
+    return 2;
+  }
+  figure->second(count > 2 ? arguments[2] : "");
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "theory_figures: %s\n", error.what());
+  return 1;
+}
