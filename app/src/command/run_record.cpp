@@ -1,0 +1,101 @@
+#include "command/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "command/bar_motion.hpp"
+#include "wavebalance/app/analysis/cost_estimate.hpp"
+#include "wavebalance/app/plot/figure_script.hpp"
+#include "wavebalance/app/scene/scene_writer.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr const char* report_name = "report.html";
+
+void append_table(std::vector<ResultFile>& files, const std::string& name, const Table& table,
+                  const std::string& about) {
+  if (!table.empty()) files.push_back({name, csv_text(table), about});
+}
+
+void append_picture(RunFiles& run, const Record& record, bool report) {
+  if (record.figure.panels.empty()) return;
+  const std::string stem = !record.sweep.empty()      ? "sweep"
+                           : !record.backbone.empty() ? "backbone"
+                                                      : "response";
+  try {
+    run.files.push_back({stem + ".svg", render(record.figure, PictureFormat::svg), "the picture"});
+  } catch (const PlotError& error) {
+    run.no_picture = error.what();
+    return;
+  }
+  if (report && has_curves(record.figure))
+    run.files.push_back(
+        {stem + ".figure.js", figure_script(record.figure, stem), "the curves of report.html"});
+}
+
+/// All files but the summary; with `report` first the report, still without contents.
+RunFiles result_files(const Scene& scene, const Record& record, bool report) {
+  RunFiles run;
+  std::vector<ResultFile>& files = run.files;
+  if (report) files.push_back({report_name, "", "what was asked and what came out, to read in a browser"});
+  files.push_back({"scene.toml", write_scene(scene), "the scene as it was solved"});
+  append_table(files, "response.csv", record.response,
+               "motion of the leading contact degree of freedom over one period");
+  append_table(files, "contacts.csv", record.contacts,
+               "every contact degree of freedom over one period; displacements towards the obstacles");
+  for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
+  append_table(files, "sweep.csv", record.sweep, "periodic responses along the curve");
+  append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
+  append_picture(run, record, report);
+  if (report && has_bar_motion(scene, record))
+    files.push_back({"response.motion.js", bar_motion_script(scene, record, "response"),
+                     "the moving bar of report.html"});
+  return run;
+}
+
+/// The record's summary, with its scene and the list of its files.
+Summary whole_summary(const RunArguments& arguments, const Record& record,
+                      const std::vector<ResultFile>& files) {
+  Summary summary = record.summary;
+  summary.emplace_back("scene", arguments.scene.string());
+  summary.emplace_back("set", arguments.overrides);
+  summary.emplace_back("unset", arguments.removed);
+  summary.emplace_back("version", std::string(version()));
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
+  return summary;
+}
+
+}  // namespace
+
+RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record) {
+  RunFiles run = result_files(scene, record, arguments.report);
+  const Summary summary = whole_summary(arguments, record, run.files);
+  if (arguments.report)
+    run.files.front().contents = report_text(arguments, scene, record, summary, run.files);
+  run.summary = json_text(summary);
+  return run;
+}
+
+void write_run_files(OutputFiles& output, const RunFiles& files) {
+  output.replace(files_of_record(output.directory() / "summary.json"));
+  for (const ResultFile& file : files.files) output.add(file.name, file.contents);
+  output.add("summary.json", files.summary);
+  output.commit();
+}
+
+void check_memory(const Scene& scene, double max_gigabytes) {
+  const double needed = estimate_cost(scene).bytes;
+  const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
+  if (needed <= limit) return;
+  const std::string there = max_gigabytes > 0.0 ? "--max-memory allows " : "there are ";
+  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " +
+                              there + memory_text(limit) +
+                              "; fewer functions, quadrature_points or output_points take less");
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "command/commands.hpp"
+#include "command/run_report.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/files/output.hpp"
+
+namespace wavebalance::app {
+
+/// The files of a run, ready to be written.
+struct RunFiles {
+  std::vector<ResultFile> files;  ///< all but the summary; with arguments.report the report first
+  std::string summary;            ///< contents of summary.json
+  std::string no_picture;         ///< why there is no picture; empty where one is drawn or none is due
+};
+
+/// The files of a record. The picture takes gnuplot, without which it is left out.
+RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record);
+
+/// Writes all files at once, in place of those of an earlier record. The summary is last, so that it exists
+/// only if the others do. Throws IoError.
+void write_run_files(OutputFiles& output, const RunFiles& files);
+
+/// Throws std::invalid_argument if a scene is expected to take more memory than the machine has, or more than
+/// `max_gigabytes` where that is positive, before any is allocated.
+void check_memory(const Scene& scene, double max_gigabytes);
+
+}  // namespace wavebalance::app
