@@ -1,0 +1,48 @@
+#pragma once
+#include <pybind11/numpy.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace wavebalance::python {
+
+/// A read-only view of numbers that `owner` keeps alive: shape and strides (bytes) as NumPy has them.
+template <class Number>
+pybind11::array view(const Number* data, std::vector<pybind11::ssize_t> shape,
+                     std::vector<pybind11::ssize_t> strides, pybind11::handle owner) {
+  pybind11::array array(pybind11::dtype::of<Number>(), std::move(shape), std::move(strides), data, owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+/// Contact-major samples as contacts x points.
+inline pybind11::array samples_view(const Eigen::VectorXd& samples, int contacts, pybind11::handle owner) {
+  const auto points = static_cast<pybind11::ssize_t>(samples.size()) / contacts;
+  const auto size = static_cast<pybind11::ssize_t>(sizeof(double));
+  return view(samples.data(), {contacts, points}, {points * size, size}, owner);
+}
+
+/// A member of structs that stand side by side in `owner`, of which `first` belongs to the first of `count`.
+template <class Struct, class Number>
+pybind11::array member_view(const std::vector<Struct>& structs, const Number Struct::*member,
+                            pybind11::handle owner) {
+  static const Struct none{};
+  const Struct& first = structs.empty() ? none : structs.front();
+  return view(&(first.*member), {static_cast<pybind11::ssize_t>(structs.size())},
+              {static_cast<pybind11::ssize_t>(sizeof(Struct))}, owner);
+}
+
+/// An array that owns the numbers, without a copy.
+template <class Number>
+pybind11::array owned(std::vector<Number> numbers) {
+  auto kept = std::make_unique<std::vector<Number>>(std::move(numbers));
+  const auto size = static_cast<pybind11::ssize_t>(kept->size());
+  const Number* data = kept->data();
+  const pybind11::capsule owner(kept.release(),
+                                [](void* pointer) { delete static_cast<std::vector<Number>*>(pointer); });
+  return pybind11::array_t<Number>({size}, {static_cast<pybind11::ssize_t>(sizeof(Number))}, data, owner);
+}
+
+}  // namespace wavebalance::python

@@ -1,0 +1,161 @@
+#include "laws.hpp"
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "bindings.hpp"
+#include "wavebalance/contact/bilinear_law.hpp"
+#include "wavebalance/contact/clearance_law.hpp"
+#include "wavebalance/contact/cubic_law.hpp"
+#include "wavebalance/contact/exponential_law.hpp"
+#include "wavebalance/contact/hunt_crossley_law.hpp"
+#include "wavebalance/contact/kelvin_voigt_law.hpp"
+#include "wavebalance/contact/linear_law.hpp"
+#include "wavebalance/contact/no_contact.hpp"
+#include "wavebalance/contact/polynomial_law.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/contact/table_law.hpp"
+
+namespace wavebalance::python {
+
+namespace py = pybind11;
+using Law = solvers::AnyContactLaw;
+
+namespace {
+
+/// A law of three functions of Python, each called with one displacement, with the lock taken.
+class FunctionLaw {
+ public:
+  FunctionLaw(const py::function& force, const py::function& tangent, const py::function& potential,
+              double gap, bool unilateral, bool monotone, std::vector<double> kinks)
+      : functions_(new Functions{force, tangent, potential}, &release),
+        gap_(gap),
+        unilateral_(unilateral),
+        monotone_(monotone),
+        kinks_(std::move(kinks)) {}
+
+  double force(double displacement) const { return call(functions_->force, displacement); }
+  double tangent(double displacement) const { return call(functions_->tangent, displacement); }
+  double potential(double displacement) const { return call(functions_->potential, displacement); }
+  double gap() const { return gap_; }
+  bool unilateral() const { return unilateral_; }
+  bool monotone() const { return monotone_; }
+  std::vector<double> kinks() const { return kinks_; }
+
+ private:
+  struct Functions {
+    py::function force, tangent, potential;
+  };
+
+  static void release(Functions* functions) {
+    const py::gil_scoped_acquire locked;
+    delete functions;
+  }
+  static double call(const py::function& function, double displacement) {
+    const py::gil_scoped_acquire locked;
+    return function(displacement).cast<double>();
+  }
+
+  std::shared_ptr<Functions> functions_;
+  double gap_;
+  bool unilateral_, monotone_;
+  std::vector<double> kinks_;
+};
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// function(u) at each displacement, of their shape.
+template <class Function>
+Numbers at_each(const Numbers& displacement, Function function) {
+  Numbers result(std::vector<py::ssize_t>(displacement.shape(), displacement.shape() + displacement.ndim()));
+  const double* from = displacement.data();
+  double* to = result.mutable_data();
+  for (py::ssize_t i = 0; i < displacement.size(); ++i) to[i] = function(from[i]);
+  return result;
+}
+
+void add_factories(py::module_& module) {
+  using namespace contact;
+  module.def("no_contact", [] { return Law(NoContact()); });
+  module.def("linear_law", [](double stiffness, double gap) { return Law(LinearLaw(stiffness, gap)); });
+  module.def("exponential_law", [](double constant, double exponent, double gap) {
+    return Law(ExponentialLaw(constant, exponent, gap));
+  });
+  module.def("rigid_law", [](double gap) { return Law(RigidLaw(gap)); });
+  module.def("bilinear_law",
+             [](double below, double beyond, double kink) { return Law(BilinearLaw(below, beyond, kink)); });
+  module.def("cubic_law", [](double stiffness) { return Law(CubicLaw(stiffness)); });
+  module.def("polynomial_law",
+             [](std::vector<double> coefficients) { return Law(PolynomialLaw(std::move(coefficients))); });
+  module.def("clearance_law", [](double stiffness, double gap, double stiffness_below, double gap_below) {
+    return Law(ClearanceLaw({stiffness, gap}, {stiffness_below, gap_below}));
+  });
+  module.def("table_law", [](std::vector<double> displacements, std::vector<double> forces) {
+    return Law(TableLaw(std::move(displacements), std::move(forces)));
+  });
+  module.def("table_law_of_file", [](const std::string& file) { return Law(read_table_law(file)); });
+  module.def("hunt_crossley_law", [](double stiffness, double power, double dissipation, double gap) {
+    return Law(HuntCrossleyLaw(stiffness, power, dissipation, gap));
+  });
+  module.def("kelvin_voigt_law", [](double stiffness, double damping, double gap, double depth) {
+    return Law(KelvinVoigtLaw(stiffness, damping, gap, depth));
+  });
+  module.def("function_law", [](const py::function& force, const py::function& tangent,
+                                const py::function& potential, double gap, bool unilateral, bool monotone,
+                                std::vector<double> kinks) {
+    return Law(FunctionLaw(force, tangent, potential, gap, unilateral, monotone, std::move(kinks)));
+  });
+}
+
+}  // namespace
+
+solvers::ContactLaws laws_of(const py::object& laws) {
+  if (py::isinstance<Law>(laws)) return laws.cast<const Law&>();
+  if (!py::isinstance<py::sequence>(laws))
+    throw std::invalid_argument("laws is of type " +
+                                std::string(py::str(py::type::of(laws).attr("__name__"))) +
+                                "; expected a law or a list with one law per contact");
+  std::vector<Law> list;
+  for (const py::handle one : laws) {
+    if (!py::isinstance<Law>(one))
+      throw std::invalid_argument("laws[" + std::to_string(list.size()) + "] is of type " +
+                                  std::string(py::str(py::type::of(one).attr("__name__"))) +
+                                  "; expected a law");
+    list.push_back(one.cast<const Law&>());
+  }
+  return list;
+}
+
+void add_laws(py::module_& module) {
+  py::class_<Law>(module, "Law")
+      .def(py::init<const Law&>())
+      .def_property_readonly("gap", &Law::gap)
+      .def_property_readonly("unilateral", &Law::unilateral)
+      .def_property_readonly("is_rigid", &Law::is_rigid)
+      .def_property_readonly("depends_on_velocity", &Law::depends_on_velocity)
+      .def(
+          "force",
+          [](const Law& law, const Numbers& displacement, double velocity) {
+            return at_each(displacement, [&](double u) { return law.force(u, velocity); });
+          },
+          py::arg("displacement"), py::arg("velocity") = 0.0)
+      .def(
+          "tangent",
+          [](const Law& law, const Numbers& displacement) {
+            return at_each(displacement, [&](double u) { return law.tangent(u); });
+          },
+          py::arg("displacement"))
+      .def(
+          "potential",
+          [](const Law& law, const Numbers& displacement) {
+            return at_each(displacement, [&](double u) { return law.potential(u); });
+          },
+          py::arg("displacement"));
+  add_factories(module);
+}
+
+}  // namespace wavebalance::python

@@ -1,0 +1,152 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "laws.hpp"
+#include "unlocked.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/modes/elastic_mode.hpp"
+#include "wavebalance/solvers/modes/mode_stability.hpp"
+
+namespace wavebalance::python {
+
+namespace py = pybind11;
+using solvers::ModePoint;
+
+namespace {
+
+/// A nonlinear mode over its energy.
+struct Backbone {
+  std::string status;
+  double linear_frequency = 0.0;  // Hz
+  std::vector<ModePoint> points;
+  std::vector<solvers::ModeStability> stability;
+};
+
+struct BackboneArguments {
+  int mode;
+  double largest_energy, largest_frequency_ratio;
+  int points, harmonics, samples;
+  bool cosine_only, stability;
+};
+
+app::StructureModes modes_of(const solvers::LinearStructure& structure, const solvers::ContactLaws& laws,
+                             const std::vector<double>& gaps) {
+  app::StructureModel model;
+  model.structure = structure;
+  model.gaps = gaps.empty() ? laws.gaps(structure.contacts())
+                            : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
+                                  gaps.data(), static_cast<Eigen::Index>(gaps.size())));
+  model.unknowns = structure.size();
+  return app::make_modes(model);
+}
+
+Backbone rigid_backbone(const solvers::ModalModel& model, const BackboneArguments& of,
+                        const solvers::Observer& observer) {
+  solvers::NonlinearModeOptions options;
+  options.mode = of.mode;
+  options.harmonics = of.harmonics;
+  options.samples = of.samples;
+  options.cosine_only = of.cosine_only;
+  const solvers::NonlinearMode mode(model, options);
+  solvers::BackboneOptions curve;
+  curve.last_ratio = of.largest_frequency_ratio;
+  curve.points = of.points;
+  curve.max_energy = of.largest_energy;
+  curve.observer = observer;
+  Backbone result{"no_contact", mode.linear_omega() / (2.0 * std::numbers::pi), {}, {}};
+  result.points = solvers::backbone(mode, curve);
+  if (std::any_of(result.points.begin(), result.points.end(),
+                  [](const ModePoint& point) { return point.status == solvers::ModeStatus::converged; }))
+    result.status =
+        result.points.back().energy_ratio >= of.largest_energy ? "reached_energy" : "reached_frequency";
+  return result;
+}
+
+/// Steps of about the length of the points asked for.
+Backbone elastic_backbone(const solvers::ModalModel& model, const solvers::TimePair& pair,
+                          const solvers::ContactLaws& laws, const BackboneArguments& of,
+                          const solvers::Observer& observer) {
+  solvers::ElasticModeOptions options;
+  options.mode = of.mode;
+  options.cosine_only = of.cosine_only;
+  const solvers::ElasticMode mode(model, pair, laws, options);
+  solvers::ElasticBackboneOptions curve;
+  curve.max_energy = of.largest_energy;
+  curve.max_frequency_ratio = of.largest_frequency_ratio;
+  curve.max_step =
+      std::min(curve.max_step, 0.5 * (of.largest_frequency_ratio - 1.0) / curve.frequency_scale / of.points);
+  curve.initial_step = std::min(curve.initial_step, curve.max_step);
+  curve.max_points = 1000 + 20 * of.points;
+  curve.observer = observer;
+  const solvers::ElasticBackbone found = mode.backbone(curve);
+  Backbone result{
+      std::string(to_string(found.status)), mode.linear_omega() / (2.0 * std::numbers::pi), found.points, {}};
+  if (!of.stability || found.status == solvers::BackboneStatus::cancelled) return result;
+  solvers::ModeStabilityOptions stability;
+  stability.observer = observer;
+  result.stability = solvers::backbone_stability(mode, found, stability).points;
+  return result;
+}
+
+Backbone backbone(const solvers::LinearStructure& structure, const py::object& laws,
+                  const solvers::TimePair& pair, const std::vector<double>& gaps,
+                  const BackboneArguments& of) {
+  const solvers::ContactLaws all = laws_of(laws);
+  all.require(structure.contacts());
+  return unlocked([&](const solvers::Observer& observer) {
+    const app::StructureModes modes = modes_of(structure, all, gaps);
+    return all.have_finite_force() ? elastic_backbone(modes.model, pair, all, of, observer)
+                                   : rigid_backbone(modes.model, of, observer);
+  });
+}
+
+template <class Member>
+auto points_view(Member member) {
+  return [member](const py::object& self) {
+    return member_view(self.cast<const Backbone&>().points, member, self);
+  };
+}
+
+std::vector<std::string_view> statuses(const Backbone& one) {
+  std::vector<std::string_view> words;
+  for (const ModePoint& point : one.points) words.push_back(to_string(point.status));
+  return words;
+}
+
+}  // namespace
+
+void add_modes(py::module_& module) {
+  py::class_<Backbone>(module, "Backbone")
+      .def_readonly("status", &Backbone::status)
+      .def_readonly("linear_frequency", &Backbone::linear_frequency)
+      .def_property_readonly("point_status", &statuses)
+      .def_property_readonly("omega", points_view(&ModePoint::omega))
+      .def_property_readonly("energy_ratio", points_view(&ModePoint::energy_ratio))
+      .def_property_readonly("contact_fraction", points_view(&ModePoint::contact_fraction))
+      .def_property_readonly("virial_residual", points_view(&ModePoint::virial_residual))
+      .def_property_readonly("unstable",
+                             [](const py::object& self) {
+                               return member_view(self.cast<const Backbone&>().stability,
+                                                  &solvers::ModeStability::unstable, self);
+                             })
+      .def("__len__", [](const Backbone& one) { return one.points.size(); })
+      .def("amplitudes", [](const Backbone& one, int index) {
+        return one.points.at(static_cast<std::size_t>(index)).amplitudes;
+      });
+  py::class_<BackboneArguments>(module, "BackboneArguments")
+      .def(py::init([](int mode, double energy, double ratio, int points, int harmonics, int samples,
+                       bool cosine_only, bool stability) {
+        return BackboneArguments{mode, energy, ratio, points, harmonics, samples, cosine_only, stability};
+      }));
+  module.def("backbone", &backbone);
+}
+
+}  // namespace wavebalance::python

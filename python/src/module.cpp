@@ -1,0 +1,19 @@
+#include "bindings.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/solvers/linalg/blas_threads.hpp"
+
+PYBIND11_MODULE(_core, module) {
+  using namespace wavebalance;
+  module.doc() = "The compiled part of wavebalance.";
+  module.attr("version") = std::string(app::version());
+  python::add_exceptions(module);
+  python::add_scenes(module);
+  python::add_comparison(module);
+  python::add_laws(module);
+  python::add_problem(module);
+  python::add_response(module);
+  python::add_stability(module);
+  python::add_sweeps(module);
+  python::add_modes(module);
+  python::add_wavelets(module);
+}

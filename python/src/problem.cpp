@@ -1,0 +1,146 @@
+#include "problem.hpp"
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "unlocked.hpp"
+#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/fem/check_structure.hpp"
+#include "wavebalance/solvers/structure/rigid_modes.hpp"
+
+namespace wavebalance::python {
+
+namespace py = pybind11;
+using Sparse = Eigen::SparseMatrix<double>;
+using Structure = solvers::LinearStructure;
+
+namespace {
+
+using Force = std::tuple<Eigen::VectorXd, Eigen::VectorXcd, int>;
+
+/// "node" checks of the command's matrices, with rows counted from 0.
+void check(const Structure& structure, bool unsymmetric, bool free) {
+  structure.validate();
+  try {
+    fem::check_structure({structure.mass, structure.damping, structure.stiffness},
+                         {.allow_free = free, .unsymmetric = unsymmetric, .first_index = 0});
+  } catch (const fem::StructureFault& fault) {
+    throw std::invalid_argument(std::string(to_string(fault.matrix())) + ": the matrix " + fault.reason());
+  }
+}
+
+std::shared_ptr<Structure> make_structure(Sparse mass, Sparse damping, Sparse stiffness, Eigen::VectorXd load,
+                                          const Sparse& contacts, const std::vector<Force>& forces,
+                                          double loss_factor, bool unsymmetric, bool free) {
+  auto structure = std::make_shared<Structure>();
+  structure->mass = std::move(mass);
+  structure->damping = std::move(damping);
+  structure->stiffness = std::move(stiffness);
+  structure->load = std::move(load);
+  structure->contact_directions = contacts;
+  structure->loss_factor = loss_factor;
+  for (const auto& [shape, harmonics, derivative] : forces)
+    structure->forces.push_back({shape, harmonics, derivative});
+  unlocked([&](const solvers::Observer&) {
+    check(*structure, unsymmetric, free);
+    if (free) structure->rigid_modes = solvers::find_rigid_modes(structure->mass, structure->stiffness);
+    return true;
+  });
+  return structure;
+}
+
+void add_structure(py::module_& module) {
+  py::class_<Structure, std::shared_ptr<Structure>>(module, "Structure")
+      .def(py::init(&make_structure))
+      .def_property_readonly("size", &Structure::size)
+      .def_property_readonly("contacts", &Structure::contacts)
+      .def_property_readonly("is_free", &Structure::is_free)
+      .def_property_readonly("symmetric", &Structure::symmetric);
+}
+
+/// The pair "trial:weight" of scenes with their keys; of a name alone both functions are the same.
+std::shared_ptr<solvers::TimePair> make_pair(const std::string& name, int functions, int points,
+                                             const std::string& formulation,
+                                             const std::string& inner_products, const std::string& nyquist,
+                                             double sample_offset) {
+  const auto pairs = app::parse_pairs(name.find(':') == std::string::npos ? name + ":" + name : name);
+  if (pairs.size() != 1)
+    throw std::invalid_argument("pair is \"" + name + "\"; expected one pair, as in \"fourier:fourier\"");
+  if (functions < 1)
+    throw std::invalid_argument("functions is " + std::to_string(functions) + "; expected 1 or more");
+  app::Time time;
+  time.trial = pairs.front().trial;
+  time.weight = pairs.front().weight;
+  time.functions = functions;
+  time.quadrature_points = points;
+  time.sample_offset = sample_offset;
+  const auto word = [](const char* key, const std::string& value, auto words) {
+    std::string allowed;
+    for (const auto& [text, meaning] : words) {
+      if (value == text) return meaning;
+      allowed += (allowed.empty() ? "\"" : ", \"") + std::string(text) + "\"";
+    }
+    throw std::invalid_argument(std::string(key) + " is \"" + value + "\"; expected one of " + allowed);
+  };
+  using solvers::Formulation, solvers::InnerProducts, solvers::NyquistCoefficient;
+  time.formulation = word(
+      "formulation", formulation,
+      std::array<std::pair<const char*, Formulation>, 3>{{{"strong", Formulation::strong},
+                                                          {"weak", Formulation::weak},
+                                                          {"distributional", Formulation::distributional}}});
+  time.inner_products =
+      word("inner_products", inner_products,
+           std::array<std::pair<const char*, InnerProducts>, 2>{
+               {{"quadrature", InnerProducts::quadrature}, {"exact", InnerProducts::exact}}});
+  time.nyquist = word("nyquist", nyquist,
+                      std::array<std::pair<const char*, NyquistCoefficient>, 2>{
+                          {{"drop", NyquistCoefficient::drop}, {"keep", NyquistCoefficient::keep}}});
+  return std::make_shared<solvers::TimePair>(app::make_pair(time));
+}
+
+void add_pair(py::module_& module) {
+  using solvers::TimePair;
+  py::class_<TimePair, std::shared_ptr<TimePair>>(module, "Pair")
+      .def(py::init(&make_pair))
+      .def_property_readonly("functions", &TimePair::functions)
+      .def_property_readonly("points", &TimePair::points)
+      .def_property_readonly("first_sample", &TimePair::first_sample)
+      .def("symbol", [](const TimePair& pair, int derivative) {
+        if (derivative < 0 || derivative > 2)
+          throw std::invalid_argument("derivative is " + std::to_string(derivative) + "; expected 0, 1 or 2");
+        return pair.symbol(derivative);
+      });
+}
+
+std::shared_ptr<Problem> make_problem(const Structure& structure, const solvers::TimePair& pair,
+                                      const Eigen::VectorXcd& harmonics, int threads) {
+  return unlocked([&](const solvers::Observer&) {
+    auto problem = std::make_shared<Problem>(solvers::CondensedProblem(pair, structure, harmonics));
+    problem->condensed().set_threads(threads);
+    return problem;
+  });
+}
+
+}  // namespace
+
+void add_problem(py::module_& module) {
+  add_structure(module);
+  add_pair(module);
+  py::class_<Problem, std::shared_ptr<Problem>>(module, "Problem")
+      .def(py::init(&make_problem), py::arg("structure"), py::arg("pair"), py::arg("harmonics"),
+           py::arg("threads"))
+      .def_property_readonly("contacts", [](const Problem& one) { return one.condensed().contacts(); })
+      .def_property_readonly("points", [](const Problem& one) { return one.condensed().points(); })
+      .def_property_readonly("functions",
+                             [](const Problem& one) { return one.condensed().pair().functions(); });
+}
+
+}  // namespace wavebalance::python

@@ -1,0 +1,155 @@
+#include "response.hpp"
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "laws.hpp"
+#include "unlocked.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+
+namespace wavebalance::python {
+
+namespace py = pybind11;
+
+solvers::ContactForm form_of(const std::string& name) {
+  using solvers::ContactForm;
+  for (const ContactForm form : {ContactForm::automatic, ContactForm::displacement, ContactForm::force})
+    if (name == to_string(form)) return form;
+  throw std::invalid_argument("form is \"" + name +
+                              "\"; expected \"automatic\", \"displacement\" or \"force\"");
+}
+
+namespace {
+
+bool is_accurate(const solvers::PeriodicResponse& found) {
+  return !(found.rounding_error > app::largest_rounding_error);
+}
+
+std::string_view status_of(const solvers::PeriodicResponse& found) {
+  return found.converged() && !is_accurate(found) ? "inaccurate" : to_string(found.status);
+}
+
+/// The status of a dynamic stiffness that is singular, as of a record.
+solvers::PeriodicResponse singular_response(int samples, double frequency) {
+  solvers::PeriodicResponse response;
+  response.status = solvers::SolveStatus::singular;
+  response.frequency = frequency;
+  response.residual = std::numeric_limits<double>::quiet_NaN();
+  response.displacement = Eigen::VectorXd::Constant(samples, response.residual);
+  response.contact_force = response.displacement;
+  return response;
+}
+
+}  // namespace
+
+Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws laws, double frequency,
+               const solvers::ForcedResponseOptions& options, const Eigen::VectorXd& guess,
+               const Eigen::VectorXd& guess_force) {
+  solvers::PeriodicResponse found;
+  const std::lock_guard alone(problem->alone);
+  try {
+    found = solvers::forced_response(problem->at(frequency), laws, options, guess, guess_force);
+  } catch (const solvers::SingularSystem&) {
+    problem->moved();
+    found = singular_response(problem->condensed().samples(), frequency);
+  }
+  return {problem, std::move(laws), std::move(found)};
+}
+
+namespace {
+
+/// Samples of contacts x points, contact-major.
+Eigen::VectorXd samples_of(const py::array_t<double, py::array::c_style | py::array::forcecast>& array) {
+  return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
+}
+
+Response respond(const std::shared_ptr<Problem>& problem, const py::object& laws, double frequency,
+                 const py::object& guess, bool stay_near_guess, const std::string& form, double tolerance,
+                 int max_iterations) {
+  solvers::ContactLaws all = laws_of(laws);
+  solvers::ForcedResponseOptions options;
+  options.form = form_of(form);
+  options.stay_near_guess = stay_near_guess;
+  options.newton.tolerance = tolerance;
+  options.newton.max_iterations = max_iterations;
+  Eigen::VectorXd start, force;
+  if (py::isinstance<Response>(guess)) {
+    start = guess.cast<const Response&>().found.displacement;
+    force = guess.cast<const Response&>().found.contact_force;
+  } else if (!guess.is_none()) {
+    start = samples_of(guess.cast<py::array_t<double, py::array::c_style | py::array::forcecast>>());
+  }
+  return unlocked([&](const solvers::Observer& observer) {
+    options.observer = observer;
+    return solve(problem, std::move(all), frequency, options, start, force);
+  });
+}
+
+solvers::Motion contact_motion(const Response& response, int points) {
+  return unlocked([&](const solvers::Observer&) {
+    const std::lock_guard alone(response.problem->alone);
+    return solvers::contact_motion(response.problem->condensed(), response.found, response.laws, points);
+  });
+}
+
+solvers::Motion structure_motion(const Response& response, int points) {
+  return unlocked([&](const solvers::Observer&) {
+    const std::lock_guard alone(response.problem->alone);
+    solvers::CondensedProblem& problem = response.problem->at(response.found.frequency, response.load_scale);
+    const auto& held = response.found.held_force;
+    return solvers::structure_motion(problem, held.size() > 0 ? held : response.found.contact_force, points);
+  });
+}
+
+py::array displacement_view(const py::object& self) {
+  const auto& one = self.cast<const Response&>();
+  return samples_view(one.found.displacement, one.problem->condensed().contacts(), self);
+}
+
+py::array force_view(const py::object& self) {
+  const auto& one = self.cast<const Response&>();
+  return samples_view(one.found.contact_force, one.problem->condensed().contacts(), self);
+}
+
+void add_motion(py::module_& module) {
+  using solvers::Motion;
+  py::class_<Motion>(module, "Motion")
+      .def_readonly("displacement", &Motion::displacement)
+      .def_readonly("velocity", &Motion::velocity)
+      .def_readonly("force", &Motion::force);
+}
+
+}  // namespace
+
+void add_response(py::module_& module) {
+  add_motion(module);
+  py::class_<Response>(module, "Response")
+      .def_property_readonly(
+          "converged", [](const Response& one) { return one.found.converged() && is_accurate(one.found); })
+      .def_property_readonly("status", [](const Response& one) { return status_of(one.found); })
+      .def_property_readonly("frequency", [](const Response& one) { return one.found.frequency; })
+      .def_property_readonly("residual", [](const Response& one) { return one.found.residual; })
+      .def_property_readonly("iterations", [](const Response& one) { return one.found.iterations; })
+      .def_property_readonly("strategy", [](const Response& one) { return to_string(one.found.strategy); })
+      .def_property_readonly("residual_history",
+                             [](const Response& one) { return one.found.residual_history; })
+      .def_property_readonly("condition", [](const Response& one) { return one.found.condition; })
+      .def_property_readonly("rounding_error", [](const Response& one) { return one.found.rounding_error; })
+      .def_property_readonly("displacement", &displacement_view)
+      .def_property_readonly("contact_force", &force_view)
+      .def_property_readonly(
+          "first_sample", [](const Response& one) { return one.problem->condensed().pair().first_sample(); })
+      .def_property_readonly("coefficients", [](const Response& one) { return one.found.coefficients; })
+      .def("_motion", &contact_motion)
+      .def("_structure_motion", &structure_motion);
+  module.def("forced_response", &respond);
+}
+
+}  // namespace wavebalance::python

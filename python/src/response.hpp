@@ -1,0 +1,27 @@
+#pragma once
+#include <memory>
+
+#include "problem.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+
+namespace wavebalance::python {
+
+/// A periodic response with what it belongs to.
+struct Response {
+  std::shared_ptr<Problem> problem;
+  solvers::ContactLaws laws;
+  solvers::PeriodicResponse found;
+  double load_scale = 1.0;
+};
+
+/// The contact form of this name. Throws std::invalid_argument for another.
+solvers::ContactForm form_of(const std::string& name);
+
+/// A solution at a frequency (Hz) near the guess (contacts x points, m), the response before it, or the
+/// motion without contact.
+Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws laws, double frequency,
+               const solvers::ForcedResponseOptions& options, const Eigen::VectorXd& guess,
+               const Eigen::VectorXd& guess_force);
+
+}  // namespace wavebalance::python

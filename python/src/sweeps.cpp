@@ -1,0 +1,183 @@
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "laws.hpp"
+#include "response.hpp"
+#include "stability.hpp"
+#include "unlocked.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/curve_stability.hpp"
+
+namespace wavebalance::python {
+
+namespace py = pybind11;
+using solvers::FrequencySweep, solvers::SweepPoint, solvers::PointStability;
+
+namespace {
+
+/// A curve with its stability; without points where that was not wanted or no modes were found.
+struct Curve {
+  std::shared_ptr<Problem> problem;
+  solvers::ContactLaws laws;
+  FrequencySweep curve;
+  solvers::CurveStability stability;
+};
+
+/// The keyword arguments of a sweep.
+struct Steps {
+  double first_step, largest_step;  // of the parameter; 0: a default
+  int max_points, output_points;
+  bool stability;
+  std::string form;
+};
+
+solvers::FrequencySweepOptions options_of(double from, double to, const Steps& steps) {
+  solvers::FrequencySweepOptions options;
+  options.from = from;
+  options.to = to;
+  options.output_points = steps.output_points;
+  options.max_points = steps.max_points;
+  options.keep_unknowns = true;
+  options.start.form = form_of(steps.form);
+  auto& arc = options.arc_length;
+  const double scale = std::abs(to - from) / 20.0;
+  arc.parameter_scale = scale;
+  if (steps.first_step > 0.0) arc.initial_step = steps.first_step / scale;
+  if (steps.largest_step > 0.0) arc.max_step = steps.largest_step / scale;
+  arc.initial_step = std::min(arc.initial_step, arc.max_step);
+  arc.min_step = std::min(arc.min_step, arc.initial_step / 20.0);
+  return options;
+}
+
+/// The structure's modes are not always there, and without them the stability is not known.
+void add_curve_stability(Curve& one, const Steps& steps, const solvers::Observer& observer) {
+  if (!steps.stability || one.curve.points.empty() || one.curve.status == solvers::SweepStatus::cancelled)
+    return;
+  const solvers::ContactDynamics* dynamics = nullptr;
+  try {
+    dynamics = &one.problem->dynamics();
+  } catch (const std::invalid_argument&) {
+    return;
+  }
+  solvers::CurveStabilityOptions options;
+  options.stability = stability_options(one.problem->condensed());
+  options.output_points = steps.output_points;
+  options.observer = observer;
+  one.stability = solvers::curve_stability(one.problem->condensed(), one.laws, one.curve, *dynamics, options);
+}
+
+/// Of an amplitude sweep `frequency` is that of all points; NaN for a frequency sweep.
+std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::object& laws,
+                             double frequency, double from, double to, const Steps& steps) {
+  auto one = std::make_shared<Curve>(Curve{problem, laws_of(laws), {}, {}});
+  solvers::FrequencySweepOptions options = options_of(from, to, steps);
+  return unlocked([&](const solvers::Observer& observer) {
+    const std::lock_guard alone(problem->alone);
+    options.observer = observer;
+    options.start.observer = observer;
+    const bool over_load = std::isfinite(frequency);
+    if (over_load) problem->at(frequency);
+    problem->moved();
+    if (!over_load) problem->condensed().set_load_scale(1.0);
+    one->curve = over_load ? solvers::amplitude_sweep(problem->condensed(), one->laws, options)
+                           : solvers::frequency_sweep(problem->condensed(), one->laws, options);
+    add_curve_stability(*one, steps, observer);
+    return one;
+  });
+}
+
+/// The response at a point, from 0; negative numbers count from the end.
+Response response_of(const Curve& one, int index) {
+  const auto count = static_cast<int>(one.curve.points.size());
+  if (index < -count || index >= count)
+    throw py::index_error("point " + std::to_string(index) + " of a curve of " + std::to_string(count));
+  const SweepPoint& point = one.curve.points[static_cast<std::size_t>(index < 0 ? index + count : index)];
+  return unlocked([&](const solvers::Observer&) {
+    const std::lock_guard alone(one.problem->alone);
+    solvers::CondensedProblem& problem = one.problem->at(point.frequency, point.load_scale);
+    problem.set_regularization(one.curve.regularization);
+    solvers::ContactSystem system(problem, one.laws);
+    Response response{one.problem, one.laws, solvers::response_at(system, point.unknown), point.load_scale};
+    problem.set_regularization({});
+    return response;
+  });
+}
+
+py::dict dictionary_of(const solvers::SpecialPoint& point) {
+  py::dict values;
+  values["type"] = to_string(point.type);
+  values["frequency"] = point.frequency;
+  values["amplitude"] = point.load_scale;
+  values["bracket"] = point.bracket;
+  values["multiplier"] = point.multiplier;
+  values["max_displacement"] = point.max_displacement;
+  values["located"] = point.located;
+  return values;
+}
+
+template <class Member>
+auto points_view(Member member) {
+  return [member](const py::object& self) {
+    return member_view(self.cast<const Curve&>().curve.points, member, self);
+  };
+}
+
+template <class Member>
+auto stability_view(Member member) {
+  return [member](const py::object& self) {
+    return member_view(self.cast<const Curve&>().stability.points, member, self);
+  };
+}
+
+std::vector<std::string_view> stability_status(const Curve& one) {
+  std::vector<std::string_view> words;
+  for (const PointStability& point : one.stability.points) words.push_back(to_string(point.status));
+  return words;
+}
+
+py::list special_points(const Curve& one) {
+  py::list points;
+  for (const auto& point : one.stability.special_points) points.append(dictionary_of(point));
+  return points;
+}
+
+}  // namespace
+
+void add_sweeps(py::module_& module) {
+  py::class_<Steps>(module, "Steps")
+      .def(py::init(
+          [](double first, double largest, int points, int output, bool stability, std::string form) {
+            return Steps{first, largest, points, output, stability, std::move(form)};
+          }));
+  py::class_<Curve, std::shared_ptr<Curve>>(module, "Curve")
+      .def_property_readonly("status", [](const Curve& one) { return to_string(one.curve.status); })
+      .def_property_readonly("form", [](const Curve& one) { return to_string(one.curve.form); })
+      .def_property_readonly(
+          "over_amplitude",
+          [](const Curve& one) { return one.curve.parameter == solvers::SweepParameter::load_scale; })
+      .def_property_readonly("rounding_error", [](const Curve& one) { return one.curve.rounding_error; })
+      .def_property_readonly("frequency", points_view(&SweepPoint::frequency))
+      .def_property_readonly("amplitude", points_view(&SweepPoint::load_scale))
+      .def_property_readonly("max_displacement", points_view(&SweepPoint::max_displacement))
+      .def_property_readonly("min_displacement", points_view(&SweepPoint::min_displacement))
+      .def_property_readonly("max_abs_displacement", points_view(&SweepPoint::max_abs_displacement))
+      .def_property_readonly("rms_displacement", points_view(&SweepPoint::rms_displacement))
+      .def_property_readonly("max_force", points_view(&SweepPoint::max_force))
+      .def_property_readonly("contact_fraction", points_view(&SweepPoint::contact_fraction))
+      .def_property_readonly("residual", points_view(&SweepPoint::residual))
+      .def_property_readonly("unstable", stability_view(&PointStability::unstable))
+      .def_property_readonly("contacts", stability_view(&PointStability::contacts))
+      .def_property_readonly("stability_status", &stability_status)
+      .def_property_readonly("special_points", &special_points)
+      .def("__len__", [](const Curve& one) { return one.curve.points.size(); })
+      .def("_response", &response_of);
+  module.def("sweep", &sweep);
+}
+
+}  // namespace wavebalance::python

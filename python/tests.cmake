@@ -1,0 +1,23 @@
+# The tests of the package, by pytest in the build tree, one entry of CTest per file; examples run as they are.
+function(wavebalance_add_python_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 T "" "LABEL" "COMMAND")
+  add_test(NAME python.${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_BINARY_DIR} MPLBACKEND=Agg
+    PYTHONDONTWRITEBYTECODE=1 WAVEBALANCE_COMMAND=$<TARGET_FILE:wavebalance_command> ${Python_EXECUTABLE} ${T_COMMAND})
+  set_tests_properties(python.${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT 240 SKIP_RETURN_CODE 77)
+endfunction()
+
+execute_process(COMMAND ${Python_EXECUTABLE} -c "import pytest" RESULT_VARIABLE no_pytest OUTPUT_QUIET ERROR_QUIET)
+if(no_pytest)
+  message(STATUS "Python package: its tests are left out, as pytest was not found (Debian: python3-pytest)")
+else()
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/tests/*_test.py)
+  foreach(test IN LISTS tests)
+    get_filename_component(name ${test} NAME_WE)
+    wavebalance_add_python_test(${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
+  endforeach()
+endif()
+file(GLOB examples CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/examples/*.py)
+foreach(example IN LISTS examples)
+  get_filename_component(name ${example} NAME_WE)
+  wavebalance_add_python_test(example_${name} LABEL reference COMMAND ${example})
+endforeach()

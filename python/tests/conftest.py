@@ -1,0 +1,47 @@
+"""What several tests share."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+SCENES = Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
+
+BAR = {
+    "structure": {
+        "type": "bar",
+        "youngs_modulus": 70e9,
+        "density": 2700.0,
+        "area": 25e-4,
+        "length": 1.0,
+        "elements": 10,
+        "stiffness_damping": 1e-4,
+    },
+    "contact": {"law": "linear", "stiffness": 1e9, "gap": 1e-3},
+    "forcing": {"amplitude": 250e3, "frequency": 150.0},
+    "time": {"trial": "fourier", "weight": "fourier", "functions": 31, "quadrature_points": 128},
+}
+
+
+@pytest.fixture
+def bar():
+    """A bar against a stop, as a dictionary that a test may change."""
+    return {section: dict(keys) for section, keys in BAR.items()}
+
+
+@pytest.fixture
+def scenes():
+    """The folder of the scenes of this project."""
+    return SCENES
+
+
+@pytest.fixture
+def command(tmp_path):
+    """Runs the command with arguments in a temporary folder and returns what it ended with."""
+
+    def run(*arguments):
+        program = os.environ["WAVEBALANCE_COMMAND"]
+        return subprocess.run([program, *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    return run

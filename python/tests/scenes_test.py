@@ -1,0 +1,169 @@
+"""Scenes from Python are those of the command."""
+
+import csv
+import json
+import pickle
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+import wavebalance
+
+
+def read_csv(file):
+    with open(file, newline="") as lines:
+        rows = list(csv.reader(lines))
+    return {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+def as_toml(scene):
+    return wavebalance.complete(scene)
+
+
+@pytest.mark.parametrize("scene", ["jones_legrand_2014/case1.toml", "matrices/strip_forced.toml", "laws/rubber_stop.toml"])
+def test_a_record_has_the_digits_of_the_command(scene, scenes, command, tmp_path):
+    ended = command("run", scenes / scene, "--output", tmp_path / "run", "--quiet", "--no-report")
+    record = wavebalance.run(scenes / scene)
+    assert record.converged == (ended.returncode == 0)
+    table, name = (record.sweep, "sweep.csv") if record.sweep else (record.response, "response.csv")
+    written = read_csv(tmp_path / "run" / name)
+    assert list(written) == list(table)
+    for column, values in written.items():
+        np.testing.assert_array_equal(np.array(values, float), np.asarray(table[column], float), err_msg=column)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["max_displacement_m"] == record.summary["max_displacement_m"]
+
+
+def test_a_dictionary_a_text_and_a_file_are_one_scene(bar, tmp_path):
+    text = as_toml(bar)
+    (tmp_path / "bar.toml").write_text(text)
+    records = [wavebalance.run(one) for one in (bar, text, tmp_path / "bar.toml", str(tmp_path / "bar.toml"))]
+    for record in records[1:]:
+        np.testing.assert_array_equal(record.response["displacement_m"], records[0].response["displacement_m"])
+
+
+def test_overrides_are_those_of_the_command(bar):
+    changed = wavebalance.run(bar, {"contact.gap": 2e-3})
+    bar["contact"]["gap"] = 2e-3
+    expected = wavebalance.run(bar)
+    assert changed.summary["max_displacement_m"] == expected.summary["max_displacement_m"]
+    assert wavebalance.run(bar, ["contact.gap=2e-3"]).summary["max_displacement_m"] == expected.summary["max_displacement_m"]
+
+
+def test_a_wrong_value_has_the_text_of_the_command(bar, command, tmp_path):
+    file = tmp_path / "wrong.toml"
+    file.write_text(as_toml(bar).replace("gap = 0.001", 'gap = "big"'))
+    with pytest.raises(wavebalance.SceneError) as raised:
+        wavebalance.run(str(file))
+    assert issubclass(wavebalance.SceneError, ValueError)
+    assert raised.value.key == "contact.gap" and raised.value.line > 0
+    ended = command("run", file, "--output", tmp_path / "run")
+    assert ended.returncode == 2 and str(raised.value) in ended.stderr
+
+
+def test_a_dictionary_with_a_wrong_value_is_refused_without_a_line(bar):
+    bar["contact"]["gap"] = "big"
+    with pytest.raises(wavebalance.SceneError, match=r"^scene: contact\.gap = "):
+        wavebalance.run(bar)
+
+
+def test_a_value_that_no_scene_has_is_refused_with_its_key(bar):
+    bar["contact"]["gap"] = object()
+    with pytest.raises(TypeError, match=r"contact\.gap: object"):
+        wavebalance.run(bar)
+
+
+def test_not_to_converge_is_a_status(bar):
+    bar["analysis"] = {"type": "time_stepping", "max_periods": 1}
+    del bar["time"]
+    record = wavebalance.run(bar)
+    assert not record.converged and record.status == "iteration_limit"
+
+
+def test_output_holds_the_files_of_the_command(bar, command, tmp_path):
+    (tmp_path / "bar.toml").write_text(as_toml(bar))
+    command("run", tmp_path / "bar.toml", "--output", tmp_path / "command", "--quiet")
+    record = wavebalance.run(tmp_path / "bar.toml", output=tmp_path / "python")
+    names = sorted(one.name for one in (tmp_path / "command").iterdir())
+    assert sorted(one.name for one in (tmp_path / "python").iterdir()) == names
+    for name in ("response.csv", "scene.toml", "response.svg"):
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "command" / name).read_bytes()
+    record.write(tmp_path / "again")
+    assert (tmp_path / "again" / "response.csv").read_bytes() == (tmp_path / "python" / "response.csv").read_bytes()
+
+
+def chain(size):
+    stiffness = 1e4 * scipy.sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(size, size))
+    return scipy.sparse.identity(size, format="csr"), stiffness
+
+
+def chain_scene(mass, stiffness):
+    return {
+        "structure": {"type": "matrices", "mass": mass, "stiffness": stiffness, "modal_damping": 0.02, "contact_dofs": [4]},
+        "contact": {"law": "linear", "stiffness": 1e5, "gap": 1e-3},
+        "forcing": {"load_dofs": [1], "amplitude": 20.0, "frequency": 9.0},
+        "time": {"trial": "fourier", "weight": "fourier", "functions": 15, "quadrature_points": 64},
+    }
+
+
+def test_matrices_in_memory_in_npz_and_in_mtx_files_give_the_same_digits(tmp_path):
+    mass, stiffness = chain(5)
+    from scipy.io import mmwrite
+
+    scipy.sparse.save_npz(tmp_path / "k.npz", stiffness.tocsr())
+    mmwrite(tmp_path / "m.mtx", mass, precision=17)
+    mmwrite(tmp_path / "k.mtx", stiffness, precision=17)
+    in_memory = wavebalance.run(chain_scene(mass, stiffness.toarray()))
+    in_files = wavebalance.run(chain_scene(tmp_path / "m.mtx", tmp_path / "k.mtx"))
+    (tmp_path / "chain.toml").write_text(as_toml(chain_scene(tmp_path / "m.mtx", tmp_path / "k.mtx")).replace("k.mtx", "k.npz"))
+    in_npz = wavebalance.run(tmp_path / "chain.toml")
+    assert in_memory.converged and in_memory.summary["contact_fraction"] > 0.0
+    for record in (in_files, in_npz):
+        np.testing.assert_array_equal(record.response["displacement_m"], in_memory.response["displacement_m"])
+
+
+def test_matrices_in_memory_are_kept_beside_the_record_that_names_them(tmp_path):
+    record = wavebalance.run(chain_scene(*chain(5)), output=tmp_path / "out")
+    again = wavebalance.run(tmp_path / "out" / "scene.toml")
+    np.testing.assert_array_equal(again.response["displacement_m"], record.response["displacement_m"])
+
+
+def test_a_scene_that_is_refused_writes_nothing(tmp_path):
+    scene = chain_scene(*chain(5))
+    scene["contact"]["gap"] = "big"
+    with pytest.raises(wavebalance.SceneError):
+        wavebalance.run(scene, output=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_matrix_that_does_not_fit_is_named_without_the_folder_of_its_copy():
+    scene = chain_scene(chain(4)[0], chain(5)[1])
+    with pytest.raises(wavebalance.SceneError, match="the matrix in given_mass.mtx is 4 x 4") as raised:
+        wavebalance.run(scene)
+    assert raised.value.key == "structure.mass"
+
+
+def test_a_record_survives_a_pickle(bar):
+    record = wavebalance.run(bar)
+    copy = pickle.loads(pickle.dumps(record))
+    assert copy.summary == record.summary
+    np.testing.assert_array_equal(copy.response["displacement_m"], record.response["displacement_m"])
+    with pytest.raises(ValueError, match="read from a pickle"):
+        copy.svg()
+
+
+def test_a_notebook_shows_the_picture_and_the_summary(bar):
+    shown = wavebalance.run(bar)._repr_html_()
+    assert "<svg" in shown and "max_displacement_m" in shown
+
+
+def test_plot_draws_the_motion(bar):
+    pytest.importorskip("matplotlib")
+    record = wavebalance.run(bar)
+    (line,) = record.plot().get_lines()
+    np.testing.assert_array_equal(line.get_ydata(), record.response["displacement_m"])
+
+
+def test_check_says_what_would_be_solved(bar):
+    assert "31" in wavebalance.check(bar)

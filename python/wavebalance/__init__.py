@@ -1,0 +1,83 @@
+"""Periodic vibrations of structures that touch obstacles, by harmonic balance and wavelet balance.
+
+Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebalance keys``:
+
+- :func:`run` solves it and returns a :class:`Record`; :func:`check` says what would be solved.
+- :func:`compare` measures pairs of bases against each other.
+
+A structure of one's own is made of SciPy's sparse matrices:
+
+- :class:`Structure`, the contact laws (:class:`Penalty`, :class:`Rigid`, ...) and the :class:`Pair` of bases;
+- :func:`forced_response`, :func:`frequency_sweep`, :func:`amplitude_sweep`, :func:`stability`, :func:`backbone`;
+- :mod:`wavebalance.wavelets`: values of bases and connection coefficients.
+
+Units are SI or any other consistent set. Frequencies are in Hz. Not to converge is a status of a result, never an
+exception. Bad input raises :class:`SceneError` or another ``ValueError`` with the text of the command. Ctrl-C ends a
+solve with ``KeyboardInterrupt``. Solves release the interpreter's lock, so that threads run beside each other.
+"""
+
+from . import wavelets
+from ._core import InadmissiblePair, SceneError, SingularSystem
+from ._version import version as __version__
+from .comparison import Comparison, compare
+from .laws import (
+    Bilinear,
+    Clearance,
+    Cubic,
+    Exponential,
+    Function,
+    HuntCrossley,
+    KelvinVoigt,
+    Law,
+    NoContact,
+    Penalty,
+    Polynomial,
+    Rigid,
+    Table,
+)
+from .modes import Backbone, backbone
+from .record import Record
+from .responses import Motion, Problem, Response, Stability, forced_response, stability
+from .scenes import check, complete, run
+from .structure import Pair, Structure
+from .sweeps import Sweep, amplitude_sweep, frequency_sweep
+
+__all__ = [
+    "Backbone",
+    "Bilinear",
+    "Clearance",
+    "Comparison",
+    "Cubic",
+    "Exponential",
+    "Function",
+    "HuntCrossley",
+    "InadmissiblePair",
+    "KelvinVoigt",
+    "Law",
+    "Motion",
+    "NoContact",
+    "Pair",
+    "Penalty",
+    "Polynomial",
+    "Problem",
+    "Record",
+    "Response",
+    "Rigid",
+    "SceneError",
+    "SingularSystem",
+    "Stability",
+    "Structure",
+    "Sweep",
+    "Table",
+    "__version__",
+    "amplitude_sweep",
+    "backbone",
+    "check",
+    "compare",
+    "complete",
+    "forced_response",
+    "frequency_sweep",
+    "run",
+    "stability",
+    "wavelets",
+]

@@ -1,0 +1,79 @@
+"""Pairs of bases against each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from . import _core
+from ._source import Overrides, SceneLike, scene_source
+
+__all__ = ["Comparison", "compare"]
+
+
+class Comparison:
+    """What each pair of bases did in a scene.
+
+    Attributes
+    ----------
+    converged: bool
+        Whether a reference was found, with which the pairs could be compared.
+    status: str
+        "converged", or why not.
+    warnings: list[str]
+        One sentence each.
+    summary: dict
+        The values of summary.json: the reference, its error, and the tables "pairs" and "recommendations".
+    table: dict
+        Columns of comparison.csv, a row for each solve: trial, weight, functions, points, seconds, displacement_error, ...
+    text: str
+        What to take, in sentences, with the ``[time]`` table of each choice.
+    """
+
+    def __init__(self, run: _core.ComparisonRun) -> None:
+        self._run: _core.ComparisonRun | None = run
+        self.converged: bool = run.converged
+        self.status: str = run.status
+        self.warnings: list[str] = run.warnings
+        self.summary: dict[str, Any] = run.summary
+        self.table: dict[str, Any] = run.table
+        self.text: str = run.text
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_run": None}
+
+    def svgs(self) -> dict[str, str]:
+        """The pictures by their names, SVG; none in a copy from a pickle. Needs gnuplot, else OSError."""
+        return {} if self._run is None else self._run.svgs()
+
+    def __repr__(self) -> str:
+        return f"<wavebalance.Comparison: {self.status}>\n{self.text}"
+
+
+def compare(
+    scene: SceneLike,
+    overrides: Overrides = None,
+    *,
+    pairs: str | Iterable[str] = (),
+    budget: float = 10.0,
+    unset: Iterable[str] = (),
+) -> Comparison:
+    """Solves a scene in several pairs of bases and sizes, and says which to take, as ``wavebalance compare`` does.
+
+    Parameters
+    ----------
+    scene, overrides, unset:
+        As for :func:`wavebalance.run`. A structure of one's own is a scene by :meth:`wavebalance.Structure.scene`.
+    pairs:
+        Pairs such as ``["fourier:fourier", "haar:fourier"]``; all admissible ones of the common bases by default.
+    budget:
+        Wall time of everything, s, above 0.
+
+    Raises
+    ------
+    ValueError
+        A pair that is not admissible, a budget or an analysis that cannot be compared; :class:`SceneError` for the scene.
+    """
+    names = pairs if isinstance(pairs, str) else ",".join(pairs)
+    with scene_source(scene, overrides, unset) as source:
+        return Comparison(_core.compare_scene(source, names, float(budget)))

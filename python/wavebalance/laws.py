@@ -1,0 +1,287 @@
+"""Contact laws: the force at a contact as a function of its displacement, positive towards the obstacle."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+
+__all__ = [
+    "Bilinear",
+    "Clearance",
+    "Cubic",
+    "Exponential",
+    "Function",
+    "HuntCrossley",
+    "KelvinVoigt",
+    "Law",
+    "NoContact",
+    "Penalty",
+    "Polynomial",
+    "Rigid",
+    "Table",
+]
+
+
+class Law(_core.Law):
+    """A contact law. Immutable; threads may share it.
+
+    Attributes
+    ----------
+    gap: float
+        Displacement at which the force starts, m; infinite without contact.
+    unilateral: bool
+        Whether the force vanishes below the gap and is never negative.
+    is_rigid: bool
+        Whether the force beyond the gap is infinite.
+    depends_on_velocity: bool
+        Whether the force depends on the velocity, too.
+    """
+
+    def __init__(self, law: _core.Law, keys: dict[str, Any]) -> None:
+        super().__init__(law)
+        self._keys = keys
+
+    def force(self, displacement: npt.ArrayLike, velocity: float = 0.0) -> Any:
+        """The force (N) at displacements (m, any shape) and one velocity (m/s); it opposes a positive displacement."""
+        return super().force(displacement, velocity)[()]
+
+    def tangent(self, displacement: npt.ArrayLike) -> Any:
+        """The slope of the force (N/m) at displacements (m, any shape), at rest; at a kink that on its right."""
+        return super().tangent(displacement)[()]
+
+    def potential(self, displacement: npt.ArrayLike) -> Any:
+        """The potential energy (J) at displacements (m, any shape), of the elastic part."""
+        return super().potential(displacement)[()]
+
+    def scene_keys(self) -> dict[str, Any]:
+        """The keys of ``[contact]`` that say this law in a scene. Raises ValueError where a scene has no such law."""
+        return dict(self._keys)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{key}={value!r}" for key, value in self._keys.items() if key != "law")
+        return f"{type(self).__name__}({values})"
+
+
+class NoContact(Law):
+    """No force at all: the linear structure."""
+
+    def __init__(self) -> None:
+        super().__init__(_core.no_contact(), {"law": "none"})
+
+
+class Penalty(Law):
+    """A linear spring behind a gap, without adhesion: f(u) = k max(u - g, 0).
+
+    Parameters: `stiffness` k > 0, N/m; `gap` g, m. Raises ValueError for others.
+    """
+
+    def __init__(self, stiffness: float, gap: float = 0.0) -> None:
+        super().__init__(_core.linear_law(stiffness, gap), {"law": "linear", "stiffness": stiffness, "gap": gap})
+
+
+class Exponential(Law):
+    """The exponential spring f(u) = max(a (exp(alpha (u - g)) - 1), 0) [JL14, eq. (5)].
+
+    Parameters: `constant` a > 0, N; `exponent` alpha > 0, 1/m; `gap` g, m. Raises ValueError for others.
+    """
+
+    def __init__(self, constant: float, exponent: float, gap: float = 0.0) -> None:
+        super().__init__(
+            _core.exponential_law(constant, exponent, gap),
+            {"law": "exponential", "constant": constant, "exponent": exponent, "gap": gap},
+        )
+
+
+class Rigid(Law):
+    """A rigid obstacle at a gap: u <= g, f >= 0, f (u - g) = 0.
+
+    It needs contacts without mass: with mass and without a law of impact a continuum of motions satisfies it.
+    Parameter: `gap` g, m.
+    """
+
+    def __init__(self, gap: float = 0.0) -> None:
+        super().__init__(_core.rigid_law(gap), {"law": "rigid", "gap": gap})
+
+
+class Bilinear(Law):
+    """A spring of two slopes, which acts everywhere: k1 u up to the kink, with the slope k2 beyond it.
+
+    Parameters: `slope_below` k1 and `slope_beyond` k2, N/m, of any sign; `kink`, m.
+    """
+
+    def __init__(self, slope_below: float, slope_beyond: float, kink: float = 0.0) -> None:
+        super().__init__(
+            _core.bilinear_law(slope_below, slope_beyond, kink),
+            {"law": "bilinear", "slopes": [slope_below, slope_beyond], "gap": kink},
+        )
+
+
+class Cubic(Law):
+    """The cubic spring of Duffing's oscillator, f(u) = k3 u^3. Parameter: `stiffness` k3, N/m^3, not zero."""
+
+    def __init__(self, stiffness: float) -> None:
+        super().__init__(_core.cubic_law(stiffness), {"law": "cubic", "cubic_stiffness": stiffness})
+
+
+class Polynomial(Law):
+    """A spring that acts everywhere, f(u) = c1 u + c2 u^2 + ... Parameter: `coefficients` c1, c2, ..., N/m, N/m^2, ..."""
+
+    def __init__(self, coefficients: Sequence[float]) -> None:
+        numbers = [float(one) for one in coefficients]
+        super().__init__(_core.polynomial_law(numbers), {"law": "polynomial", "polynomial": numbers})
+
+
+class Clearance(Law):
+    """A linear stop on either side of a clearance, as gears with backlash or a pipe between supports have.
+
+    f(u) = k (u - g) beyond g, k' (u + g') below -g', zero between them.
+
+    Parameters: `stiffness` k > 0, N/m; `gap` g >= 0, m; `stiffness_below` k' and `gap_below` g', by default the same.
+    """
+
+    def __init__(
+        self, stiffness: float, gap: float, stiffness_below: float | None = None, gap_below: float | None = None
+    ) -> None:
+        below = stiffness if stiffness_below is None else stiffness_below
+        at = gap if gap_below is None else gap_below
+        super().__init__(
+            _core.clearance_law(stiffness, gap, below, at),
+            {"law": "clearance", "stiffness": stiffness, "gap": gap, "stiffness_below": below, "gap_below": at},
+        )
+
+
+class Table(Law):
+    """A spring by its measured characteristic: the monotone cubic interpolant of points.
+
+    Parameters: `displacements`, m, ascending, and as many `forces`, N; or the name of a CSV file of both alone.
+    """
+
+    def __init__(
+        self, displacements: Sequence[float] | npt.NDArray[Any] | str | os.PathLike[str], forces: Sequence[float] | npt.NDArray[Any] = ()
+    ) -> None:
+        if isinstance(displacements, (str, os.PathLike)):
+            file = os.path.abspath(displacements)
+            super().__init__(_core.table_law_of_file(file), {"law": "table", "table": file})
+            return
+        law = _core.table_law([float(u) for u in displacements], [float(f) for f in forces])
+        super().__init__(law, {"law": "table", "points": len(displacements)})
+
+    def scene_keys(self) -> dict[str, Any]:
+        if "table" not in self._keys:
+            raise ValueError("the table of the law is no file; a scene takes Table('name.csv')")
+        return super().scene_keys()
+
+
+class HuntCrossley(Law):
+    """Contact that dissipates, f = max(k d^n (1 + c v), 0) for a penetration d = u - g > 0 [Hunt & Crossley 1975].
+
+    Parameters: `stiffness` k > 0, N/m^n; `dissipation` c >= 0, s/m; `gap` g, m; `power` n >= 1.
+    """
+
+    def __init__(self, stiffness: float, dissipation: float, gap: float = 0.0, power: float = 1.5) -> None:
+        super().__init__(
+            _core.hunt_crossley_law(stiffness, power, dissipation, gap),
+            {"law": "hunt_crossley", "hertz_stiffness": stiffness, "dissipation": dissipation, "gap": gap, "power": power},
+        )
+
+
+class KelvinVoigt(Law):
+    """A spring and a damper beside each other that do not pull, f = max(k d + c s(d) v, 0) for d = u - g > 0.
+
+    Parameters: `stiffness` k > 0, N/m; `damping` c >= 0, N s/m; `gap` g, m; `depth` >= 0, m, over which the damper sets in.
+    """
+
+    def __init__(self, stiffness: float, damping: float, gap: float = 0.0, depth: float = 0.0) -> None:
+        super().__init__(
+            _core.kelvin_voigt_law(stiffness, damping, gap, depth),
+            {"law": "kelvin_voigt", "stiffness": stiffness, "damping": damping, "gap": gap, "damping_depth": depth},
+        )
+
+
+class Function(Law):
+    """A law of Python functions of one displacement (a float, m).
+
+    This is slow: every sample of every Newton step calls Python with the interpreter's lock held, a few tenths of a
+    microsecond each and ten to a hundred times the cost of a compiled law. A :class:`Table` of the same force is fast.
+
+    Parameters
+    ----------
+    force:
+        The force (N) at a displacement (m).
+    tangent:
+        Its slope (N/m); by default a central difference over 6e-6 times the displacement, or times `length` near zero.
+    potential:
+        Its integral (J) from the gap; by default by quadrature between the kinks. Energies alone need it.
+    gap:
+        Where the force starts, m; for a law that acts everywhere a length that the motion has, or 0.
+    unilateral:
+        Whether the force vanishes below the gap and is never negative.
+    monotone:
+        Whether the force falls nowhere, so that a stiff law may be solved for its force.
+    kinks:
+        Displacements at which the slope jumps, m, ascending. Sweeps stop at them; without them they may get lost.
+    length:
+        A displacement that the motion has, m.
+    """
+
+    def __init__(
+        self,
+        force: Callable[[float], float],
+        tangent: Callable[[float], float] | None = None,
+        potential: Callable[[float], float] | None = None,
+        *,
+        gap: float = 0.0,
+        unilateral: bool = False,
+        monotone: bool = False,
+        kinks: Sequence[float] = (),
+        length: float = 1e-3,
+    ) -> None:
+        breaks = [float(one) for one in kinks]
+        slope = tangent if tangent is not None else _difference(force, length)
+        energy = potential if potential is not None else _integral(force, gap, breaks)
+        law = _core.function_law(force, slope, energy, gap, unilateral, monotone, breaks)
+        super().__init__(law, {"force": force, "gap": gap})
+
+    def scene_keys(self) -> dict[str, Any]:
+        raise ValueError("a law of Python functions has no keys; a scene takes Table('name.csv') in its place")
+
+
+def _difference(force: Callable[[float], float], length: float) -> Callable[[float], float]:
+    def tangent(displacement: float) -> float:
+        step = 6e-6 * max(abs(displacement), length)
+        return (force(displacement + step) - force(displacement - step)) / (2.0 * step)
+
+    return tangent
+
+
+def _integral(force: Callable[[float], float], begin: float, kinks: Sequence[float]) -> Callable[[float], float]:
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+
+    def potential(displacement: float) -> float:
+        low, high = min(begin, displacement), max(begin, displacement)
+        ends = [low, *(one for one in kinks if low < one < high), high]
+        total = 0.0
+        for a, b in zip(ends, ends[1:]):
+            half = 0.5 * (b - a)
+            total += half * sum(w * force(0.5 * (a + b) + half * x) for x, w in zip(nodes, weights))
+        return total if displacement >= begin else -total
+
+    return potential
+
+
+LawLike = Union[_core.Law, Callable[[float], float], Sequence[Union[_core.Law, Callable[[float], float]]]]
+
+
+def as_laws(laws: LawLike) -> Any:
+    """Laws with functions replaced by :class:`Function`."""
+    if isinstance(laws, _core.Law):
+        return laws
+    if isinstance(laws, Sequence):
+        return [as_laws(one) for one in laws]
+    return Function(laws) if callable(laws) else laws

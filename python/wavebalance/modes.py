@@ -1,0 +1,133 @@
+"""Nonlinear modes of one's own structures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _plots
+from .laws import LawLike, as_laws
+from .structure import Pair, Structure
+
+__all__ = ["Backbone", "backbone"]
+
+Numbers = npt.NDArray[np.float64]
+
+
+class Backbone:
+    """A nonlinear mode: P free periodic motions of the undamped structure over their energy.
+
+    Attributes
+    ----------
+    status: str
+        "reached_energy" or "reached_frequency", or why it ended before: "internal_resonance", "lost", "no_start",
+        "no_contact" or "point_limit".
+    linear_frequency: float
+        Of the linear mode that is continued, Hz.
+    frequency, frequency_ratio: numpy.ndarray
+        P values, Hz, and over that of the linear mode.
+    energy_ratio: numpy.ndarray
+        Energy over that of the linear mode that just touches.
+    contact_fraction, virial_residual: numpy.ndarray
+        Share of the samples in contact; residual of the virial theorem, zero for exact motions.
+    accepted: numpy.ndarray
+        Truth values: whether the point is a motion of the mode and lies on no internal resonance.
+    point_status: list[str]
+        "converged", "linear", "tongue" (an internal resonance), ...
+    unstable: numpy.ndarray
+        Floquet multipliers that leave the unit circle, -1 where not known; of elastic laws with `stability`.
+    """
+
+    def __init__(self, core: _core.Backbone) -> None:
+        self._core = core
+        self.status: str = core.status
+        self.linear_frequency: float = core.linear_frequency
+        self.frequency: Numbers = core.omega / (2.0 * np.pi)
+        self.frequency_ratio: Numbers = self.frequency / core.linear_frequency
+        self.energy_ratio: Numbers = core.energy_ratio
+        self.contact_fraction: Numbers = core.contact_fraction
+        self.virial_residual: Numbers = core.virial_residual
+        self.point_status: list[str] = core.point_status
+        self.accepted: npt.NDArray[np.bool_] = np.array([one in ("converged", "linear") for one in self.point_status], bool)
+        known = len(core.unstable) == len(core)
+        self.unstable: npt.NDArray[np.int32] = core.unstable if known else np.full(len(core), -1, np.int32)
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    def amplitudes(self, index: int) -> npt.NDArray[np.complex128]:
+        """Complex amplitudes of the motion at a point in the linear modes, r × (N + 1), m sqrt(kg)."""
+        count = len(self)
+        if not -count <= index < count:
+            raise IndexError(f"point {index} of a curve of {count}")
+        return self._core.amplitudes(index % count)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the frequency over the energy with Matplotlib, and returns the axes."""
+        ax = _plots.axes(ax)
+        ax.semilogx(self.energy_ratio, np.where(self.accepted, self.frequency, np.nan))
+        ax.set_xlabel("Energy over that of grazing")
+        ax.set_ylabel("Frequency (Hz)")
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<wavebalance.Backbone of {len(self)} points: {self.status}>"
+
+
+def backbone(
+    structure: Structure,
+    laws: LawLike,
+    pair: Pair | None = None,
+    *,
+    mode: int = 1,
+    largest_energy: float = 10.0,
+    largest_frequency_ratio: float = 1.3,
+    points: int = 200,
+    harmonics: int = 10,
+    samples: int | None = None,
+    gaps: Sequence[float] = (),
+    cosine_only: bool = False,
+    stability: bool = False,
+) -> Backbone:
+    """The nonlinear mode that continues a linear one, from where it first touches on.
+
+    Damping, load and forces of the structure have no effect.
+
+    Parameters
+    ----------
+    structure, laws:
+        As for :func:`forced_response`. A rigid obstacle is a complementarity at the samples; other laws are solved by
+        arc length.
+    pair:
+        Trial and weight functions of elastic laws; by default Fourier functions of the `harmonics`, at the `samples`.
+    mode:
+        The linear mode, from 1.
+    largest_energy, largest_frequency_ratio:
+        Where the curve ends: energy over that of grazing, frequency over that of the linear mode.
+    points:
+        About so many.
+    harmonics, samples:
+        N of the motion, and times at which contact is enforced, by default 2 N for rigid obstacles and 8 N otherwise.
+    gaps:
+        Lengths that energies refer to, m, one per contact, for laws without a gap of their own.
+    cosine_only:
+        Whether only motions that are even in time are sought.
+    stability:
+        Whether the Floquet multipliers of the points are counted; elastic laws alone.
+
+    Raises
+    ------
+    ValueError
+        For options or laws out of range.
+    """
+    given = as_laws(laws)
+    rigid = given.is_rigid if isinstance(given, _core.Law) else any(one.is_rigid for one in given)
+    count = samples if samples is not None else (2 if rigid else 8) * harmonics
+    functions = pair if pair is not None else Pair("fourier", 2 * harmonics + 1, max(count, 2 * harmonics + 1))
+    arguments = _core.BackboneArguments(
+        mode, largest_energy, largest_frequency_ratio, points, harmonics, count, cosine_only, stability
+    )
+    return Backbone(_core.backbone(structure, given, functions, [float(one) for one in gaps], arguments))

@@ -1,0 +1,109 @@
+"""The record of a scene."""
+
+from __future__ import annotations
+
+import html
+import os
+from typing import Any
+
+import numpy as np
+
+from . import _core, _plots
+
+__all__ = ["Record"]
+
+Columns = dict[str, Any]
+
+
+class Record:
+    """What came out of a scene.
+
+    The tables are dictionaries of columns, NumPy arrays (lists where a column holds text) by the names that the files of
+    the command have; a table that an analysis does not have is empty. A record can be pickled; its picture and
+    :meth:`write` are then those of the process that solved the scene.
+
+    Attributes
+    ----------
+    converged: bool
+        Whether the analysis has reached what was asked for.
+    status: str
+        "converged", "reached_end", or why not.
+    warnings: list[str]
+        Reasons why the result may be inaccurate, one sentence each.
+    summary: dict
+        The values of summary.json, units in their names; missing numbers are NaN.
+    response: dict
+        Of a motion: time_fraction, displacement_m, velocity_m_per_s, contact_force_N over one period.
+    contacts: dict
+        Motion and force of every contact, where there are several.
+    sweep: dict
+        Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts.
+    backbone: dict
+        Of a nonlinear mode: energy_ratio, frequency_Hz, frequency_ratio, ..., contact_fraction.
+    bar_motion: numpy.ndarray
+        Displacements of a bar's nodes (rows, from the clamp on) at uniform instants, m; 0 × 0 for other structures.
+    scene: str
+        The scene as it was solved, TOML.
+    """
+
+    def __init__(self, run: _core.Run) -> None:
+        self._run: _core.Run | None = run
+        self.converged: bool = run.converged
+        self.status: str = run.status
+        self.warnings: list[str] = run.warnings
+        self.summary: dict[str, Any] = run.summary
+        self.response: Columns = run.response
+        self.contacts: Columns = run.contacts
+        self.sweep: Columns = run.sweep
+        self.backbone: Columns = run.backbone
+        self.bar_motion: np.ndarray = run.bar_motion
+        self.scene: str = run.scene
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_run": None}
+
+    def svg(self) -> str:
+        """The picture that the command draws, SVG; empty where there is nothing to draw. Needs gnuplot, else OSError."""
+        return self._solved_here().svg()
+
+    def write(self, output: str | os.PathLike[str]) -> None:
+        """Writes the files of ``wavebalance run --output``. Raises OSError."""
+        self._solved_here().write(os.fspath(output))
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the motion, the curve (unstable parts dashed) or the mode with Matplotlib, and returns the axes."""
+        if self.sweep:
+            return _plots.record_sweep(self.sweep, ax)
+        if self.backbone:
+            return _plots.record_backbone(self.backbone, ax)
+        return _plots.record_response(self.response, ax)
+
+    def _solved_here(self) -> _core.Run:
+        if self._run is None:
+            raise ValueError("the record was read from a pickle; only the process that solved its scene draws and writes it")
+        return self._run
+
+    def __repr__(self) -> str:
+        return f"<wavebalance.Record: {self.status}>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><th>{html.escape(name)}</th><td>{html.escape(_shown(value))}</td></tr>"
+            for name, value in self.summary.items()
+            if isinstance(value, (bool, int, float, str))
+        )
+        warnings = "".join(f"<p>{html.escape(one)}</p>" for one in self.warnings)
+        return f"<div>{self._picture()}{warnings}<details><summary>{html.escape(self.status)}</summary><table>{rows}</table></details></div>"
+
+    def _picture(self) -> str:
+        if self._run is None:
+            return ""
+        try:
+            drawn = self._run.svg()
+        except OSError:
+            return ""
+        return drawn[drawn.find("<svg") :] if "<svg" in drawn else ""
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,282 @@
+"""Periodic responses of one's own structures, and their stability."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _plots
+from .laws import LawLike, as_laws
+from .structure import Pair, Structure, default_pair
+
+__all__ = ["Motion", "Problem", "Response", "Stability", "forced_response", "stability"]
+
+
+class Problem(_core.Problem):
+    """A structure condensed on its contacts in a pair of bases: what responses of many frequencies and laws share.
+
+    Functions that take a structure make one and keep it with the structure for its last pair. Threads may share it; one
+    works with it at a time.
+
+    Parameters
+    ----------
+    structure, pair:
+        Of the problem; 63 Fourier functions with 256 points by default.
+    harmonics:
+        Complex amplitudes h_m of the load's time function Re sum_m h_m exp(2 pi i m f t); (0, 1) is a cosine.
+    threads:
+        Of each condensation of a large structure; 0 for one per core.
+
+    Attributes
+    ----------
+    contacts, points, functions: int
+        C, N and M.
+    """
+
+    def __init__(
+        self, structure: Structure, pair: Pair | None = None, *, harmonics: Sequence[complex] = (0.0, 1.0), threads: int = 1
+    ) -> None:
+        self.structure = structure
+        self.pair = default_pair() if pair is None else pair
+        super().__init__(structure, self.pair, np.ravel(np.asarray(harmonics, complex)), threads)
+
+
+ProblemLike = Union[Structure, Problem]
+
+
+def as_problem(of: ProblemLike, pair: Pair | None) -> Problem:
+    """The problem, or the one of a structure, which keeps that of its last pair."""
+    if isinstance(of, Problem):
+        if pair is not None and pair is not of.pair:
+            raise ValueError("pair is given, but the problem has one of its own; expected a structure, or no pair")
+        return of
+    if not isinstance(of, Structure):
+        raise TypeError(f"structure is of type {type(of).__name__}; expected a Structure or a Problem")
+    wanted = default_pair() if pair is None else pair
+    kept = of._problem
+    if kept is None or kept[0] is not wanted:
+        kept = of._problem = (wanted, Problem(of, wanted))
+    problem: Problem = kept[1]
+    return problem
+
+
+class Motion:
+    """One period of a motion at uniform times.
+
+    Attributes
+    ----------
+    time: numpy.ndarray
+        Fractions of the period, P values from 0; a cosine load is largest at 0.
+    displacement, velocity: numpy.ndarray
+        Rows × P, m and m/s: a row per contact, towards its obstacle, or per degree of freedom.
+    force: numpy.ndarray
+        Contacts × P, N; 0 × 0 of a structure's motion.
+    """
+
+    def __init__(self, motion: _core.Motion) -> None:
+        self.displacement: npt.NDArray[np.float64] = motion.displacement
+        self.velocity: npt.NDArray[np.float64] = motion.velocity
+        self.force: npt.NDArray[np.float64] = motion.force
+        points = self.displacement.shape[1]
+        self.time: npt.NDArray[np.float64] = np.arange(points) / points
+
+
+class Response:
+    """A periodic response at one frequency.
+
+    Attributes
+    ----------
+    converged: bool
+        Whether the residual meets the tolerance and rounding leaves the motion accurate to 1e-3.
+    status: str
+        "converged", "stalled", "iteration_limit", "effort_limit", "singular", "unbalanced" or "inaccurate".
+    frequency: float
+        Hz.
+    residual, iterations, residual_history:
+        Relative residual, Newton iterations of all attempts, residuals of the last run.
+    strategy: str
+        What found it: "newton", "gap_continuation", ...
+    displacement: numpy.ndarray
+        Displacements of the contacts at the N points, C × N, m; a view that cannot be written to.
+    contact_force: numpy.ndarray
+        Contact forces there, C × N, N.
+    coefficients: numpy.ndarray
+        Spectra over translates of the trial coefficients, (M // 2 + 1) × C.
+    time: numpy.ndarray
+        The N points, fractions of the period.
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.Response) -> None:
+        self._core = core
+
+    @property
+    def converged(self) -> bool:
+        return self._core.converged
+
+    @property
+    def status(self) -> str:
+        return self._core.status
+
+    @property
+    def frequency(self) -> float:
+        return self._core.frequency
+
+    @property
+    def residual(self) -> float:
+        return self._core.residual
+
+    @property
+    def iterations(self) -> int:
+        return self._core.iterations
+
+    @property
+    def residual_history(self) -> list[float]:
+        return self._core.residual_history
+
+    @property
+    def strategy(self) -> str:
+        return self._core.strategy
+
+    @property
+    def displacement(self) -> npt.NDArray[np.float64]:
+        return self._core.displacement
+
+    @property
+    def contact_force(self) -> npt.NDArray[np.float64]:
+        return self._core.contact_force
+
+    @property
+    def coefficients(self) -> npt.NDArray[np.complex128]:
+        return self._core.coefficients
+
+    @property
+    def time(self) -> npt.NDArray[np.float64]:
+        points = self.displacement.shape[1]
+        return np.arange(points) / points + self._core.first_sample
+
+    def motion(self, points: int = 1024) -> Motion:
+        """The motion of all contacts at `points` uniform times. O(C points log points)."""
+        return Motion(self._core._motion(points))
+
+    def structure_motion(self, points: int = 1024) -> Motion:
+        """The motion of all n degrees of freedom at `points` uniform times. O(n (M + points log points))."""
+        return Motion(self._core._structure_motion(points))
+
+    def stability(self, multipliers: int = 4) -> Stability:
+        """:func:`stability` of this response."""
+        return stability(self, multipliers)
+
+    def plot(self, ax: Any = None, points: int = 1024) -> Any:
+        """Draws the displacements of the contacts over a period with Matplotlib, and returns the axes."""
+        ax = _plots.axes(ax)
+        motion = self.motion(points)
+        ax.plot(motion.time, motion.displacement.T)
+        ax.set_xlabel("Time (fraction of a period)")
+        ax.set_ylabel("Displacement (m)")
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<wavebalance.Response at {self.frequency:g} Hz: {self.status}>"
+
+
+class Stability:
+    """What becomes of a small disturbance of a periodic response.
+
+    Attributes
+    ----------
+    status: str
+        "converged" where the stability is known, or why not, such as "too_few_harmonics", "undamped" or "no_response".
+    stable: bool | None
+        Whether all Floquet multipliers lie within the unit circle; None where it is not known.
+    unstable: int
+        Multipliers outside the unit circle; -1 where not known.
+    multipliers: numpy.ndarray
+        The largest ones in modulus, complex, of each conjugate pair that with Im >= 0; those below 1e-2 are left out.
+    exponents: numpy.ndarray
+        Their Floquet exponents, 1/s.
+    """
+
+    def __init__(self, core: _core.Stability) -> None:
+        self.status: str = core.status
+        self.unstable: int = core.unstable
+        self.stable: bool | None = None if core.unstable < 0 else core.unstable == 0
+        self.multipliers: npt.NDArray[np.complex128] = np.array(core._multipliers, dtype=complex)
+        self.exponents: npt.NDArray[np.complex128] = np.array(core._exponents, dtype=complex)
+
+    def __repr__(self) -> str:
+        word = {None: self.status, True: "stable", False: f"unstable, {self.unstable} multipliers outside the unit circle"}
+        return f"<wavebalance.Stability: {word[self.stable]}>"
+
+
+def forced_response(
+    structure: ProblemLike,
+    laws: LawLike,
+    frequency: float,
+    pair: Pair | None = None,
+    *,
+    guess: Response | npt.ArrayLike | None = None,
+    stay_near_guess: bool = False,
+    form: str = "automatic",
+    tolerance: float = 1e-11,
+    max_iterations: int = 60,
+) -> Response:
+    """The periodic response at one frequency.
+
+    Parameters
+    ----------
+    structure:
+        A :class:`Structure`, or a :class:`Problem` with its pair.
+    laws:
+        One law for all contacts, a list with one each, or functions of Python in their places (slow).
+    frequency:
+        Of the load, Hz, above 0.
+    pair:
+        Trial and weight functions; 63 Fourier functions with 256 points by default.
+    guess:
+        Another response of the same size, or displacements of the contacts at the points, C × N, m, from which Newton's
+        method starts; the motion without contact by default.
+    stay_near_guess:
+        Whether only a response near the guess is sought.
+    form:
+        "automatic", "displacement" or "force": the unknown that is solved for.
+    tolerance, max_iterations:
+        Of Newton's method, relative to the contact-free response.
+
+    Returns
+    -------
+    Response
+        Its status says whether it converged.
+
+    Raises
+    ------
+    ValueError
+        For a frequency, laws or a guess that do not fit.
+    """
+    problem = as_problem(structure, pair)
+    start = guess._core if isinstance(guess, Response) else guess
+    return Response(
+        _core.forced_response(problem, as_laws(laws), frequency, start, stay_near_guess, form, tolerance, max_iterations)
+    )
+
+
+def stability(response: Response, multipliers: int = 4) -> Stability:
+    """Counts the Floquet multipliers of a response outside the unit circle, and computes the largest ones.
+
+    Parameters
+    ----------
+    response:
+        A response that has converged; for others the status is "no_response".
+    multipliers:
+        How many are computed beside the count, a conjugate pair counted once; 0 for none.
+
+    Raises
+    ------
+    ValueError
+        Where the structure has no modes to compute.
+    """
+    return Stability(_core.stability(response._core, multipliers))

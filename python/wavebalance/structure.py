@@ -1,0 +1,239 @@
+"""Structures and pairs of bases."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse
+
+from . import _core
+from ._matrices import as_csc
+from .laws import Law, LawLike, as_laws
+
+__all__ = ["Pair", "Structure"]
+
+Matrix = Any
+Force = tuple[npt.ArrayLike, npt.ArrayLike]
+
+
+class Structure(_core.Structure):
+    """The linear part of a vibrating structure, M u'' + C u' + K u = load cos(2 pi f t) + forces - S^T f_c(S u).
+
+    Parameters
+    ----------
+    M, C, K:
+        Mass (kg), damping (N s/m) and stiffness (N/m), n × n, SciPy sparse or anything that converts to it, clamped rows and
+        columns removed. ``C=None`` is none.
+    load:
+        Amplitude of the cosine load, N, n values.
+    contacts:
+        The directions of contact S, C × n: contact c has the displacement ``S[c] @ u``, positive towards its obstacle. Or a
+        list of degrees of freedom, from 0.
+    static_load:
+        A force that does not vary, N, n values.
+    forces:
+        Further periodic forces ``(shape, harmonics)``: shape, N, n values, times Re sum_m harmonics[m] exp(2 pi i m f t).
+    loss_factor:
+        eta of structural damping, K (1 + i eta) at the harmonics above 0. Its motions have no known stability.
+    unsymmetric:
+        Whether C and K may be unsymmetric, as gyroscopic and circulatory ones are.
+    free:
+        Whether the structure is free to move and held by its contacts alone.
+
+    Attributes
+    ----------
+    M, C, K: scipy.sparse.csc_matrix
+        As above, n × n.
+    S: scipy.sparse.csr_matrix
+        Directions of contact, C × n.
+    load: numpy.ndarray
+        n values, N.
+    size, contacts: int
+        n and C.
+
+    Raises
+    ------
+    ValueError
+        Sizes that do not fit, matrices that are not symmetric or definite, rows of S that are zero, with the row (from 0).
+    """
+
+    def __init__(
+        self,
+        M: Matrix,
+        C: Matrix | None,
+        K: Matrix,
+        load: npt.ArrayLike,
+        contacts: Matrix | Sequence[int],
+        *,
+        static_load: npt.ArrayLike | None = None,
+        forces: Sequence[Force] = (),
+        loss_factor: float = 0.0,
+        unsymmetric: bool = False,
+        free: bool = False,
+    ) -> None:
+        self.M, self.K = as_csc(M, "M"), as_csc(K, "K")
+        self.C = scipy.sparse.csc_matrix(self.K.shape) if C is None else as_csc(C, "C")
+        self.load = _vector(load, "load")
+        self.S = _directions(contacts, len(self.load))
+        self.unsymmetric, self.loss_factor = unsymmetric, loss_factor
+        self._forces = [(_vector(shape, "shape of a force"), np.ravel(np.asarray(h, complex)), 0) for shape, h in forces]
+        if static_load is not None:
+            self._forces.append((_vector(static_load, "static_load"), np.ones(1, complex), 0))
+        self._problem: tuple[_core.Pair, Any] | None = None
+        super().__init__(
+            self.M, self.C, self.K, self.load, as_csc(self.S, "contacts"), self._forces, loss_factor, unsymmetric, free
+        )
+
+    def scene(
+        self, laws: LawLike, *, frequency: float | None = None, pair: Pair | None = None, **analysis: Any
+    ) -> dict[str, Any]:
+        """This structure as a scene, for :func:`wavebalance.run`, :func:`wavebalance.compare` and studies.
+
+        Parameters
+        ----------
+        laws:
+            One law, or one per contact; laws of Python functions have no keys.
+        frequency:
+            Of the load, Hz.
+        pair:
+            Trial and weight functions; without it the scene has no ``[time]``, as a comparison needs none.
+        analysis:
+            Keys of ``[analysis]``, such as ``type="frequency_sweep"``.
+
+        Raises
+        ------
+        ValueError
+            For laws without keys, and for `forces` and `static_load`, which stand in ``[[forcing.terms]]`` of a scene.
+        """
+        if self._forces:
+            raise ValueError("the structure has forces beside its load; a scene has [[forcing.terms]] for them")
+        structure: dict[str, Any] = {"type": "matrices", "mass": self.M, "stiffness": self.K}
+        if self.C.nnz:
+            structure["damping"] = self.C
+        for key, value in (("unsymmetric", self.unsymmetric), ("free", self.is_free), ("loss_factor", self.loss_factor)):
+            if value:
+                structure[key] = value
+        forcing: dict[str, Any] = {"load": self.load, "amplitude": 1.0}
+        if frequency is not None:
+            forcing["frequency"] = float(frequency)
+        result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
+        if pair is not None:
+            result["time"] = pair.scene_keys()
+        if analysis:
+            result["analysis"] = analysis
+        return result
+
+    def _contact_keys(self, laws: LawLike) -> dict[str, Any]:
+        given = as_laws(laws)
+        each = list(given) if isinstance(given, Sequence) else [given] * self.contacts
+        if len(each) != self.contacts or not all(isinstance(one, Law) for one in each):
+            raise ValueError(f"laws are {len(each)}; expected one law, or one for each of {self.contacts} contacts")
+        pairs = []
+        for contact, law in enumerate(each):
+            row = self.S[contact]
+            pairs.append({"dofs": [int(i) + 1 for i in row.indices], "coefficients": row.data.tolist(), **law.scene_keys()})
+        first = each[0].scene_keys()
+        return {**first, "pairs": pairs}
+
+
+class Pair(_core.Pair):
+    """Trial and weight functions over one period, with the points at which the contact force is evaluated.
+
+    Parameters
+    ----------
+    name:
+        "trial:weight" of "fourier", "haar", "bspline" and "daubechies6" (any even number), or one name for both.
+    functions:
+        Trial functions per degree of freedom; a power of two with wavelets, odd for Fourier functions alone (a mean and
+        both functions of each harmonic).
+    points:
+        Uniform points of the period, by default 4 times the functions, and at least 256.
+    formulation:
+        "distributional", "weak" or "strong": on which side the derivatives stand.
+    inner_products:
+        "quadrature" at the same points, or "exact".
+    nyquist:
+        "drop" or "keep" the coefficient without damping of an even number of functions.
+    sample_offset:
+        0 or 0.5: points at the left ends or in the middles of their intervals.
+
+    Raises
+    ------
+    InadmissiblePair
+        Where the duality pairing does not exist; a ``ValueError``.
+    ValueError
+        For names and sizes out of range.
+    """
+
+    def __init__(
+        self,
+        name: str = "fourier:fourier",
+        functions: int = 63,
+        points: int | None = None,
+        *,
+        formulation: str = "distributional",
+        inner_products: str = "quadrature",
+        nyquist: str = "drop",
+        sample_offset: float = 0.0,
+    ) -> None:
+        self.name = name if ":" in name else f"{name}:{name}"
+        count = _points(functions) if points is None else points
+        super().__init__(name, functions, count, formulation, inner_products, nyquist, sample_offset)
+        trial, weight = self.name.split(":")
+        self._keys = {
+            "trial": trial,
+            "weight": weight,
+            "functions": functions,
+            "quadrature_points": count,
+            "formulation": formulation,
+            "inner_products": inner_products,
+            "nyquist": nyquist,
+            "sample_offset": sample_offset,
+        }
+
+    def scene_keys(self) -> dict[str, Any]:
+        """The keys of ``[time]`` in a scene."""
+        return dict(self._keys)
+
+    def symbol(self, derivative: int) -> npt.NDArray[np.complex128]:
+        """The eigenvalues of A_d[i, j] = <p_i, q_j^(d)> over translates k = 0..M/2, for d = 0, 1 or 2; M values / 2 + 1."""
+        return super().symbol(derivative)
+
+    def __repr__(self) -> str:
+        return f"Pair({self.name!r}, functions={self.functions}, points={self.points})"
+
+
+@functools.lru_cache(maxsize=1)
+def default_pair() -> Pair:
+    """A mean and 31 harmonics, with 256 points."""
+    return Pair()
+
+
+def _points(functions: int) -> int:
+    return max(256, 4 * functions) if functions & (functions - 1) == 0 else max(256, 4 * (functions + 1))
+
+
+def _vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
+    try:
+        dense = values.toarray() if scipy.sparse.issparse(values) else values
+        vector = np.array(dense, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} is no vector of numbers: {error}") from None
+    return vector.ravel()
+
+
+def _directions(contacts: Any, size: int) -> scipy.sparse.csr_matrix:
+    if scipy.sparse.issparse(contacts) or np.ndim(contacts) == 2:
+        return as_csc(contacts, "contacts").tocsr()
+    dofs = np.atleast_1d(np.asarray(contacts))
+    if dofs.ndim != 1 or not np.issubdtype(dofs.dtype, np.integer):
+        raise ValueError("contacts is neither a matrix, contacts x n, nor a list of degrees of freedom")
+    for dof in dofs:
+        if not 0 <= dof < size:
+            raise ValueError(f"contacts: degree of freedom {dof}; expected 0 to {size - 1}")
+    ones = np.ones(len(dofs))
+    return scipy.sparse.csr_matrix((ones, (np.arange(len(dofs)), dofs)), shape=(len(dofs), size))
