@@ -12,7 +12,8 @@ function(wavebalance_add_module name)
   if(interface EQUAL 0)
     set(interface 0.${PROJECT_VERSION_MINOR})  # before 1.0 the interface changes with the minor version
   endif()
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${interface})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${interface}
+    INSTALL_RPATH "\$ORIGIN")  # shared libraries find each other
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_sources(${target} PRIVATE ${M_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
@@ -40,7 +41,14 @@ function(wavebalance_add_module name)
   string(APPEND text "set(wavebalance_${name}_FOUND TRUE)\n")
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/wavebalance_${name}.cmake "include_guard()\n${text}")
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalance_${name}.cmake DESTINATION ${package_dir} COMPONENT ${name})
+  wavebalance_install_pkg_config(${name} MODULES ${M_MODULES} FIND ${M_FIND})
+  wavebalance_install_licence(${name})
   set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_INSTALLED_MODULES ${name})
+  if(M_MODULES)
+    list(JOIN M_MODULES " " needed)
+    set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_MODULE_NEEDS
+      "if(${name} IN_LIST _wavebalance_needed)\n  list(APPEND _wavebalance_needed ${needed})\nendif()")
+  endif()
 endfunction()
 
 # wavebalance_add_room(room SOURCES <names> HEADERS <names>) appends src/<room>/<name>.cpp to `sources` and
@@ -123,18 +131,4 @@ function(wavebalance_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
     $<$<BOOL:${WAVEBALANCE_WARNINGS_AS_ERRORS}>:-Werror>)
-endfunction()
-
-# wavebalance_install_package(): the package file that finds components, called once, last.
-function(wavebalance_install_package)
-  get_property(WAVEBALANCE_INSTALLED_MODULES GLOBAL PROPERTY WAVEBALANCE_INSTALLED_MODULES)
-  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wavebalance)
-  configure_package_config_file(cmake/wavebalanceConfig.cmake.in wavebalanceConfig.cmake
-    INSTALL_DESTINATION ${package_dir})
-  write_basic_package_version_file(wavebalanceConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfig.cmake
-    ${CMAKE_CURRENT_BINARY_DIR}/wavebalanceConfigVersion.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake ${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindLAPACKE.cmake ${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake
-    DESTINATION ${package_dir} COMPONENT package)
 endfunction()

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "command/interrupt_guard.hpp"
+#include "command/next_steps.hpp"
 #include "command/progress_bar.hpp"
 #include "command/run_record.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
@@ -45,7 +46,14 @@ std::string summary_text(const Summary& summary) {
   return text;
 }
 
-void report(const RunArguments& arguments, const Record& record, const std::vector<ResultFile>& files) {
+void say_not_converged(const Scene& scene, const std::string& status) {
+  std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", status.c_str());
+  const std::string step = next_step(scene.analysis.type, status);
+  if (!step.empty()) std::fprintf(stderr, "wavebalance: what may help: %s\n", step.c_str());
+}
+
+void report(const RunArguments& arguments, const Scene& scene, const Record& record,
+            const std::vector<ResultFile>& files) {
   if (!arguments.quiet) {
     std::fputs(summary_text(record.summary).c_str(), stdout);
     std::string list = "summary.json";
@@ -58,7 +66,7 @@ void report(const RunArguments& arguments, const Record& record, const std::vect
   if (record.interrupted)
     std::fputs("wavebalance: interrupted; the record holds the points so far\n", stderr);
   else if (!record.converged)
-    std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", record.status.c_str());
+    say_not_converged(scene, record.status);
 }
 
 /// Solves with a progress bar, unless `quiet`, until the guard has noted a signal. Ends the program if that
@@ -78,11 +86,19 @@ Record solve(const Scene& scene, const StartMotion& start, const InterruptGuard&
 
 }  // namespace
 
+Scene given_scene(const RunArguments& arguments) {
+  std::error_code ignored;
+  if (std::filesystem::status(arguments.scene, ignored).type() == std::filesystem::file_type::not_found)
+    throw std::invalid_argument(arguments.scene.string() +
+                                ": there is no such file; `wavebalance init` writes a scene to start from");
+  return load_scene(arguments.scene, arguments.overrides, arguments.removed);
+}
+
 int run_scene(const RunArguments& arguments) {
   if (arguments.output.empty())
     throw std::invalid_argument(
         "--output is \"\"; expected the name of a folder, which is made if it is missing");
-  const Scene scene = load_scene(arguments.scene, arguments.overrides, arguments.removed);
+  const Scene scene = given_scene(arguments);
   check_memory(scene, arguments.max_memory);
   const StartMotion start =
       arguments.start_from.empty() ? StartMotion{} : read_start_motion(arguments.start_from);
@@ -99,14 +115,12 @@ int run_scene(const RunArguments& arguments) {
     std::fprintf(stderr, "wavebalance: no picture: %s\n", results.no_picture.c_str());
   guard.defer();
   write_run_files(files, results);
-  report(arguments, record, results.files);
+  report(arguments, scene, record, results.files);
   if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;
 }
 
-int check_scene(const RunArguments& arguments) {
-  return print(describe_scene(load_scene(arguments.scene, arguments.overrides, arguments.removed)));
-}
+int check_scene(const RunArguments& arguments) { return print(describe_scene(given_scene(arguments))); }
 
 int print(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)

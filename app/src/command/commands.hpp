@@ -21,6 +21,10 @@ struct RunArguments {
   bool report = true;  ///< whether report.html is written
 };
 
+/// The scene that the arguments name, with its changes. Throws SceneError, and std::invalid_argument that
+/// says how to begin if there is no such file.
+Scene given_scene(const RunArguments& arguments);
+
 /// Solves a scene and writes its results. Returns solved, not_converged, or interrupted + signal after a
 /// sweep that a signal ended, whose points are written. Throws SceneError, IoError and std::invalid_argument.
 int run_scene(const RunArguments& arguments);

@@ -108,7 +108,7 @@ int compare_scene(const CompareArguments& arguments) {
     throw std::invalid_argument(
         "--output is \"\"; expected the name of a folder, which is made if it is missing");
   const ComparisonOptions options = options_of(arguments);
-  const Scene scene = load_scene(arguments.run.scene, arguments.run.overrides, arguments.run.removed);
+  const Scene scene = given_scene(arguments.run);
   check_comparison(scene, options);
   OutputFiles output(arguments.run.output);
   InterruptGuard guard(true);

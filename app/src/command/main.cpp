@@ -1,6 +1,7 @@
 // The command `wavebalance`. CLI11 is included here alone: it takes longer to compile than the rest of the
 // command.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -9,7 +10,10 @@
 
 #include "command/commands.hpp"
 #include "command/compare_command.hpp"
+#include "command/init_command.hpp"
+#include "command/keys_command.hpp"
 #include "command/overlay_command.hpp"
+#include "scene/spelling.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -27,7 +31,8 @@ constexpr const char* description =
 std::string footer() {
   return "A scene (the bar of Jones & Legrand 2014, case 1; `wavebalance keys` explains every key):\n\n" +
          write_scene(example_scene()) +
-         "\nCommands to start with, the scene being in case.toml:\n\n"
+         "\nCommands to start with, the scene being in case.toml, as `wavebalance init --output case.toml` writes\n"
+         "one of a bar; `init matrices` and `init blade` write others:\n\n"
          "  wavebalance check case.toml\n"
          "  wavebalance run case.toml --output results/case\n"
          "  wavebalance run case.toml --output results/haar --set time.trial=haar --set time.functions=64\n"
@@ -87,11 +92,25 @@ void add_overlay(CLI::App& command, OverlayArguments& arguments) {
   command.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
 }
 
-/// "run, check, compare, overlay, keys"
-std::string names_of_commands(const CLI::App& app) {
-  std::string names;
+void add_init(CLI::App& command, InitArguments& arguments) {
+  command.add_option("KIND", arguments.kind, joined(starter_kinds()) + "; bar without it");
+  command
+      .add_option("--output,-o", arguments.output, "the scene, in place of KIND.toml; no file is overwritten")
+      ->type_name("FILE");
+}
+
+void add_keys(CLI::App& command, std::vector<std::string>& filters, bool& names) {
+  command.add_option(
+      "FILTER", filters,
+      "a section (contact), a key (contact.gap) or a choice (structure.type=matrices), which leaves "
+      "out what such a scene may not hold; of several all hold");
+  command.add_flag("--names", names, "the names alone, each with the texts that it may be");
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names += (names.empty() ? "" : ", ") + command->get_name();
+    names.push_back(command->get_name());
   return names;
 }
 
@@ -99,9 +118,11 @@ std::string names_of_commands(const CLI::App& app) {
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   const std::string name = argv[1];
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    if (command->get_name() == name) return;
-  throw std::invalid_argument("unknown command " + name + "; there are " + names_of_commands(app));
+  const std::vector<std::string> names = names_of_commands(app);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const std::string nearest = name.ends_with(".toml") ? "run " + name : closest(name, names);
+  throw std::invalid_argument("unknown command " + name + "; there are " + joined(names) +
+                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
 int dispatch(int argc, char** argv) {
@@ -131,14 +152,21 @@ int dispatch(int argc, char** argv) {
   CLI::App& overlay =
       *app.add_subcommand("overlay", "draw responses and modes of one structure over each other");
   add_overlay(overlay, drawing);
+  std::vector<std::string> filters;
+  bool names = false;
   CLI::App& keys = *app.add_subcommand("keys", "list every key of a scene: meaning, unit, range, default");
+  add_keys(keys, filters, names);
+  InitArguments start;
+  CLI::App& init = *app.add_subcommand("init", "write a commented scene to start from");
+  add_init(init, start);
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? solved : bad_input;
   }
-  if (keys.parsed()) return print(describe_scene_keys());
+  if (keys.parsed()) return print(names ? key_names_text() : selected_keys_text(filters));
+  if (init.parsed()) return init_scene(start);
   if (compare.parsed()) return compare_scene(comparison);
   if (overlay.parsed()) return overlay_results(drawing);
   return check.parsed() ? check_scene(arguments) : run_scene(arguments);

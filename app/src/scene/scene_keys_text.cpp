@@ -1,12 +1,15 @@
+#include "scene/scene_keys_text.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <utility>
 
 #include "files/number_text.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -110,16 +113,29 @@ std::string key_text(const SceneKey& key, int width) {
                  6, width);
 }
 
-std::string pairs_text(int width) {
-  std::string text = "\n[[contact.pairs]], any number of them, in place of structure.contact_dofs\n";
-  for (const SceneKey& key : pair_keys(0)) text += key_text(key, width);
-  return text;
+/// `title` and the keys of `keys` that are shown; empty if none is.
+std::string section_text(const std::string& title, std::span<const SceneKey> keys,
+                         const std::function<bool(const SceneKey&)>& shown, int width) {
+  std::string text;
+  for (const SceneKey& key : keys)
+    if (shown(key)) text += key_text(key, width);
+  return text.empty() ? "" : title + "\n" + text;
 }
 
-std::string terms_text(int width) {
-  std::string text = "\n[[forcing.terms]], any number of them, which act beside forcing.amplitude\n";
-  for (const SceneKey& key : term_keys(0)) text += key_text(key, width);
-  return text;
+/// What stands above the keys of `section`.
+std::string section_title(std::string_view section) {
+  if (section == "contact.pairs")
+    return "[[contact.pairs]], any number of them, in place of structure.contact_dofs";
+  if (section == "forcing.terms")
+    return "[[forcing.terms]], any number of them, which act beside forcing.amplitude";
+  return "[" + std::string(section) + "]";
+}
+
+/// The keys of one section that follow each other in `keys`.
+std::span<const SceneKey> first_section(std::span<const SceneKey> keys) {
+  std::size_t count = 0;
+  while (count < keys.size() && keys[count].section == keys[0].section) ++count;
+  return keys.first(count);
 }
 
 }  // namespace
@@ -181,16 +197,21 @@ std::string SceneKey::default_text() const {
 }
 
 std::string describe_scene_keys(int width) {
+  return describe_scene_keys([](const SceneKey&) { return true; }, width);
+}
+
+std::string describe_scene_keys(const std::function<bool(const SceneKey&)>& shown, int width) {
   std::string text;
-  std::string_view section;
-  for (const SceneKey& key : scene_keys()) {
-    if (key.section != section) {
-      if (section == "contact") text += pairs_text(width);
-      if (section == "forcing") text += terms_text(width);
-      text += (section.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
-    }
-    section = key.section;
-    text += key_text(key, width);
+  const auto append = [&](std::span<const SceneKey> keys) {
+    const std::string section = section_text(section_title(keys[0].section), keys, shown, width);
+    if (!section.empty()) text += (text.empty() ? "" : "\n") + section;
+  };
+  for (std::span<const SceneKey> rest = scene_keys(); !rest.empty();) {
+    const auto section = first_section(rest);
+    if (section[0].section == "contact") append(pair_keys(0));
+    if (section[0].section == "forcing") append(term_keys(0));
+    append(section);
+    rest = rest.subspan(section.size());
   }
   return text;
 }

@@ -114,7 +114,22 @@ TEST(CommandLine, UnknownCommandIsNamedBesideThoseThereAre) {
   const Outcome outcome = run(folder, {"nonsense"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.errors,
-            "wavebalance: unknown command nonsense; there are run, check, compare, overlay, keys\n");
+            "wavebalance: unknown command nonsense; there are run, check, compare, overlay, keys, init\n");
+  EXPECT_NE(run(folder, {"chek"}).errors.find("did you mean check?"), std::string::npos);
+  EXPECT_NE(run(folder, {"case.toml"}).errors.find("did you mean run case.toml?"), std::string::npos);
+}
+
+TEST(CommandLine, MissingSceneIsAnsweredWithTheCommandThatWritesOne) {
+  const TemporaryFolder folder;
+  for (const char* command : {"run", "check", "compare"}) {
+    std::vector<std::string> arguments{command, folder / "missing.toml"};
+    if (arguments[0] != "check") arguments.insert(arguments.end(), {"--output", folder / "results"});
+    const Outcome outcome = run(folder, arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.errors,
+              "wavebalance: " + (folder / "missing.toml").string() +
+                  ": there is no such file; `wavebalance init` writes a scene to start from\n");
+  }
 }
 
 TEST(CommandLine, VersionIsTheProjects) {

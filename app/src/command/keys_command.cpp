@@ -1,0 +1,123 @@
+#include "command/keys_command.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "scene/scene_keys_text.hpp"
+#include "scene/spelling.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using KeyFilter = std::function<bool(const SceneKey&)>;
+
+std::vector<SceneKey> all_keys() {
+  std::vector<SceneKey> keys(scene_keys().begin(), scene_keys().end());
+  for (const auto& of_tables : {pair_keys(0), term_keys(0)})
+    keys.insert(keys.end(), of_tables.begin(), of_tables.end());
+  return keys;
+}
+
+/// The names without repetition, in the order in which they come first.
+std::vector<std::string> sections_of(const std::vector<SceneKey>& keys) {
+  std::vector<std::string> sections;
+  for (const SceneKey& key : keys)
+    if (std::find(sections.begin(), sections.end(), key.section) == sections.end())
+      sections.emplace_back(key.section);
+  return sections;
+}
+
+/// The names of the keys whose choice decides whether others are allowed.
+std::vector<std::string> deciding_keys(const std::vector<SceneKey>& keys) {
+  std::vector<std::string> names;
+  for (const SceneKey& key : scene_keys())
+    if (!key.choices.empty() && std::any_of(keys.begin(), keys.end(), [&](const SceneKey& other) {
+          return other.belongs.concerns(key.full_name());
+        }))
+      names.push_back(key.full_name());
+  return names;
+}
+
+/// Whether `condition` holds for some choice of each of the keys `open`, all else as in `scene`.
+bool can_hold(const Condition& condition, Scene scene, std::vector<std::string> open) {
+  if (open.empty()) return condition.holds(scene);
+  const SceneKey& key = *find_scene_key(open.back());
+  open.pop_back();
+  if (!condition.concerns(key.full_name())) return can_hold(condition, std::move(scene), std::move(open));
+  return std::any_of(key.choices.begin(), key.choices.end(), [&](std::string_view choice) {
+    key.set(scene, std::string(choice));
+    return can_hold(condition, scene, open);
+  });
+}
+
+[[noreturn]] void reject(const std::string& filter, const std::string& allowed, const std::string& nearest) {
+  throw std::invalid_argument("keys " + filter + ": " + allowed +
+                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+KeyFilter choice_filter(const std::string& filter, const std::vector<SceneKey>& keys) {
+  const auto place = filter.find('=');
+  const std::string name = filter.substr(0, place), value = filter.substr(place + 1);
+  std::vector<std::string> deciding = deciding_keys(keys);
+  if (std::find(deciding.begin(), deciding.end(), name) == deciding.end())
+    reject(filter, "expected one of " + joined(deciding) + " before the sign =", closest(name, deciding));
+  const SceneKey& key = *find_scene_key(name);
+  if (std::find(key.choices.begin(), key.choices.end(), value) == key.choices.end())
+    reject(filter, name + " may be " + key.expected(),
+           closest(value, {key.choices.begin(), key.choices.end()}));
+  Scene scene;
+  key.set(scene, value);
+  std::erase(deciding, name);
+  return [scene, deciding](const SceneKey& one) { return can_hold(one.belongs, scene, deciding); };
+}
+
+KeyFilter filter_of(const std::string& filter, const std::vector<SceneKey>& keys) {
+  if (filter.find('=') != std::string::npos) return choice_filter(filter, keys);
+  const std::vector<std::string> sections = sections_of(keys);
+  if (std::find(sections.begin(), sections.end(), filter) != sections.end())
+    return [filter](const SceneKey& key) {
+      return key.section == filter || key.section.starts_with(filter + ".");
+    };
+  const KeyFilter named = [filter](const SceneKey& key) {
+    return key.name == filter || key.full_name() == filter;
+  };
+  if (std::any_of(keys.begin(), keys.end(), named)) return named;
+  std::vector<std::string> names = sections;
+  for (const SceneKey& key : keys) {
+    names.emplace_back(key.name);
+    names.push_back(key.full_name());
+  }
+  reject(filter,
+         "expected a section (" + joined(sections) + "), a key or a choice such as structure.type=matrices",
+         closest(filter, names));
+}
+
+}  // namespace
+
+std::string selected_keys_text(const std::vector<std::string>& filters) {
+  const std::vector<SceneKey> keys = all_keys();
+  std::vector<KeyFilter> selections;
+  for (const std::string& filter : filters) selections.push_back(filter_of(filter, keys));
+  std::string text = describe_scene_keys([&](const SceneKey& key) {
+    return std::all_of(selections.begin(), selections.end(),
+                       [&](const KeyFilter& selected) { return selected(key); });
+  });
+  if (text.empty())
+    throw std::invalid_argument("keys " + joined(filters) + ": no key is selected by all of these");
+  return text;
+}
+
+std::string key_names_text() {
+  std::string text;
+  for (const SceneKey& key : scene_keys()) {
+    text += key.full_name();
+    for (const auto choice : key.choices) text += " " + std::string(choice);
+    if (key.type == SceneKey::Type::boolean) text += " true false";
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace wavebalance::app

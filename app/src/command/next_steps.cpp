@@ -1,0 +1,69 @@
+#include "command/next_steps.hpp"
+
+#include <map>
+
+namespace wavebalance::app {
+namespace {
+
+using Remedies = std::map<std::string, std::string>;
+
+const Remedies& of_responses() {
+  static const std::string other_sizes =
+      "another time.functions (odd for Fourier), more time.quadrature_points, or time.tolerance in place of both";
+  static const Remedies all{
+      {"stalled", other_sizes},
+      {"iteration_limit", other_sizes},
+      {"effort_limit", other_sizes},
+      {"inaccurate", "another forcing.frequency, more damping, or a contact that the load moves"},
+      {"singular", "damping, such as structure.stiffness_damping, or another forcing.frequency"},
+      {"unbalanced", "a static load that presses the structure against a contact (forcing.terms)"},
+      {"size_limit", "a larger time.tolerance"},
+      {"stagnated", "a larger time.tolerance"},
+      {"not_converged",
+       "time.functions and time.quadrature_points in place of time.tolerance, or more damping"}};
+  return all;
+}
+
+const Remedies& of_sweeps() {
+  static const Remedies all{
+      {"returned", "both ends of the interval exchanged, or a start outside the resonance"},
+      {"no_start", "another start of the interval, away from the resonance"},
+      {"closed", "another start or direction of the interval, or more time.quadrature_points"},
+      {"lost", "a smaller analysis.largest_step, more time.quadrature_points, or an odd time.functions"},
+      {"unbounded", "more damping, or time.nyquist = \"drop\""},
+      {"point_limit", "a larger analysis.max_points"}};
+  return all;
+}
+
+const Remedies& of_modes() {
+  static const Remedies all{{"cycling", "analysis.samples = 2 x analysis.harmonics"},
+                            {"singular", "analysis.samples = 2 x analysis.harmonics"},
+                            {"lost", "more analysis.points, or other analysis.harmonics"},
+                            {"point_limit", "more analysis.points"}};
+  return all;
+}
+
+const Remedies& of_time_stepping() {
+  static const Remedies all{
+      {"iteration_limit",
+       "more analysis.max_periods, a larger analysis.tolerance, more damping, or for large matrices "
+       "structure.kept_modes"},
+      {"subharmonic", "analysis.type = \"forced_response\" with analysis.subharmonic"},
+      {"step_failure", "a softer contact"}};
+  return all;
+}
+
+}  // namespace
+
+std::string next_step(AnalysisType type, const std::string& status) {
+  if (type == AnalysisType::nonlinear_mode && status.starts_with("ended at"))
+    return "a higher analysis.last_frequency_ratio, other analysis.harmonics and analysis.samples, or more analysis.points";
+  const Remedies& remedies = type == AnalysisType::forced_response  ? of_responses()
+                             : type == AnalysisType::nonlinear_mode ? of_modes()
+                             : type == AnalysisType::time_stepping  ? of_time_stepping()
+                                                                    : of_sweeps();
+  const auto found = remedies.find(status);
+  return found == remedies.end() ? "" : found->second;
+}
+
+}  // namespace wavebalance::app

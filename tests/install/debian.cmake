@@ -1,0 +1,40 @@
+# The Debian package is made, its fields are read, and the command, the libraries and the Python package run from it.
+include(${CMAKE_CURRENT_LIST_DIR}/run_command.cmake)
+file(REMOVE_RECURSE ${folder})
+file(MAKE_DIRECTORY ${folder}/scene)
+run(${cpack} -G DEB --config ${build}/CPackConfig.cmake -B ${folder})
+file(GLOB package ${folder}/*.deb)
+run(${dpkg_deb} --field ${package})
+expect("${output}" "Package: wavebalance" "Version: ${version}" "libgsl" "libfftw3" "libumfpack" "libcholmod" "libopenblas"
+  "libfmt" "libc6 (>= " "gnuplot-nox")
+if(python)
+  expect("${output}" "python3 (>= 3" "python3-numpy")
+endif()
+
+set(root ${folder}/root)
+run(${dpkg_deb} --extract ${package} ${root})
+file(READ ${root}/usr/share/doc/wavebalance/copyright copyright)
+expect("${copyright}" "GSL (GPL-3+)" "UMFPACK (GPL-2+)" "CHOLMOD" "License: BSD-3-clause")
+set(command ${root}/usr/bin/wavebalance)
+run(${command} --version)
+expect("${output}" "wavebalance ${version}")
+run(${command} init --output ${folder}/scene/bar.toml)
+run(${command} run ${folder}/scene/bar.toml --output ${folder}/scene/results)
+expect("${output}" "converged             true")
+
+foreach(file bin/wavebalance share/man/man1/wavebalance.1 share/bash-completion/completions/wavebalance)
+  if(NOT EXISTS ${root}/usr/${file})
+    message(FATAL_ERROR "${file} is not in the package")
+  endif()
+endforeach()
+run(${CMAKE_COMMAND} -S ${source}/tests/install/consumer -B ${folder}/consumer -G Ninja -DCMAKE_PREFIX_PATH=${root}/usr
+  -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+  -DMODULE=contact -DVERSION=${version})
+run(${CMAKE_COMMAND} --build ${folder}/consumer)
+run(${folder}/consumer/consumer)
+if(python)
+  find_program(interpreter NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${root}/usr/lib/python3/dist-packages ${interpreter} -B
+    -c "print(__import__('wavebalance').__file__)")
+  expect("${output}" "${root}/usr/lib/python3/dist-packages/wavebalance")
+endif()
