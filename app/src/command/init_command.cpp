@@ -73,7 +73,7 @@ void require_new(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<std::string> starter_kinds() { return {starters.begin(), kinds.end()}; }
+std::vector<std::string> starter_kinds() { return {starters.begin(), starters.end()}; }
 
 std::vector<ResultFile> starter_scene(const std::string& kind, const std::string& stem) {
   const std::string name = stem + ".toml";
