@@ -116,13 +116,36 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
 
 /// Throws std::invalid_argument if the first argument is neither an option nor one of the commands.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  const std::string name = argv[1];
   const std::vector<std::string> names = names_of_commands(app);
+  if (argc < 2)
+    throw std::invalid_argument(
+        "no command; there are " + joined(names) +
+        "; `wavebalance init` writes a scene to start from, `wavebalance --help` explains");
+  if (argv[1][0] == '-') return;
+  const std::string name = argv[1];
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  const std::string nearest = name.ends_with(".toml") ? "run " + name : closest(name, names);
+  const std::string nearest = name.ends_with(".toml") ? "run " + name
+                              : name == "help"        ? "--help"
+                                                      : closest(name, names);
   throw std::invalid_argument("unknown command " + name + "; there are " + joined(names) +
                               (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+/// What is wrong with the arguments, the option that was probably meant, and where to read on.
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const CLI::App& command = parsed.empty() ? app : *parsed.front();
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  std::string nearest;
+  for (int i = 1; i < argc; ++i)
+    if (const std::string word = argv[i];
+        word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
+      nearest = closest(word, options);
+  const std::string name = parsed.empty() ? "wavebalance" : "wavebalance " + command.get_name();
+  return std::string(error.what()) + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + "; `" +
+         name + " --help` says what it takes";
 }
 
 int dispatch(int argc, char** argv) {
@@ -163,7 +186,8 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? solved : bad_input;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    throw std::invalid_argument(usage_text(app, error, argc, argv));
   }
   if (keys.parsed()) return print(names ? key_names_text() : selected_keys_text(filters));
   if (init.parsed()) return init_scene(start);

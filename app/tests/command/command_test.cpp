@@ -119,6 +119,17 @@ TEST(CommandLine, UnknownCommandIsNamedBesideThoseThereAre) {
   EXPECT_NE(run(folder, {"case.toml"}).errors.find("did you mean run case.toml?"), std::string::npos);
 }
 
+TEST(CommandLine, WrongArgumentsAreNamedWithWhatIsProbablyMeantAndWhereToRead) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  EXPECT_NE(run(folder, {}).errors.find("no command; there are run, "), std::string::npos);
+  EXPECT_NE(run(folder, {"help"}).errors.find("did you mean --help?"), std::string::npos);
+  EXPECT_EQ(run(folder, {"run", scene}).errors,
+            "wavebalance: --output is required; `wavebalance run --help` says what it takes\n");
+  EXPECT_NE(run(folder, {"run", scene, "--outptu", "x"}).errors.find("did you mean --output?"),
+            std::string::npos);
+}
+
 TEST(CommandLine, MissingSceneIsAnsweredWithTheCommandThatWritesOne) {
   const TemporaryFolder folder;
   for (const char* command : {"run", "check", "compare"}) {
