@@ -19,7 +19,7 @@ namespace {
 
 using testing::LinearContact;
 
-constexpr double frequency = 0.05;  // Hz, above the first resonance of the chain
+constexpr double chain_frequency = 0.05;  // Hz, above the first resonance of the chain
 const Eigen::Vector3d gaps(1.1, 0.2, 0.5);
 
 LinearStructure chain(int contacts) {
@@ -37,7 +37,7 @@ std::vector<AnyContactLaw> springs(const std::vector<int>& order) {
   return laws;
 }
 
-CondensedProblem make_problem(TimePair pair, const LinearStructure& structure, double at = frequency,
+CondensedProblem make_problem(TimePair pair, const LinearStructure& structure, double at = chain_frequency,
                               CondensationMethod method = CondensationMethod::automatic) {
   CondensedProblem problem(std::move(pair), structure, testing::cosine_load(), method);
   problem.set_frequency(at);
@@ -108,7 +108,7 @@ TEST_P(ManyContacts, LaterLoadShiftsTheResponse) {
   if (pair().points() % (4 * pair().shift_period()) != 0) GTEST_SKIP() << "a quarter is no whole shift";
   auto first = make_problem(pair(), chain(3));
   CondensedProblem later(pair(), chain(3), Eigen::Vector2cd(0.0, std::complex<double>(0.0, -1.0)));
-  later.set_frequency(frequency);
+  later.set_frequency(chain_frequency);
   const PeriodicResponse a = forced_response(first, springs({0, 1, 2}), {});
   const PeriodicResponse b = forced_response(later, springs({0, 1, 2}), {});
   ASSERT_TRUE(a.converged() && b.converged());
@@ -198,11 +198,11 @@ TEST(ManyContactsResponse, DoesNotDependOnTheOrderOfContacts) {
 
 TEST(ManyContactsResponse, IsThatOfEveryCondensationMethod) {
   const TimePair pair = testing::fourier_pair(31, 64);
-  auto expected = make_problem(pair, chain(3), frequency, CondensationMethod::tridiagonal);
+  auto expected = make_problem(pair, chain(3), chain_frequency, CondensationMethod::tridiagonal);
   const PeriodicResponse reference = forced_response(expected, springs({0, 1, 2}), {});
   for (const auto method :
        {CondensationMethod::modal, CondensationMethod::dense, CondensationMethod::sparse}) {
-    auto problem = make_problem(pair, chain(3), frequency, method);
+    auto problem = make_problem(pair, chain(3), chain_frequency, method);
     const PeriodicResponse response = forced_response(problem, springs({0, 1, 2}), {});
     ASSERT_TRUE(response.converged());
     EXPECT_LE((response.displacement - reference.displacement).norm(), 1e-9 * reference.displacement.norm());
@@ -313,8 +313,8 @@ TEST(ManyContactsErrors, NameTheNumberFoundAndWanted) {
   EXPECT_THROW(forced_response(problem, springs({0, 1, 2}), {}, Eigen::VectorXd::Zero(32)),
                std::invalid_argument);
   EXPECT_THROW(ContactLaws(std::vector<AnyContactLaw>{}), std::invalid_argument);
-  EXPECT_THROW(integrate_to_periodic(chain(3), springs({0, 1}), frequency), std::invalid_argument);
-  EXPECT_THROW(shoot(chain(2), LinearContact{1.0, 1.0}, frequency), std::invalid_argument);
+  EXPECT_THROW(integrate_to_periodic(chain(3), springs({0, 1}), chain_frequency), std::invalid_argument);
+  EXPECT_THROW(shoot(chain(2), LinearContact{1.0, 1.0}, chain_frequency), std::invalid_argument);
   try {
     ContactSystem(problem, springs({0, 1}));
     FAIL();

@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 using testing::LinearContact;
 using testing::Oscillator;
 
-constexpr int points = 256;
+constexpr int load_points = 256;
 
 // A static force of 20 N and a third harmonic of 30 N, 40 degrees ahead, beside the oscillator's cosine.
 LinearStructure driven_oscillator(const Oscillator& oscillator) {
@@ -45,19 +45,19 @@ double driven_displacement(const Oscillator& oscillator, double periods) {
 TEST(SeveralLoads, OnALinearOscillatorGiveItsClosedFormInEverySolver) {
   const Oscillator oscillator;
   const LinearStructure structure = driven_oscillator(oscillator);
-  CondensedProblem problem(testing::fourier_pair(9, points), structure, testing::cosine_load());
+  CondensedProblem problem(testing::fourier_pair(9, load_points), structure, testing::cosine_load());
   problem.set_frequency(oscillator.frequency);
   ShootingOptions shooting;
-  shooting.output_points = points;
+  shooting.output_points = load_points;
   const ShootingResult shot = shoot(structure, AnyContactLaw(), oscillator.frequency, shooting);
   ASSERT_EQ(shot.status, ShootingStatus::converged);
   TimeSteppingOptions stepping;
-  stepping.output_points = points;
+  stepping.output_points = load_points;
   const auto stepped = integrate_to_periodic(structure, AnyContactLaw(), oscillator.frequency, stepping);
   ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
   const double scale = std::abs(oscillator.amplitude());
-  for (int l = 0; l < points; ++l) {
-    const double expected = driven_displacement(oscillator, double(l) / points);
+  for (int l = 0; l < load_points; ++l) {
+    const double expected = driven_displacement(oscillator, double(l) / load_points);
     EXPECT_NEAR(problem.contact_free_response()[l], expected, 1e-13 * scale);
     EXPECT_NEAR(shot.contacts.displacement(0, l), expected, 1e-10 * scale);
     EXPECT_NEAR(stepped.contacts.displacement(0, l), expected, 1e-5 * scale);
@@ -72,15 +72,15 @@ TEST(SeveralLoads, OfAMovingBaseTransmitItByTheClosedForm) {
   base[1] = 1e-3;
   structure.forces = {{Eigen::VectorXd::Constant(1, oscillator.stiffness), base, 0},
                       {Eigen::VectorXd::Constant(1, oscillator.damping), base, 1}};
-  CondensedProblem problem(testing::fourier_pair(5, points), structure, testing::cosine_load());
+  CondensedProblem problem(testing::fourier_pair(5, load_points), structure, testing::cosine_load());
   for (const double frequency : {7.0, 25.0, 60.0}) {
     problem.set_frequency(frequency);
     const double omega = two_pi * frequency;
     const Complex spring(oscillator.stiffness, omega * oscillator.damping);
     const Complex x = 1e-3 * spring / (spring - omega * omega * oscillator.mass);
-    for (int l = 0; l < points; ++l)
-      EXPECT_NEAR(problem.contact_free_response()[l], std::real(x * std::polar(1.0, two_pi * l / points)),
-                  1e-14 * std::abs(x) + 1e-18);
+    for (int l = 0; l < load_points; ++l)
+      EXPECT_NEAR(problem.contact_free_response()[l],
+                  std::real(x * std::polar(1.0, two_pi * l / load_points)), 1e-14 * std::abs(x) + 1e-18);
   }
 }
 

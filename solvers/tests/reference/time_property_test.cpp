@@ -21,7 +21,7 @@ using testing::jl14_bar;
 using testing::LinearContact;
 using testing::Oscillator;
 
-constexpr double frequency = 150.0;
+constexpr double bar_frequency = 150.0;
 const ExponentialLaw law{1e8, 50.0, 1e-3};
 
 /// The second-order equation, written once more for any scalar: du'/ds = T M^-1 (load cos - e f_c - C u' - K
@@ -32,8 +32,8 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> rate(const LinearStructure& bar, double
   using std::cos, std::exp;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   const int n = bar.size();
-  const double omega = 2.0 * std::numbers::pi * frequency;
-  const Eigen::MatrixXd inverse = Eigen::MatrixXd(bar.mass).inverse() / frequency;
+  const double omega = 2.0 * std::numbers::pi * bar_frequency;
+  const Eigen::MatrixXd inverse = Eigen::MatrixXd(bar.mass).inverse() / bar_frequency;
   const Eigen::MatrixXd stiffness(bar.stiffness), damping(bar.damping);
   Vector displacement(n), force(n), result(2 * n);
   for (int i = 0; i < n; ++i) displacement[i] = state[i] / omega;
@@ -47,7 +47,7 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> rate(const LinearStructure& bar, double
     force[bar.selected_dof(0)] =
         force[bar.selected_dof(0)] - law.constant * (exp(law.exponent * (tip - law.start)) - 1.0);
   for (int i = 0; i < n; ++i) {
-    result[i] = state[n + i] * (omega / frequency);
+    result[i] = state[n + i] * (omega / bar_frequency);
     result[n + i] = Scalar(0.0);
     for (int j = 0; j < n; ++j) result[n + i] = result[n + i] + inverse(i, j) * force[j];
   }
@@ -57,7 +57,7 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> rate(const LinearStructure& bar, double
 /// A state with the tip at the given displacement and the rest drawn at random.
 Eigen::VectorXd random_state(const LinearStructure& bar, double tip) {
   const int n = bar.size();
-  const double omega = 2.0 * std::numbers::pi * frequency;
+  const double omega = 2.0 * std::numbers::pi * bar_frequency;
   Eigen::VectorXd state(2 * n);
   for (double& value : state) value = 1e-3 * *rc::gen::inRange(-1500, 1500);
   state[bar.selected_dof(0)] = omega * tip;
@@ -67,7 +67,7 @@ Eigen::VectorXd random_state(const LinearStructure& bar, double tip) {
 RC_GTEST_PROP(FirstOrderSystemProperty, DerivativeAndJacobianAgreeWithAutomaticDifferentiation, ()) {
   using Dual = Eigen::AutoDiffScalar<Eigen::VectorXd>;
   const LinearStructure bar = jl14_bar(4, 1e-4);
-  const FirstOrderSystem system(bar, law, frequency);
+  const FirstOrderSystem system(bar, law, bar_frequency);
   const int size = system.states();
   const double periods = 1e-3 * *rc::gen::inRange(0, 5000);
   const bool contact = *rc::gen::arbitrary<bool>();

@@ -14,8 +14,8 @@ using Complex = std::complex<double>;
 using LongComplex = std::complex<long double>;
 using LongMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
 
-const ImpedanceCoefficients factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
-const ImpedanceCoefficients rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
+const ImpedanceCoefficients given_factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
+const ImpedanceCoefficients given_rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
 
 LongMatrix combined(const LinearStructure& s, const ImpedanceCoefficients& at) {
   const auto precise = [](const auto& matrix) {
@@ -33,9 +33,9 @@ struct Exact {
     const LongMatrix directions = Eigen::MatrixXd(s.contact_directions).cast<LongComplex>();
     LongMatrix right(s.size(), s.contacts() + 1);
     right << directions.transpose(), Eigen::MatrixXd(s.load).cast<LongComplex>();
-    const LongMatrix inverse = combined(s, factors).inverse();
+    const LongMatrix inverse = combined(s, given_factors).inverse();
     response = directions * inverse * right;
-    slope = -directions * inverse * combined(s, rates) * inverse * right;
+    slope = -directions * inverse * combined(s, given_rates) * inverse * right;
     full = inverse * right;
   }
 };
@@ -59,7 +59,7 @@ TEST(UnsymmetricCondensation, ComplianceLoadResponseAndSlopesAreThoseOfTheInvers
       for (const auto method : {CondensationMethod::dense, CondensationMethod::sparse}) {
         Condensation condensation(chain, method);
         EXPECT_FALSE(condensation.symmetric());
-        const CondensedPoint point = condensation.dynamic_compliance(factors, rates);
+        const CondensedPoint point = condensation.dynamic_compliance(given_factors, given_rates);
         EXPECT_LE(distance(point.compliance, exact.response.leftCols(contacts)), 1e-12);
         EXPECT_LE(distance(point.load_response, exact.response.rightCols(1)), 1e-12);
         EXPECT_LE(distance(point.compliance_slope, exact.slope.leftCols(contacts)), 1e-12);
@@ -67,8 +67,9 @@ TEST(UnsymmetricCondensation, ComplianceLoadResponseAndSlopesAreThoseOfTheInvers
         const Eigen::VectorXcd force = testing::random_vector(contacts, generator) * Complex(0.3, -0.4);
         LongMatrix weights(contacts + 1, 1);
         weights << -force.cast<LongComplex>(), LongComplex(1.0L, 2.0L);
-        EXPECT_LE(distance(condensation.recover(factors, Complex(1.0, 2.0), force), exact.full * weights),
-                  1e-12);
+        EXPECT_LE(
+            distance(condensation.recover(given_factors, Complex(1.0, 2.0), force), exact.full * weights),
+            1e-12);
       }
     }
 }
@@ -81,7 +82,7 @@ TEST(UnsymmetricCondensation, RoundingErrorsAreWithinThoseStated) {
     const Exact exact(chain);
     for (const auto method : {CondensationMethod::dense, CondensationMethod::sparse}) {
       Condensation condensation(chain, method);
-      const CondensedPoint point = condensation.dynamic_compliance(factors, rates);
+      const CondensedPoint point = condensation.dynamic_compliance(given_factors, given_rates);
       for (int c = 0; c < 3; ++c) {
         const auto error = [&](int column, Complex found) {
           return double(std::abs(exact.response(c, column) - LongComplex(found)));

@@ -151,10 +151,11 @@ CondensedProblem problem_of(TimePair pair, const LinearStructure& structure, dou
   return problem;
 }
 
-constexpr int points = 256;
+constexpr int offset_points = 256;
 
 TimePair harmonics_at(double sample_offset, int periods = 1) {
-  return testing::fourier_pair(62 * periods + 1, points * periods, NyquistCoefficient::keep, sample_offset);
+  return testing::fourier_pair(62 * periods + 1, offset_points * periods, NyquistCoefficient::keep,
+                               sample_offset);
 }
 
 void expect_later(const PeriodicStiffness& later, const PeriodicStiffness& stiffness, double by) {
@@ -171,7 +172,7 @@ TEST(SampleOffset, OfHarmonicBalanceIsAShiftOfTheLoad) {
   const auto& scene = testing::jl14_case_2;
   const LinearStructure bar = testing::jl14_bar(25, 5e-6);
   CondensedProblem middle = problem_of(harmonics_at(0.5), bar, 1275.0);
-  CondensedProblem ahead = problem_of(harmonics_at(0.0), bar, 1275.0, 0.5 / points);
+  CondensedProblem ahead = problem_of(harmonics_at(0.0), bar, 1275.0, 0.5 / offset_points);
   const ContactDynamics dynamics(bar);
   for (const auto form : {ContactForm::displacement, ContactForm::force}) {
     ForcedResponseOptions options;
@@ -183,7 +184,7 @@ TEST(SampleOffset, OfHarmonicBalanceIsAShiftOfTheLoad) {
     EXPECT_LE((u.displacement - v.displacement).norm(), 1e-9 * u.displacement.norm());
     EXPECT_LE((u.contact_force - v.contact_force).norm(), 1e-7 * u.contact_force.norm());
     expect_later(contact_stiffness(middle, scene.law, u), contact_stiffness(ahead, scene.law, v),
-                 0.5 / points);
+                 0.5 / offset_points);
     EXPECT_EQ(unstable_multipliers(dynamics, middle, scene.law, u).count,
               unstable_multipliers(dynamics, ahead, scene.law, v).count);
   }

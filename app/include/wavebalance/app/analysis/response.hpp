@@ -94,12 +94,12 @@ struct Response {
 struct ResponseOptions {
   int structure_points = 0;  ///< uniform instants of Response::structure; 0: none. Of time stepping and
                              ///< shooting 0 or analysis.output_points
-  Eigen::VectorXd guess;     ///< displacement at the quadrature points, m; empty: the contact-free response.
+  Eigen::VectorXd guess{};   ///< displacement at the quadrature points, m; empty: the contact-free response.
                              ///< Not used with time.tolerance
-  Eigen::VectorXd guess_force;   ///< its contact force there, N; may be empty
-  bool stay_near_guess = false;  ///< solvers::ForcedResponseOptions::stay_near_guess
-  bool stability = false;        ///< of weighted_residual_response() alone
-  Observer observer;
+  Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
+  bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
+  bool stability = false;         ///< of weighted_residual_response() alone
+  Observer observer{};
 };
 
 /// The scene's response by weighted residuals in time with its pair of bases. A failure to converge or a
