@@ -100,8 +100,8 @@ int overlay_results(const OverlayArguments& arguments) {
   if (arguments.quiet) return solved;
   std::string list = "summary.json";
   for (const ResultFile& file : files) list += ", " + file.name;
-  return print(
-      fmt::format("{} curves written to {}: {}\n", overlay.curves.size(), arguments.output.string(), list));
+  return print(fmt::format("{} curve{} written to {}: {}\n", overlay.curves.size(),
+                           overlay.curves.size() == 1 ? "" : "s", arguments.output.string(), list));
 }
 
 }  // namespace wavebalance::app
