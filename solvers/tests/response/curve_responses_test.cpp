@@ -21,10 +21,11 @@ struct Hardening {
   double gap() const { return infinity; }
 };
 
-constexpr double load = 0.3, damping = 0.05;
+constexpr double curve_load = 0.3, damping = 0.05;
 
 CondensedProblem duffing() {
-  return {testing::fourier_pair(3, 16), testing::unit_oscillator(damping, load), testing::cosine_load()};
+  return {testing::fourier_pair(3, 16), testing::unit_oscillator(damping, curve_load),
+          testing::cosine_load()};
 }
 
 FrequencySweep traced(CondensedProblem& problem, const ContactLaws& laws, double from, double to) {
@@ -38,7 +39,7 @@ FrequencySweep traced(CondensedProblem& problem, const ContactLaws& laws, double
 // ((1 - w^2 + 3/4 A)^2 + (c w)^2) A - F^2 of the squared amplitude A.
 double closed_form(double squared, double frequency) {
   const double w = two_pi * frequency, k = 1.0 + 0.75 * squared - w * w;
-  return (k * k + damping * damping * w * w) * squared - load * load;
+  return (k * k + damping * damping * w * w) * squared - curve_load * curve_load;
 }
 
 // The amplitudes at a frequency, the largest first.
@@ -79,7 +80,7 @@ TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
   EXPECT_EQ(problem.regularization().size(), 0);
 }
 
-// Over the load the curve of a frequency above resonance passes a load three times, too.
+// Over the curve_load the curve of a frequency above resonance passes a curve_load three times, too.
 TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
   CondensedProblem problem = duffing();
   constexpr double frequency = 0.3;
@@ -90,7 +91,7 @@ TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
   options.keep_unknowns = true;
   const FrequencySweep curve = amplitude_sweep(problem, Hardening{}, options);
   ASSERT_EQ(curve.status, SweepStatus::reached_end);
-  const std::vector<double> expected = amplitudes(frequency);  // of the whole load
+  const std::vector<double> expected = amplitudes(frequency);  // of the whole curve_load
   const auto found = responses_at(problem, Hardening{}, curve, 1.0);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(amplitude_of(found[i]), expected[2 - i], 1e-9);
@@ -128,7 +129,7 @@ TEST(CurveResponses, AreNoneAtAFrequencyBesideTheCurve) {
 }
 
 TEST(CurveResponses, HoldTheForceOfARigidStop) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(damping, load),
+  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(damping, curve_load),
                            testing::cosine_load());
   const testing::LinearContact stop{.stiffness = 1e6, .start = 1.0};  // as stiff: the force form
   const FrequencySweep curve = traced(problem, stop, 0.1, 0.2);
