@@ -80,7 +80,7 @@ TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
   EXPECT_EQ(problem.regularization().size(), 0);
 }
 
-// Over the curve_load the curve of a frequency above resonance passes a curve_load three times, too.
+// Over the load the curve of a frequency above resonance passes a load three times, too.
 TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
   CondensedProblem problem = duffing();
   constexpr double frequency = 0.3;
@@ -91,7 +91,7 @@ TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
   options.keep_unknowns = true;
   const FrequencySweep curve = amplitude_sweep(problem, Hardening{}, options);
   ASSERT_EQ(curve.status, SweepStatus::reached_end);
-  const std::vector<double> expected = amplitudes(frequency);  // of the whole curve_load
+  const std::vector<double> expected = amplitudes(frequency);  // of the whole load
   const auto found = responses_at(problem, Hardening{}, curve, 1.0);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(amplitude_of(found[i]), expected[2 - i], 1e-9);
