@@ -1,0 +1,81 @@
+"""Ctrl-C ends a solve, and other threads run beside one."""
+
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy as np
+import scipy.sparse
+
+import wavebalance as wb
+
+LONG = """
+import sys, time
+import numpy as np, scipy.sparse
+import wavebalance as wb
+n = 20
+stiffness = 1e6 * scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], shape=(n, n))
+load = np.zeros(n); load[-1] = 10.0
+structure = wb.Structure(0.5 * scipy.sparse.identity(n), 1e-6 * stiffness, stiffness, load, contacts=[n - 1])
+print("ready", flush=True)
+try:
+    wb.frequency_sweep(structure, wb.Penalty(1e7, 1e-6), 20.0, 400.0, wb.Pair("fourier", 255, 1024))
+except KeyboardInterrupt:
+    # The same structure is usable afterwards.
+    ended = wb.forced_response(structure, wb.Penalty(1e7, 1e-4), 20.0)
+    print("interrupted", ended.converged, flush=True)
+"""
+
+
+def test_ctrl_c_ends_a_sweep_at_once_and_leaves_its_structure_usable():
+    with subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "ready\n"
+        time.sleep(1.0)
+        assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "interrupted True\n"
+        assert process.wait(60) == 0
+
+
+def test_ctrl_c_ends_the_run_of_a_scene_which_then_writes_nothing(scenes, tmp_path):
+    program = textwrap.dedent(f"""
+        import wavebalance as wb
+        print("ready", flush=True)
+        try:
+            wb.run({str(scenes / "jones_legrand_2014" / "case2_sweep.toml")!r}, {{"time.functions": 1023,
+                   "time.quadrature_points": 4096}}, output={str(tmp_path / "out")!r})
+        except KeyboardInterrupt:
+            print("interrupted", flush=True)
+    """)
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "ready\n"
+        time.sleep(1.0)
+        assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "interrupted\n"
+        assert process.wait(60) == 0
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_thread_of_python_runs_while_another_solves():
+    n = 20
+    stiffness = 1e6 * scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], shape=(n, n))
+    load = np.zeros(n)
+    load[-1] = 50.0
+    structure = wb.Structure(0.5 * scipy.sparse.identity(n), 1e-4 * stiffness, stiffness, load, contacts=[n // 2])
+    counted, done = 0, threading.Event()
+
+    def solve():
+        wb.frequency_sweep(structure, wb.Penalty(3e5, 3e-4), 25.0, 50.0)
+        done.set()
+
+    thread = threading.Thread(target=solve)
+    thread.start()
+    while not done.is_set():
+        counted += 1
+        time.sleep(0.001)
+    thread.join()
+    assert counted > 10

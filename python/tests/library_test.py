@@ -1,0 +1,262 @@
+"""Structures of one's own: responses, curves, stability and modes against other solutions."""
+
+import threading
+import tomllib
+
+import numpy as np
+import pytest
+import scipy.integrate
+import scipy.sparse
+
+import wavebalance as wb
+
+
+def oscillator(load=1.0, damping=0.1, mass=1.0, stiffness=1.0, **more):
+    return wb.Structure([[mass]], [[damping]], [[stiffness]], [load], contacts=[0], **more)
+
+
+def chain(size=6):
+    stiffness = 1e4 * scipy.sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(size, size))
+    mass = scipy.sparse.identity(size)
+    load = np.zeros(size)
+    load[0] = 10.0
+    return mass, 1e-4 * stiffness, stiffness, load
+
+
+def test_without_contact_the_response_is_that_of_the_linear_structure():
+    mass, damping, stiffness, load = chain()
+    structure = wb.Structure(mass, damping, stiffness, load, contacts=[4, 5])
+    frequency = 7.0
+    response = wb.forced_response(structure, wb.NoContact(), frequency)
+    omega = 2.0 * np.pi * frequency
+    exact = np.linalg.solve((stiffness - omega**2 * mass + 1j * omega * damping).toarray(), load)
+    expected = np.real(exact[[4, 5], None] * np.exp(2j * np.pi * response.time))
+    assert response.converged
+    np.testing.assert_allclose(response.displacement, expected, rtol=0.0, atol=1e-12 * np.abs(exact).max())
+    everywhere = response.structure_motion(64)
+    np.testing.assert_allclose(
+        everywhere.displacement, np.real(exact[:, None] * np.exp(2j * np.pi * everywhere.time)), atol=1e-12 * np.abs(exact).max()
+    )
+
+
+def test_a_response_with_contact_satisfies_the_equation_of_motion_in_time():
+    structure, law = oscillator(load=1.0), wb.Penalty(stiffness=5.0, gap=0.5)
+    response = wb.forced_response(structure, law, 0.2, wb.Pair("fourier", 255, 2048))
+    assert response.converged and response.contact_force.max() > 0.1
+    motion = response.motion(8)
+
+    def rate(time, state):
+        force = np.cos(2.0 * np.pi * 0.2 * time) - float(law.force(state[0]))
+        return [state[1], force - 0.1 * state[1] - state[0]]
+
+    start = [motion.displacement[0, 0], motion.velocity[0, 0]]
+    found = scipy.integrate.solve_ivp(rate, (0.0, 5.0), start, rtol=1e-10, atol=1e-12, t_eval=5.0 * motion.time)
+    np.testing.assert_allclose(found.y[0], motion.displacement[0], atol=2e-4 * np.abs(motion.displacement).max())
+
+
+def test_arrays_are_views_that_cannot_be_written_to_and_outlive_their_response():
+    response = wb.forced_response(oscillator(), wb.Penalty(5.0, 0.5), 0.2)
+    displacement = response.displacement
+    assert displacement.shape == (1, 256) and not displacement.flags.writeable and not displacement.flags.owndata
+    copy = displacement.copy()
+    assert np.shares_memory(displacement, response.displacement)
+    del response
+    np.testing.assert_array_equal(displacement, copy)
+
+
+def test_a_function_of_python_gives_the_motion_of_the_compiled_law():
+    structure = oscillator()
+    compiled = wb.forced_response(structure, wb.Penalty(5.0, 0.5), 0.2)
+    own = wb.Function(lambda u: 5.0 * max(u - 0.5, 0.0), gap=0.5, unilateral=True, kinks=[0.5])
+    np.testing.assert_allclose(wb.forced_response(structure, own, 0.2).displacement, compiled.displacement, atol=1e-9)
+    plain = wb.forced_response(structure, lambda u: 5.0 * max(u - 0.5, 0.0), 0.2)
+    np.testing.assert_allclose(plain.displacement, compiled.displacement, atol=1e-9)
+    assert own.potential(0.9) == pytest.approx(wb.Penalty(5.0, 0.5).potential(0.9), rel=1e-12)
+
+
+def test_what_a_function_of_python_raises_reaches_the_caller():
+    def broken(displacement):
+        raise ZeroDivisionError(f"at {displacement}")
+
+    with pytest.raises(ZeroDivisionError, match="at "):
+        wb.forced_response(oscillator(), broken, 0.2)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        wb.Penalty(5.0, 0.1),
+        wb.Exponential(2.0, 3.0, 0.1),
+        wb.Bilinear(1.0, 3.0, 0.1),
+        wb.Cubic(2.0),
+        wb.Polynomial([1.0, 0.0, 2.0]),
+        wb.Clearance(5.0, 0.1, gap_below=0.2),
+        wb.Table([-1.0, 0.0, 1.0], [-1.0, 0.0, 2.0]),
+        wb.HuntCrossley(5.0, 0.2, 0.1),
+        wb.KelvinVoigt(5.0, 0.2, 0.1),
+    ],
+    ids=lambda law: type(law).__name__,
+)
+def test_tangent_and_potential_belong_to_the_force(law):
+    u = np.array([-0.7, -0.05, 0.05, 0.33, 0.8])
+    step = 1e-6
+    np.testing.assert_allclose((law.force(u + step) - law.force(u - step)) / (2 * step), law.tangent(u), atol=1e-6)
+    np.testing.assert_allclose((law.potential(u + step) - law.potential(u - step)) / (2 * step), law.force(u), atol=1e-6)
+    assert law.force(0.8) > 0.0 and repr(law).startswith(type(law).__name__)
+
+
+def test_one_law_per_contact_is_taken_in_their_order():
+    mass, damping, stiffness, load = chain()
+    structure = wb.Structure(mass, damping, stiffness, load, contacts=[0, 5])
+    response = wb.forced_response(structure, [wb.Penalty(1e4, 1e-3), wb.NoContact()], 7.0)
+    force = np.abs(response.contact_force).max(axis=1)
+    assert force[0] > 0.0 and force[1] == 0.0
+
+
+def test_a_sweep_has_the_digits_of_the_scene_of_the_same_structure():
+    structure, law, pair = wb.Structure(*chain(), contacts=[5]), wb.Penalty(2e4, 1e-3), wb.Pair("fourier", 21, 64)
+    scene = structure.scene(
+        law, pair=pair, type="frequency_sweep", frequency_from=5.0, frequency_to=9.0, output_points=256
+    )
+    record = wb.run(scene)
+    steps = tomllib.loads(record.scene)["analysis"]
+    curve = wb.frequency_sweep(
+        structure, law, 5.0, 9.0, pair, first_step=steps["first_step"], largest_step=steps["largest_step"], output_points=256
+    )
+    assert curve.converged and record.converged
+    for column in ("frequency_Hz", "max_displacement_m", "rms_displacement_m"):
+        np.testing.assert_array_equal(record.sweep[column], getattr(curve, column.rsplit("_", 1)[0]))
+    np.testing.assert_array_equal(np.nan_to_num(record.sweep["unstable"], nan=-1), curve.unstable)
+
+
+def test_the_curve_of_a_hardening_spring_folds_and_is_unstable_between_its_folds():
+    curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
+    folds = [point["frequency"] for point in curve.special("fold")]
+    assert curve.converged and len(folds) == 2
+    assert np.all(curve.unstable[~curve.stable] == 1)
+    unstable = curve.frequency[~curve.stable]
+    assert min(folds) <= unstable.min() and unstable.max() <= max(folds)
+    assert curve.response(-1).frequency == curve.frequency[-1]
+    np.testing.assert_allclose(
+        curve.response(10).motion(1024).displacement.max(), curve.max_displacement[10], rtol=1e-12
+    )
+
+
+def test_multipliers_are_those_of_the_map_over_a_period():
+    structure, law, frequency = oscillator(load=0.5, damping=0.1), wb.Cubic(1.0), 0.25
+    response = wb.forced_response(structure, law, frequency, wb.Pair("fourier", 31, 256))
+    found = wb.stability(response, multipliers=2)
+    motion = response.motion(4096)
+
+    def rate(time, state):
+        u = np.interp(time * frequency % 1.0, motion.time, motion.displacement[0], period=1.0)
+        v = state.reshape(2, 2)
+        return np.vstack([v[1], -0.1 * v[1] - (1.0 + 3.0 * u * u) * v[0]]).ravel()
+
+    end = scipy.integrate.solve_ivp(rate, (0.0, 1.0 / frequency), np.eye(2).ravel(), rtol=1e-9, atol=1e-11).y[:, -1]
+    expected = np.linalg.eigvals(end.reshape(2, 2))
+    assert found.status == "converged" and found.unstable == int(np.sum(np.abs(expected) > 1.0))
+    assert found.stable == (found.unstable == 0)
+    assert np.abs(found.multipliers[0]) == pytest.approx(np.abs(expected).max(), rel=1e-4)
+
+
+def test_an_amplitude_sweep_passes_the_response_of_the_whole_load():
+    structure, law = oscillator(load=0.3), wb.Penalty(5.0, 0.5)
+    curve = wb.amplitude_sweep(structure, law, 0.1, 0.5, 2.0)
+    assert curve.converged and np.all(np.diff(curve.amplitude) > 0.0)
+    doubled = wb.forced_response(oscillator(load=0.6), law, 0.1)
+    assert curve.max_displacement[-1] == pytest.approx(doubled.motion(1024).displacement.max(), rel=1e-9)
+    assert wb.forced_response(structure, law, 0.2).converged
+
+
+def test_a_static_load_moves_the_mean():
+    structure = oscillator(load=0.0, static_load=[0.25])
+    response = wb.forced_response(structure, wb.NoContact(), 0.3)
+    np.testing.assert_allclose(response.displacement, 0.25, atol=1e-13)
+
+
+def test_the_mode_of_an_oscillator_with_a_stop_has_its_exact_frequency():
+    # Half a period of the free oscillator beyond -gap .. gap, and half of one with the stop's spring.
+    stiffness, gap = 3.0, 1.0
+    curve = wb.backbone(oscillator(), wb.Penalty(stiffness, gap), harmonics=30, samples=512, largest_energy=4.0)
+    assert curve.status == "reached_energy" and curve.linear_frequency == pytest.approx(0.5 / np.pi)
+    energy = curve.energy_ratio[-1] * 0.5 * gap**2
+    amplitude = np.sqrt(2.0 * energy)
+    free = 2.0 * (np.pi - np.arccos(gap / amplitude))
+    # In contact: u'' + (1 + k) u = k g, about its rest point k g / (1 + k).
+    frequency, rest = np.sqrt(1.0 + stiffness), stiffness * gap / (1.0 + stiffness)
+    speed = np.sqrt(2.0 * energy - gap**2)
+    closed = 2.0 / frequency * np.arctan2(speed / frequency, gap - rest)
+    assert curve.frequency[-1] == pytest.approx(1.0 / (free + closed), rel=1e-4)
+
+
+def test_a_rigid_obstacle_has_a_mode_whose_virial_holds():
+    mass, damping, stiffness, load = chain(3)
+    curve = wb.backbone(wb.Structure(mass, damping, stiffness, load, contacts=[2]), wb.Rigid(1e-3), harmonics=8)
+    assert curve.accepted.any() and np.all(curve.virial_residual[curve.accepted] < 1e-8)
+    assert curve.frequency_ratio[curve.accepted].max() > 1.001
+
+
+def test_errors_name_the_argument_the_value_and_what_is_allowed():
+    mass, damping, stiffness, load = chain()
+    with pytest.raises(ValueError, match="contacts: degree of freedom 6; expected 0 to 5"):
+        wb.Structure(mass, damping, stiffness, load, contacts=[6])
+    with pytest.raises(ValueError, match="stiffness: the matrix is not symmetric"):
+        wb.Structure(mass, damping, scipy.sparse.csc_matrix(stiffness) + scipy.sparse.eye(6, k=1), load, contacts=[5])
+    with pytest.raises(ValueError, match="mass: the matrix"):
+        wb.Structure(0.0 * mass, damping, stiffness, load, contacts=[5])
+    with pytest.raises(ValueError):
+        wb.Structure(mass, damping, stiffness, load[:3], contacts=[2])
+    with pytest.raises(wb.InadmissiblePair):
+        wb.Pair("haar:haar", 64)
+    with pytest.raises(ValueError, match='formulation is "mild"; expected one of "strong", "weak", "distributional"'):
+        wb.Pair("fourier", 63, formulation="mild")
+    with pytest.raises(ValueError, match="stiffness"):
+        wb.Penalty(-1.0, 0.0)
+    structure = oscillator()
+    with pytest.raises(ValueError, match="frequency"):
+        wb.forced_response(structure, wb.NoContact(), -1.0)
+    with pytest.raises(ValueError, match="law"):
+        wb.forced_response(structure, [wb.NoContact(), wb.NoContact()], 0.2)
+    with pytest.raises(ValueError, match="laws is of type int"):
+        wb.forced_response(structure, 3, 0.2)
+    with pytest.raises(ValueError, match='form is "odd"'):
+        wb.forced_response(structure, wb.NoContact(), 0.2, form="odd")
+    with pytest.raises(TypeError, match="expected a Structure or a Problem"):
+        wb.forced_response(3, wb.NoContact(), 0.2)
+    with pytest.raises(ValueError, match="no keys"):
+        structure.scene(lambda u: u)
+
+
+def test_a_structure_driven_at_its_natural_frequency_without_damping_is_singular():
+    response = wb.forced_response(oscillator(damping=0.0), wb.NoContact(), 1.0 / (2.0 * np.pi))
+    assert response.status in ("singular", "inaccurate") and not response.converged
+    assert wb.forced_response(oscillator(damping=0.0), wb.NoContact(), 0.1).converged
+
+
+def test_threads_of_python_share_a_problem():
+    problem, law = wb.Problem(oscillator()), wb.Penalty(5.0, 0.5)
+    frequencies = np.linspace(0.1, 0.3, 24)
+    alone = [wb.forced_response(problem, law, f).displacement.copy() for f in frequencies]
+    together = [None] * len(frequencies)
+
+    def solve(first):
+        for i in range(first, len(frequencies), 4):
+            together[i] = wb.forced_response(problem, law, frequencies[i]).displacement
+
+    threads = [threading.Thread(target=solve, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for a, b in zip(alone, together):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_plots_are_dashed_where_motions_are_unstable():
+    pytest.importorskip("matplotlib")
+    curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
+    stable, unstable = curve.plot().get_lines()
+    assert stable.get_linestyle() == "-" and unstable.get_linestyle() == "--"
+    assert np.all(np.isnan(stable.get_ydata()[~curve.stable]))
+    assert len(curve.response(0).plot().get_lines()) == 1
