@@ -13,7 +13,7 @@ template <class Number>
 pybind11::array view(const Number* data, std::vector<pybind11::ssize_t> shape,
                      std::vector<pybind11::ssize_t> strides, pybind11::handle owner) {
   pybind11::array array(pybind11::dtype::of<Number>(), std::move(shape), std::move(strides), data, owner);
-  array.attr("flags").attr("writeable") = false;
+  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 

@@ -4,6 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <chrono>
 #include <limits>
 #include <stdexcept>
 
@@ -54,13 +55,15 @@ Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws law
                const Eigen::VectorXd& guess_force) {
   solvers::PeriodicResponse found;
   const std::lock_guard alone(problem->alone);
+  const auto start = std::chrono::steady_clock::now();
   try {
     found = solvers::forced_response(problem->at(frequency), laws, options, guess, guess_force);
   } catch (const solvers::SingularSystem&) {
     problem->moved();
     found = singular_response(problem->condensed().samples(), frequency);
   }
-  return {problem, std::move(laws), std::move(found)};
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return {problem, std::move(laws), std::move(found), 1.0, elapsed.count()};
 }
 
 namespace {
@@ -142,6 +145,7 @@ void add_response(py::module_& module) {
                              [](const Response& one) { return one.found.residual_history; })
       .def_property_readonly("condition", [](const Response& one) { return one.found.condition; })
       .def_property_readonly("rounding_error", [](const Response& one) { return one.found.rounding_error; })
+      .def_readonly("wall_seconds", &Response::wall_seconds)
       .def_property_readonly("displacement", &displacement_view)
       .def_property_readonly("contact_force", &force_view)
       .def_property_readonly(

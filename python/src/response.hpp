@@ -13,6 +13,7 @@ struct Response {
   solvers::ContactLaws laws;
   solvers::PeriodicResponse found;
   double load_scale = 1.0;
+  double wall_seconds = 0.0;  ///< of the condensation and the solution
 };
 
 /// The contact form of this name. Throws std::invalid_argument for another.

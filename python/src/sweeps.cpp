@@ -1,6 +1,7 @@
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,7 @@ struct Curve {
   solvers::ContactLaws laws;
   FrequencySweep curve;
   solvers::CurveStability stability;
+  double wall_seconds = 0.0;
 };
 
 /// The keyword arguments of a sweep.
@@ -79,6 +81,7 @@ std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::
   solvers::FrequencySweepOptions options = options_of(from, to, steps);
   return unlocked([&](const solvers::Observer& observer) {
     const std::lock_guard alone(problem->alone);
+    const auto start = std::chrono::steady_clock::now();
     options.observer = observer;
     options.start.observer = observer;
     const bool over_load = std::isfinite(frequency);
@@ -88,6 +91,7 @@ std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::
     one->curve = over_load ? solvers::amplitude_sweep(problem->condensed(), one->laws, options)
                            : solvers::frequency_sweep(problem->condensed(), one->laws, options);
     add_curve_stability(*one, steps, observer);
+    one->wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return one;
   });
 }
@@ -162,6 +166,7 @@ void add_sweeps(py::module_& module) {
           "over_amplitude",
           [](const Curve& one) { return one.curve.parameter == solvers::SweepParameter::load_scale; })
       .def_property_readonly("rounding_error", [](const Curve& one) { return one.curve.rounding_error; })
+      .def_readonly("wall_seconds", &Curve::wall_seconds)
       .def_property_readonly("frequency", points_view(&SweepPoint::frequency))
       .def_property_readonly("amplitude", points_view(&SweepPoint::load_scale))
       .def_property_readonly("max_displacement", points_view(&SweepPoint::max_displacement))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 
 def axes(ax: Any) -> Any:
@@ -18,7 +19,7 @@ def axes(ax: Any) -> Any:
     return pyplot.figure().add_subplot()
 
 
-def curve(ax: Any, x: np.ndarray, y: np.ndarray, unstable: np.ndarray, label: str | None = None) -> None:
+def curve(ax: Any, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], unstable: npt.NDArray[Any], label: str | None = None) -> None:
     """A curve, dashed where a motion is unstable: lines between two points of which one is."""
     known = np.nan_to_num(np.asarray(unstable, dtype=float), nan=0.0)
     dashed = known > 0

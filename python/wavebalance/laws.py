@@ -261,7 +261,7 @@ def _difference(force: Callable[[float], float], length: float) -> Callable[[flo
 
 
 def _integral(force: Callable[[float], float], begin: float, kinks: Sequence[float]) -> Callable[[float], float]:
-    nodes, weights = np.polynomial.legendre.leggauss(16)
+    nodes, weights = np.polynomial.legendre.leggauss(16)  # type: ignore[no-untyped-call]
 
     def potential(displacement: float) -> float:
         low, high = min(begin, displacement), max(begin, displacement)

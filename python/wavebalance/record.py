@@ -7,6 +7,7 @@ import os
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core, _plots
 
@@ -56,7 +57,7 @@ class Record:
         self.contacts: Columns = run.contacts
         self.sweep: Columns = run.sweep
         self.backbone: Columns = run.backbone
-        self.bar_motion: np.ndarray = run.bar_motion
+        self.bar_motion: npt.NDArray[np.float64] = run.bar_motion
         self.scene: str = run.scene
 
     def __getstate__(self) -> dict[str, Any]:

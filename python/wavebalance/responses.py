@@ -107,6 +107,8 @@ class Response:
         Spectra over translates of the trial coefficients, (M // 2 + 1) × C.
     time: numpy.ndarray
         The N points, fractions of the period.
+    wall_seconds: float
+        Of the condensation and the solution, s.
     """
 
     __slots__ = ("_core",)
@@ -141,6 +143,10 @@ class Response:
     @property
     def strategy(self) -> str:
         return self._core.strategy
+
+    @property
+    def wall_seconds(self) -> float:
+        return self._core.wall_seconds
 
     @property
     def displacement(self) -> npt.NDArray[np.float64]:

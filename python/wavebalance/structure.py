@@ -100,7 +100,7 @@ class Structure(_core.Structure):
         frequency:
             Of the load, Hz.
         pair:
-            Trial and weight functions; without it the scene has no ``[time]``, as a comparison needs none.
+            Trial and weight functions; 63 Fourier functions with 256 points by default.
         analysis:
             Keys of ``[analysis]``, such as ``type="frequency_sweep"``.
 
@@ -121,8 +121,7 @@ class Structure(_core.Structure):
         if frequency is not None:
             forcing["frequency"] = float(frequency)
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
-        if pair is not None:
-            result["time"] = pair.scene_keys()
+        result["time"] = (default_pair() if pair is None else pair).scene_keys()
         if analysis:
             result["analysis"] = analysis
         return result
@@ -217,7 +216,7 @@ def _points(functions: int) -> int:
     return max(256, 4 * functions) if functions & (functions - 1) == 0 else max(256, 4 * (functions + 1))
 
 
-def _vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
+def _vector(values: Any, name: str) -> npt.NDArray[np.float64]:
     try:
         dense = values.toarray() if scipy.sparse.issparse(values) else values
         vector = np.array(dense, dtype=float)

@@ -45,11 +45,14 @@ class Sweep:
     special_points: list[dict]
         Where the stability or the contact changes: type ("fold", "period_doubling", "neimark_sacker", "grazing",
         "branch"), frequency, amplitude, bracket, multiplier, max_displacement, located.
+    wall_seconds: float
+        Of the curve and its stability, s.
     """
 
     def __init__(self, core: _core.Curve) -> None:
         self._core = core
         self.status: str = core.status
+        self.wall_seconds: float = core.wall_seconds
         self.converged: bool = core.status == "reached_end" and core.rounding_error <= 1e-3
         self.frequency: Numbers = core.frequency
         self.amplitude: Numbers = core.amplitude

@@ -1,6 +1,7 @@
 #!/bin/sh
-# run_blocks.sh FOLDER: runs every ```sh block of FOLDER/README.md in FOLDER, in order, after each ```toml block has gone
-# to the file that the text before it names as "Save as `NAME`".
+# run_blocks.sh FOLDER: runs every ```sh and ```python block of FOLDER/README.md in FOLDER, in order, after each ```toml
+# block has gone to the file that the text before it names as "Save as `NAME`". Python finds the package in the build tree;
+# where that was built without it, its blocks are left out.
 set -eu
 cd "$1"
 steps=$(mktemp -d)
@@ -12,7 +13,7 @@ awk -v steps="$steps" '
     inside = 1
     kind = substr($0, 4)
     file = ""
-    if (kind == "sh") file = sprintf("%s/%02d", steps, ++blocks)
+    if (kind == "sh" || kind == "python") file = sprintf("%s/%02d.%s", steps, ++blocks, kind)
     if (kind == "toml") file = name
     next
   }
@@ -24,8 +25,20 @@ if [ -z "$(ls "$steps")" ]; then
   echo "README.md has no block of commands" >&2
   exit 1
 fi
+run_python() {
+  python=$(sed -n 's/^WAVEBALANCE_PYTHON:[A-Z]*=//p' build/default/CMakeCache.txt)
+  if [ -d build/default/python/wavebalance ]; then
+    PYTHONPATH=build/default/python "$python" "$1"
+  else
+    echo "the Python package is not built: left out"
+  fi
+}
+
 for step in "$steps"/*; do
   echo "--- block $(basename "$step")"
   cat "$step"
-  sh -eu "$step"
+  case $step in
+    *.python) run_python "$step" ;;
+    *) sh -eu "$step" ;;
+  esac
 done
