@@ -10,7 +10,11 @@ endfunction()
 if(NOT WAVEBALANCE_BUILD_APP)
   set(missing "it needs WAVEBALANCE_BUILD_APP")
 else()
-  # The first python3 of the PATH may be one without NumPy, beside the system's with it.
+  # A build by pip says which Python it is, whose packages it does not have while it builds. Otherwise the first python3
+  # of the PATH may be one without NumPy, beside the system's with it.
+  if(DEFINED SKBUILD AND DEFINED Python_EXECUTABLE)
+    set(WAVEBALANCE_PYTHON ${Python_EXECUTABLE})
+  endif()
   find_program(WAVEBALANCE_PYTHON python3 PATHS /usr/bin VALIDATOR wavebalance_has_scipy
     DOC "Python with NumPy and SciPy, for which the package is built")
   mark_as_advanced(WAVEBALANCE_PYTHON)
@@ -18,7 +22,7 @@ else()
     set(missing "no python3 with NumPy and SciPy was found (Debian: python3-numpy python3-scipy)")
   else()
     set(Python_EXECUTABLE ${WAVEBALANCE_PYTHON})
-    find_package(Python 3.9 COMPONENTS Interpreter Development.Module QUIET)
+    find_package(Python 3.11 COMPONENTS Interpreter Development.Module QUIET)
     set(PYBIND11_FINDPYTHON ON)
     find_package(pybind11 2.10 CONFIG QUIET)
     if(NOT Python_Development.Module_FOUND)

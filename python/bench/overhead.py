@@ -2,7 +2,7 @@
 
     PYTHONPATH=build/default/python python3 python/bench/overhead.py
 
-Each time is the least of several rounds. "C++" is measured inside the same calls, around condensation and solution.
+Times are medians of many calls. "C++" is measured inside the same calls, around condensation and solution.
 """
 
 import time
@@ -25,34 +25,33 @@ def bar(elements=25):
     return wb.Structure(mass, 1e-4 * stiffness, stiffness, load, contacts=[elements - 1])
 
 
-def least(rounds, call):
-    """The least total time and the time in C++ of the same round, s."""
-    best = (np.inf, np.inf)
+def median(rounds, call):
+    """Medians of the time of a call, of that in C++ and of the difference, s."""
+    times = []
     for _ in range(rounds):
         start = time.perf_counter()
         inside = call()
-        best = min(best, (time.perf_counter() - start, inside))
-    return best
+        total = time.perf_counter() - start
+        times.append((total, inside, total - inside))
+    return np.median(times, axis=0)
 
 
-def report(name, total, inside):
-    print(f"| {name} | {1e6 * total:.1f} µs | {1e6 * inside:.1f} µs | {1e6 * (total - inside):.1f} µs | {total / inside:.3f} |")
+def report(name, times):
+    total, inside, difference = 1e6 * times
+    print(f"| {name} | {total:.1f} µs | {inside:.1f} µs | {difference:.1f} µs | {total / inside:.3f} |")
 
 
 def main():
     structure, law, pair = bar(), wb.Penalty(1e9, 1e-3), wb.Pair("fourier", 63, 256)
     problem = wb.Problem(structure, pair)
-    frequencies = np.linspace(140.0, 160.0, 200)
+    frequencies = iter(np.tile(np.linspace(140.0, 160.0, 200), 20))
 
-    def points():
-        inside = 0.0
-        for frequency in frequencies:
-            response = wb.forced_response(problem, law, frequency)
-            assert response.converged
-            response.displacement
-            response.contact_force
-            inside += response.wall_seconds
-        return inside
+    def point():
+        response = wb.forced_response(problem, law, next(frequencies))
+        assert response.converged
+        response.displacement
+        response.contact_force
+        return response.wall_seconds
 
     def sweep(stability):
         def call():
@@ -63,10 +62,9 @@ def main():
         return call
 
     print("| | from Python | C++ | difference | ratio |\n| --- | --- | --- | --- | --- |")
-    total, inside = least(15, points)
-    report("one point, 63 functions, 256 points", total / len(frequencies), inside / len(frequencies))
-    report("a sweep", *least(7, sweep(False)))
-    report("a sweep with its stability", *least(3, sweep(True)))
+    report("one point, 63 functions, 256 points", median(4000, point))
+    report("a sweep", median(20, sweep(False)))
+    report("a sweep with its stability", median(3, sweep(True)))
 
 
 if __name__ == "__main__":
