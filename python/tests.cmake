@@ -21,3 +21,9 @@ foreach(example IN LISTS examples)
   get_filename_component(name ${example} NAME_WE)
   wavebalance_add_python_test(example_${name} LABEL reference COMMAND ${example})
 endforeach()
+
+# The component alone is a whole package.
+add_test(NAME python.installed_package_runs COMMAND ${CMAKE_COMMAND} -D build=${PROJECT_BINARY_DIR}
+  -D stage=${CMAKE_CURRENT_BINARY_DIR}/stage -D folder=${WAVEBALANCE_PYTHON_DIR} -D python=${Python_EXECUTABLE}
+  -D version=${PROJECT_VERSION} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/run_installed.cmake)
+set_tests_properties(python.installed_package_runs PROPERTIES LABELS install TIMEOUT 120)

@@ -68,7 +68,11 @@ class Record:
         return self._solved_here().svg()
 
     def write(self, output: str | os.PathLike[str]) -> None:
-        """Writes the files of ``wavebalance run --output``. Raises OSError."""
+        """Writes the files of ``wavebalance run --output``. Raises OSError.
+
+        Matrices that are no files are kept by ``run(..., output=...)`` alone: the scene that is written here names copies of
+        them that are gone.
+        """
         self._solved_here().write(os.fspath(output))
 
     def plot(self, ax: Any = None) -> Any:
