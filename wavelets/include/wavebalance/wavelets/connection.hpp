@@ -21,8 +21,8 @@ class InadmissiblePairError : public std::domain_error {
   int derivative_;
 };
 
-/// Whether \int phi_w(x - l) phi_t^(derivative)(x) dx exists as a duality pairing: s_t + s_w > derivative,
-/// strictly.
+/// Whether the integral of phi_w(x - l) phi_t^(derivative)(x) exists as a duality pairing: s_t + s_w >
+/// derivative, strictly.
 bool connection_exists(const ScalingFunction& trial, const ScalingFunction& weight, int derivative);
 
 /// r[l] for l = first..first + values.size() - 1, zero elsewhere.
@@ -35,13 +35,14 @@ struct ConnectionCoefficients {
   double operator()(int l) const { return l < first || l > last() ? 0.0 : values[l - first]; }
 };
 
-/// Connection coefficients r_d[l] = \int phi_w(x - l) phi_t^(d)(x) dx of a trial function phi_t and a weight
-/// phi_w, on the real line. Derivatives on the weight count too: \int phi_w^(a)(x - l) phi_t^(b)(x) dx =
+/// Connection coefficients r_d[l], the integrals of phi_w(x - l) phi_t^(d)(x), of a trial function phi_t and
+/// a weight phi_w, on the real line. Derivatives on the weight count too: that of phi_w^(a)(x - l)
+/// phi_t^(b)(x) is
 /// (-1)^a r_{a+b}[l]. r_d has the parity of d in l when both functions are the same.
 ///
-/// Method: for the refinable parts B, C(y) = \int B_w(x) B_t(x + y) dx is itself refinable, with the filter
-/// a_n = 1/2 sum_{k - j = n} p^w_j p^t_k, and r_d = C^(d) at the integers: the eigenvector of 2^d a[2l - m]
-/// for the eigenvalue 1 with sum_l l^k C^(d)(l) = (-1)^d d! delta_{kd}, k <= d [Beylkin 1992; JL14,
+/// Method: for the refinable parts B, the integral C(y) of B_w(x) B_t(x + y) is itself refinable, with the
+/// filter a_n = 1/2 sum_{k - j = n} p^w_j p^t_k, and r_d = C^(d) at the integers: the eigenvector of 2^d a[2l
+/// - m] for the eigenvalue 1 with sum_l l^k C^(d)(l) = (-1)^d d! delta_{kd}, k <= d [Beylkin 1992; JL14,
 /// section 3.4], computed as the d-th difference of the eigenvector of 2^d a(w)/(1 + w)^d, which is
 /// well-conditioned at any length; then the convolutions with c. Cost O(L^3).
 ///
@@ -49,11 +50,11 @@ struct ConnectionCoefficients {
 ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, const ScalingFunction& weight,
                                                int derivative);
 
-/// Inner products on the circle of the periodized functions: a[m] = \int_0^1 p_i(t) q_j^(d)(t) dt for i - j =
-/// m modulo M, with p_i, q_j the translates of `weight` and `trial`: the first column of the circulant matrix
-/// A_d[i, j]. Exact at every level: a[m] = M^{d-1} sum_l r_d[m + l M] [JL14, section 3.4; Restrepo and Leaf
-/// 1993]. Returns M values. Cost O(L^3 + M). Throws as connection_coefficients, and std::invalid_argument
-/// when the two bases have different numbers of functions.
+/// Inner products on the circle of the periodized functions: a[m] is that of p_i(t) and q_j^(d)(t) for i - j
+/// = m modulo M, with p_i, q_j the translates of `weight` and `trial`: the first column of the circulant
+/// matrix A_d[i, j]. Exact at every level: a[m] = M^{d-1} sum_l r_d[m + l M] [JL14, section 3.4; Restrepo and
+/// Leaf 1993]. Returns M values. Cost O(L^3 + M). Throws as connection_coefficients, and
+/// std::invalid_argument when the two bases have different numbers of functions.
 Eigen::VectorXd periodic_inner_products(const PeriodicBasis& trial, const PeriodicBasis& weight,
                                         int derivative);
 

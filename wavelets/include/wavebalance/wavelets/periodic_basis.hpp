@@ -28,8 +28,8 @@ class PeriodicBasis {
   /// derivative outside 0..pointwise_derivatives().
   Eigen::VectorXd samples(int points, int derivative = 0) const;
 
-  /// \int_0^1 g(t) exp(-2 pi i harmonic t) dt = phi^(2 pi harmonic / M) / M. Cost O(L) times some 60 factors
-  /// for Daubechies, O(1) for the splines.
+  /// The integral of g(t) exp(-2 pi i harmonic t) over the period, phi^(2 pi harmonic / M) / M. Cost O(L)
+  /// times some 60 factors for Daubechies, O(1) for the splines.
   std::complex<double> fourier_coefficient(int harmonic) const;
 
   double sobolev_exponent() const { return scaling_function_.sobolev_exponent(); }

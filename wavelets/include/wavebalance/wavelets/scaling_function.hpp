@@ -53,9 +53,9 @@ class ScalingFunction {
   /// Throws std::invalid_argument unless 0 <= level <= 24 and 0 <= derivative <= pointwise_derivatives().
   Eigen::VectorXd values(int level, int derivative = 0) const;
 
-  /// Fourier transform \int phi(x) exp(-i xi x) dx. Daubechies: the product of m0(xi / 2^j), j >= 1, to
-  /// rounding (absolute error a few eps); B-spline: closed form. Throws std::invalid_argument when xi is not
-  /// finite.
+  /// Fourier transform, the integral of phi(x) exp(-i xi x). Daubechies: the product of m0(xi / 2^j), j >= 1,
+  /// to rounding (absolute error a few eps); B-spline: closed form. Throws std::invalid_argument when xi is
+  /// not finite.
   std::complex<double> fourier_transform(double xi) const;
   /// The same at xi = 2 pi cycles. Phases are reduced exactly, so that large dyadic `cycles` lose no
   /// accuracy.

@@ -33,8 +33,8 @@ struct FigureBlock {
   bool curves = false;           ///< path + ".figure.js" holds figure_script(figure, <name without folders>)
 };
 
-/// <figure>: the picture, linked to its file, and the caption. With `curves` a button draws the curves in its
-/// place. Throws std::invalid_argument without an alternative text.
+/// A `figure` element: the picture, linked to its file, and the caption. With `curves` a button draws the
+/// curves in its place. Throws std::invalid_argument without an alternative text.
 std::string figure_html(const FigureBlock& block);
 
 /// A table in a box of its own that scrolls sideways where it is too wide. The first row is the head; every
@@ -44,7 +44,7 @@ std::string table_html(const std::vector<std::vector<std::string>>& rows);
 /// What page_html() puts together.
 struct PageParts {
   std::string title;
-  std::string body;  ///< HTML, with one <main>
+  std::string body;  ///< HTML, with one `main` element
   std::string assets =
       "assets/";  ///< folder of write_assets() as seen from the page; empty: all within the page
   std::vector<Library> libraries = {};    ///< those that are not available are left out; KaTeX needs `assets`

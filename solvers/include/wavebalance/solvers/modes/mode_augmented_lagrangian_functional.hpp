@@ -11,7 +11,7 @@ namespace wavebalance::solvers {
 /// Which equations of [LL10] hold.
 enum class ModeFormulation {
   published,  ///< as printed: the normalisation h without n^2 (24c), (24d), and omega^2 = r
-  consistent  ///< h = m/2 - gamma with n^2 (11), (12), and omega^2 = r + <lambda_phys> g0 / m
+  consistent  ///< h = m/2 - gamma with n^2 (11), (12), and omega^2 = r + mean(lambda_phys) g0 / m
 };
 
 /// The augmented Lagrangian of a nonlinear mode [LL10, eq. (18)] with the integral as a mean of m samples,

@@ -73,7 +73,7 @@ struct ModePoint {
   Eigen::MatrixXcd amplitudes;    ///< r x (N+1), m sqrt(kg), q_n for n = 0..N
   double energy_ratio = 0.0;      ///< gamma over its value at linear grazing; elastic: see ElasticMode
   double rayleigh = 0.0;          ///< generalised Rayleigh quotient r, (rad/s)^2 [LL10, eq. (24a)]
-  double virial_residual = 0.0;   ///< |omega^2 - r - <force> g0 / m| / omega^2, zero for exact motions
+  double virial_residual = 0.0;   ///< |omega^2 - r - mean(force) g0 / m| / omega^2, zero for exact ones
   double max_penetration = 0.0;   ///< over the gap, between the samples too
   double min_force = 0.0;         ///< N, the smallest force at a sample
   double contact_fraction = 0.0;  ///< share of the samples with contact of any degree of freedom
