@@ -30,3 +30,4 @@ html_title = "Wavebalance"
 html_domain_indices = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+napoleon_use_ivar = True

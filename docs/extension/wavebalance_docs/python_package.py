@@ -1,7 +1,7 @@
 """`.. python-package::` documents the Python package from its docstrings by autodoc, if it was built."""
 
 import importlib
-import pkgutil
+import re
 import sys
 
 from docutils import nodes
@@ -19,17 +19,14 @@ class PythonPackage(Directive):
     def run(self):
         env = self.state.document.settings.env
         if not env.app.config.wavebalance_python:
-            text = ("The Python package was not built when this site was made. Until then, Python starts the command and "
-                    "reads its files: summary.json by json, and CSV files by csv, numpy or pandas.")
-            return [nodes.admonition("", nodes.title("", "Not built"), nodes.paragraph("", text))]
+            return [not_built()]
         try:
-            package = importlib.import_module("wavebalance")
+            importlib.import_module("wavebalance")
         except ImportError as error:
             raise ExtensionError(f"the Python package is there but cannot be imported: {error}") from error
-        lines = [".. automodule:: wavebalance", "   :members:", "   :imported-members:", ""]
-        for module in pkgutil.iter_modules(package.__path__, "wavebalance."):
-            if not module.name.rsplit(".", 1)[1].startswith("_"):
-                lines += [f".. automodule:: {module.name}", "   :members:", "   :no-index:", ""]
+        lines = []
+        for module in ("wavebalance", "wavebalance.wavelets"):
+            lines += [f".. automodule:: {module}", "   :members:", "   :imported-members:", "   :show-inheritance:", ""]
         content = StringList(lines, source="python-package")
         holder = nodes.section()
         holder.document = self.state.document
@@ -37,6 +34,37 @@ class PythonPackage(Directive):
         return holder.children
 
 
+class IfPython(Directive):
+    """`.. if-python::` shows its content, and runs the examples in it, if the package was built."""
+
+    has_content = True
+
+    def run(self):
+        env = self.state.document.settings.env
+        if not env.app.config.wavebalance_python:
+            return [not_built()]
+        holder = nodes.section()
+        holder.document = self.state.document
+        self.state.nested_parse(self.content, self.content_offset, holder, match_titles=True)
+        return holder.children
+
+
+def not_built():
+    text = ("The Python package was not built when this site was made. Until then, Python starts the command and reads its "
+            "files: summary.json by json, and CSV files by csv, numpy or pandas.")
+    return nodes.admonition("", nodes.title("", "Not built"), nodes.paragraph("", text))
+
+
+def keep_names_together(app, what, name, obj, options, lines):
+    """Several names of one attribute entry, which would otherwise be read as a type and a name."""
+    for number, line in enumerate(lines):
+        found = re.match(r"^:(ivar|vartype) (\w+(?:, \w+)+):(.*)$", line)
+        if found:
+            lines[number] = f":{found.group(1)} {found.group(2).replace(', ', ',' + chr(0x200b))}:{found.group(3)}"
+
+
 def setup(app):
+    app.connect("autodoc-process-docstring", keep_names_together, priority=600)
     app.add_directive("python-package", PythonPackage)
+    app.add_directive("if-python", IfPython)
     app.connect("config-inited", add_to_path)
