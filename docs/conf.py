@@ -7,7 +7,7 @@ sys.path.insert(0, str(Path(__file__).parent / "extension"))
 
 project = "Wavebalance"
 copyright = "the Wavebalance authors"
-extensions = ["wavebalance_docs", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "wavebalance_docs"]
 exclude_patterns = ["README.md"]
 root_doc = "index"
 language = "en"
