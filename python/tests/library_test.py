@@ -129,6 +129,34 @@ def test_a_sweep_has_the_digits_of_the_scene_of_the_same_structure():
     np.testing.assert_array_equal(np.nan_to_num(record.sweep["unstable"], nan=-1), curve.unstable)
 
 
+LAWS = [
+    wb.NoContact(),
+    wb.Penalty(5.0, 0.1),
+    wb.Exponential(2.0, 3.0, 0.1),
+    wb.Rigid(0.1),
+    wb.Bilinear(1.0, 3.0, 0.1),
+    wb.Cubic(2.0),
+    wb.Polynomial([1.0, 0.0, 2.0]),
+    wb.Clearance(5.0, 0.1, gap_below=0.2),
+    wb.HuntCrossley(5.0, 0.2, 0.1),
+    wb.KelvinVoigt(5.0, 0.2, 0.1),
+]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_a_response_has_the_digits_of_the_scene_of_the_same_structure(law):
+    matrix = np.array([[5.0, -2.0], [-2.0, 2.0]])
+    contacts = np.array([[0.0, 1.0]]) if law.is_rigid else np.array([[1.0, -1.0], [0.0, 1.0]])
+    structure = wb.Structure(np.diag([1.0, 0.5]), 1e-2 * matrix, matrix, [0.0, 1.0], contacts)
+    record = wb.run(structure.scene(law, frequency=0.1))
+    if law.is_rigid:  # A scene gives the mass of its contact to the rest.
+        assert record.converged and record.summary["max_penetration_m"] < 0.01
+        return
+    motion = wb.forced_response(structure, law, 0.1).motion(1024)
+    assert record.converged
+    assert record.summary["max_displacement_m"] == motion.displacement.max()
+
+
 def test_the_curve_of_a_hardening_spring_folds_and_is_unstable_between_its_folds():
     curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
     folds = [point["frequency"] for point in curve.special("fold")]

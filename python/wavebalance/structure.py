@@ -131,11 +131,16 @@ class Structure(_core.Structure):
         each = list(given) if isinstance(given, Sequence) else [given] * self.contacts
         if len(each) != self.contacts or not all(isinstance(one, Law) for one in each):
             raise ValueError(f"laws are {len(each)}; expected one law, or one for each of {self.contacts} contacts")
+        first = each[0].scene_keys()
+        # No contact and a rigid obstacle are those of all contacts of a scene.
+        kept = {"none": (), "rigid": ("gap",)}.get(first["law"])
         pairs = []
         for contact, law in enumerate(each):
-            row = self.S[contact]
-            pairs.append({"dofs": [int(i) + 1 for i in row.indices], "coefficients": row.data.tolist(), **law.scene_keys()})
-        first = each[0].scene_keys()
+            row, keys = self.S[contact], law.scene_keys()
+            if kept is not None and keys["law"] != first["law"]:
+                raise ValueError(f"laws[{contact}] is {law!r}; expected {first['law']!r} for all contacts, as for the first")
+            own = keys if kept is None else {key: keys[key] for key in kept}
+            pairs.append({"dofs": [int(i) + 1 for i in row.indices], "coefficients": row.data.tolist(), **own})
         return {**first, "pairs": pairs}
 
 
