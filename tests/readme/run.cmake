@@ -24,13 +24,13 @@ file(CREATE_LINK ${build} ${clone}/build/default SYMBOLIC)
 
 find_program(make make REQUIRED)
 file(CONFIGURE OUTPUT ${folder}/bin/make @ONLY CONTENT [=[#!/bin/sh
-# Stands for `make TARGET`.
+# Stands for `make` and `make TARGET`.
 set -eu
-@make@ -n "$1" > /dev/null
-target=$1
-case $1 in test) target=all ;; command) target=wavebalance_command ;; esac
+@make@ -n "$@" > /dev/null
+target=${1-command}
+case $target in test) target=all ;; command) target=wavebalance_command ;; esac
 @ninja@ -C @build@ -t commands "$target" | grep -q -e ' -o wavebalance ' || {
-  echo "make $1 does not build the command" >&2
+  echo "make $* does not build the command" >&2
   exit 1
 }
 ]=])
