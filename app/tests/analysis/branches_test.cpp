@@ -160,8 +160,9 @@ TEST(SweepWithBranches, WritesEveryCurveWithItsPeriod) {
     EXPECT_EQ(period[i], branch[i] == 0.0 ? 1.0 : 2.0 * branch[i]);
     EXPECT_GT(two_pi * frequency[i], 2.07);
     EXPECT_LT(two_pi * frequency[i], 3.15);
-    if (branch[i] == 0.0 && two_pi * frequency[i] > 2.21 && two_pi * frequency[i] < 2.97)
+    if (branch[i] == 0.0 && two_pi * frequency[i] > 2.21 && two_pi * frequency[i] < 2.97) {
       EXPECT_EQ(unstable[i], 1.0);
+    }
   }
 }
 

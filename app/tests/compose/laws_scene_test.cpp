@@ -132,7 +132,9 @@ TEST_F(LawScene, IsSolvedAndARecordOfADamperSaysWhatItDissipates) {
     const bool named = std::any_of(record.summary.begin(), record.summary.end(),
                                    [](const auto& entry) { return entry.first == "contact_dissipation_J"; });
     EXPECT_EQ(named, damped) << one.contact;
-    if (damped) EXPECT_GT(value_of<double>(record.summary, "contact_dissipation_J"), 0.0);
+    if (damped) {
+      EXPECT_GT(value_of<double>(record.summary, "contact_dissipation_J"), 0.0);
+    }
   }
 }
 
