@@ -88,6 +88,13 @@ TEST(UnsymmetricScene, IsAnErrorUnlessMeantAndNeverForAMassOrAMode) {
   const std::string meant =
       with(damped, "contact_dofs = [2, 3]", "unsymmetric = true\ncontact_dofs = [2, 3]");
   EXPECT_TRUE(load_scene(folder.write("meant.toml", meant)).structure.matrices.unsymmetric);
+  folder.write("gyroscopic.mtx",
+               "%%MatrixMarket matrix coordinate real skew-symmetric\n3 3 2\n2 1 4\n3 2 4\n");
+  const Eigen::MatrixXd gyroscopic(
+      make_structure(load_scene(folder.write("gyroscopic.toml", with(meant, "skew.mtx", "gyroscopic.mtx"))))
+          .damping);
+  EXPECT_EQ(gyroscopic, -gyroscopic.transpose());
+  EXPECT_EQ(gyroscopic(2, 1), 4.0);
   EXPECT_EQ(error(with(meant, "m.mtx", "skew.mtx")).key, "structure.mass");
   folder.write("weak.mtx",
                "%%MatrixMarket matrix coordinate real general\n3 3 4\n1 1 1\n2 2 -1\n3 3 1\n1 3 1\n");

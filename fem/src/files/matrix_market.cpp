@@ -22,9 +22,20 @@ using detail::Lines;
 using detail::lower;
 using detail::MatrixEntries;
 
+enum class Symmetry { general, symmetric, skew };
+
 struct Header {
-  bool array, symmetric;
+  bool array;
+  Symmetry symmetry;
+  bool one_triangle() const { return symmetry != Symmetry::general; }
 };
+
+Symmetry symmetry_of(const Lines& lines, const std::string& word) {
+  if (word == "general") return Symmetry::general;
+  if (word == "symmetric") return Symmetry::symmetric;
+  if (word == "skew-symmetric") return Symmetry::skew;
+  lines.fail("the symmetry is \"" + word + "\"; it must be general, symmetric or skew-symmetric");
+}
 
 Header read_header(Lines& lines) {
   if (!lines.next()) lines.fail("the file is empty");
@@ -39,7 +50,7 @@ Header read_header(Lines& lines) {
   };
   const bool array = choice(2, "format", "coordinate", "array");
   choice(3, "field", "real", "integer");
-  return {array, choice(4, "symmetry", "general", "symmetric")};
+  return {array, symmetry_of(lines, lower(words[4]))};
 }
 
 int read_size(const Lines& lines, std::size_t word, const char* what) {
@@ -81,11 +92,13 @@ Sizes read_sizes(Lines& lines, const Header& header, int columns) {
   if (columns > 0 && sizes.columns != columns)
     lines.fail("the count of columns is " + std::to_string(sizes.columns) + "; it must be " +
                std::to_string(columns));
-  if (header.symmetric && sizes.rows != sizes.columns)
-    lines.fail("a symmetric matrix must be square; this one is " + std::to_string(sizes.rows) + " x " +
-               std::to_string(sizes.columns));
+  if (header.one_triangle() && sizes.rows != sizes.columns)
+    lines.fail("a symmetric or skew-symmetric matrix must be square; this one is " +
+               std::to_string(sizes.rows) + " x " + std::to_string(sizes.columns));
   if (header.array)
-    sizes.entries = header.symmetric ? rows * (rows + 1) / 2 : room;
+    sizes.entries = header.symmetry == Symmetry::symmetric ? rows * (rows + 1) / 2
+                    : header.symmetry == Symmetry::skew    ? rows * (rows - 1) / 2
+                                                           : room;
   else
     sizes.entries = read_size(lines, 2, "the count of entries");
   if (sizes.entries > room)
@@ -94,27 +107,38 @@ Sizes read_sizes(Lines& lines, const Header& header, int columns) {
   return sizes;
 }
 
-MatrixEntries read_coordinates(Lines& lines, const Sizes& sizes, bool symmetric) {
+/// A file of one triangle has no entry above the diagonal, and of a skew-symmetric matrix none on it.
+void require_in_triangle(const Lines& lines, Symmetry symmetry, int row, int column) {
+  if (row > column || (row == column && symmetry != Symmetry::skew)) return;
+  lines.fail("the entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) + ") is " +
+             (row == column ? "on" : "above") + " the diagonal; a " +
+             (symmetry == Symmetry::skew ? "skew-symmetric file holds what is below it"
+                                         : "symmetric file holds the lower triangle"));
+}
+
+MatrixEntries read_coordinates(Lines& lines, const Sizes& sizes, const Header& header) {
   MatrixEntries entries;
   for (long long found = 0; found < sizes.entries; ++found) {
     require_data(lines, found, sizes.entries);
     lines.require_words(3, "row, column and value");
     const int row = lines.index(0, "the row", sizes.rows);
     const int column = lines.index(1, "the column", sizes.columns);
-    if (symmetric && row < column)
-      lines.fail("the entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) +
-                 ") is above the diagonal; a symmetric file holds the lower triangle");
+    if (header.one_triangle()) require_in_triangle(lines, header.symmetry, row, column);
     entries.emplace_back(row, column, lines.finite(2));
   }
   return entries;
 }
 
-// The values column by column; of a symmetric matrix, the lower triangle. Zeros are left out.
-MatrixEntries read_array(Lines& lines, const Sizes& sizes, bool symmetric) {
+// The values column by column; of a symmetric matrix the lower triangle, of a skew-symmetric one what is
+// below the diagonal. Zeros are left out.
+MatrixEntries read_array(Lines& lines, const Sizes& sizes, const Header& header) {
+  const auto first_row = [&](int column) {
+    return !header.one_triangle() ? 0 : header.symmetry == Symmetry::skew ? column + 1 : column;
+  };
   MatrixEntries entries;
   long long found = 0;
   for (int column = 0; column < sizes.columns; ++column)
-    for (int row = symmetric ? column : 0; row < sizes.rows; ++row) {
+    for (int row = first_row(column); row < sizes.rows; ++row) {
       require_data(lines, found++, sizes.entries);
       lines.require_words(1, "one value");
       const double value = lines.finite(0);
@@ -123,14 +147,26 @@ MatrixEntries read_array(Lines& lines, const Sizes& sizes, bool symmetric) {
   return entries;
 }
 
+/// The other triangle of a skew-symmetric matrix.
+void append_negative_mirror(MatrixEntries& entries) {
+  const std::size_t given = entries.size();
+  entries.reserve(2 * given);
+  for (std::size_t i = 0; i < given; ++i) {
+    const auto entry = entries[i];
+    entries.emplace_back(entry.col(), entry.row(), -entry.value());
+  }
+}
+
 Sparse read_with_columns(std::istream& input, const std::string& name, int columns) {
   Lines lines(input, name);
   const Header header = read_header(lines);
   const Sizes sizes = read_sizes(lines, header, columns);
-  MatrixEntries entries = header.array ? read_array(lines, sizes, header.symmetric)
-                                       : read_coordinates(lines, sizes, header.symmetric);
+  MatrixEntries entries =
+      header.array ? read_array(lines, sizes, header) : read_coordinates(lines, sizes, header);
   require_end(lines, sizes.entries);
-  return detail::matrix_of(std::move(entries), sizes.rows, sizes.columns, header.symmetric, name);
+  if (header.symmetry == Symmetry::skew) append_negative_mirror(entries);
+  return detail::matrix_of(std::move(entries), sizes.rows, sizes.columns,
+                           header.symmetry == Symmetry::symmetric, name);
 }
 
 void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {

@@ -117,6 +117,22 @@ TEST(MatrixMarket, ReadsDenseMatrices) {
             (Eigen::Matrix2d() << 1, 2, 2, 3).finished());
 }
 
+// As SciPy writes gyroscopic matrices, NumPy's arrays among them.
+TEST(MatrixMarket, ReadsSkewSymmetricMatrices) {
+  Eigen::Matrix3d expected;
+  expected << 0, 2, -3, -2, 0, 0, 3, 0, 0;
+  const std::string sparse = "%%MatrixMarket matrix coordinate real skew-symmetric\n";
+  const std::string dense = "%%MatrixMarket matrix array real skew-symmetric\n";
+  EXPECT_EQ(Eigen::MatrixXd(read(sparse + "3 3 2\n2 1 -2\n3 1 3\n")), expected);
+  EXPECT_EQ(Eigen::MatrixXd(read(dense + "3 3\n-2\n3\n0\n")), expected);
+  expect_error([&] { read(sparse + "3 3 1\n2 2 1\n"); },
+               "(2, 2) is on the diagonal; a skew-symmetric file holds what is below it");
+  expect_error([&] { read(sparse + "3 3 1\n1 2 1\n"); }, "(1, 2) is above the diagonal");
+  expect_error([&] { read(sparse + "3 2 1\n2 1 1\n"); }, "must be square; this one is 3 x 2");
+  expect_error([&] { read(dense + "3 3\n-2\n3\n0\n0\n"); }, "more than the 3 entries");
+  expect_error([&] { read(sparse + "3 3 2\n2 1 1\n2 1 1\n"); }, "(2, 1) is given twice");
+}
+
 TEST(MatrixMarket, GivesBackDenseMatricesToTheLastBit) {
   const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(5, 3) / 3.0;
   std::stringstream file;

@@ -16,14 +16,15 @@ using MatrixMarketError = MatrixFileError;
 /// Largest file that is read, in bytes.
 constexpr std::uintmax_t largest_matrix_market_file = largest_matrix_file;
 
-/// Reads `matrix coordinate|array real|integer general|symmetric` [BPR96]. In the coordinate format indices
-/// count from 1 and zeros are kept; the array format lists the values column by column and its zeros are left
-/// out. A symmetric file holds one triangle, on or below the diagonal; the result has both. The result is
-/// compressed. O(nnz log nnz). Throws MatrixMarketError for: a path that is not a regular file (a device or a
-/// pipe), a file that cannot be opened or is larger than largest_matrix_market_file, another header, sizes
-/// that are not whole numbers, above 10^8 or not square where they must be, an index out of range, an entry
-/// above the diagonal of a symmetric file, an entry given twice, a value that is not a finite number, too few
-/// entries, text after the last one.
+/// Reads `matrix coordinate|array real|integer general|symmetric|skew-symmetric` [BPR96]. In the coordinate
+/// format indices count from 1 and zeros are kept; the array format lists the values column by column and its
+/// zeros are left out. A symmetric file holds one triangle, on or below the diagonal, and a skew-symmetric
+/// one what is below it; the result has both triangles. The result is compressed. O(nnz log nnz). Throws
+/// MatrixMarketError for: a path that is not a regular file (a device or a pipe), a file that cannot be
+/// opened or is larger than largest_matrix_market_file, another header, sizes that are not whole numbers,
+/// above 10^8 or not square where they must be, an index out of range, an entry above the diagonal of a
+/// symmetric file or also on that of a skew-symmetric one, an entry given twice, a value that is not a finite
+/// number, too few entries, text after the last one.
 Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& file);
 /// The same from a stream; errors call it `name`.
 Eigen::SparseMatrix<double> read_matrix_market(std::istream& input, const std::string& name);
