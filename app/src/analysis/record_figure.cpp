@@ -127,11 +127,35 @@ double top_of_most(std::vector<double> values) {
   return most > 0.0 && values.back() > far_beyond * most ? most : values.back();
 }
 
+/// The largest of the curve before it runs away: before all its last points within 1 % of its range from its
+/// last frequency. The largest of all where nothing is left, or where the end is hardly higher.
+double top_before_the_end(const std::vector<double>& place, const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(place.begin(), place.end());
+  const double near = 0.01 * (*most - *least);
+  std::size_t left = place.size();
+  while (left > 0 && std::abs(place[left - 1] - place.back()) <= near) --left;
+  const double largest = *std::max_element(values.begin(), values.end());
+  if (left == 0) return largest;
+  const double before = *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(left));
+  constexpr double far_beyond = 1.5;
+  return before > 0.0 && largest > far_beyond * before ? before : largest;
+}
+
 std::vector<double> joined_columns(const Table& table, std::string_view first, std::string_view second) {
   std::vector<double> values = table.numbers(first);
   const std::vector<double> more = table.numbers(second);
   values.insert(values.end(), more.begin(), more.end());
   return values;
+}
+
+/// The displacement up to which a sweep is drawn, of those in `values`: where the curve did not end well,
+/// neither one wild point nor an end without bound sets the axis.
+double shown_top(const Sweep& sweep, const Table& table, const std::vector<double>& values) {
+  if (sweep.converged()) return *std::max_element(values.begin(), values.end());
+  if (sweep.curve.status != solvers::SweepStatus::unbounded) return top_of_most(values);
+  const auto place = table.numbers(sweep_axis(sweep).column());
+  return std::max(top_before_the_end(place, table.numbers("max_displacement_m")),
+                  top_before_the_end(place, table.numbers("rms_displacement_m")));
 }
 
 /// Special points at their largest displacement.
@@ -141,6 +165,13 @@ std::vector<PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points
   for (const auto& point : points)
     marks.push_back({point.type, parameter_of(point, parameter), factor * point.max_displacement});
   return marks;
+}
+
+/// A legend below the panel has rows of two names; those beyond the first would take the panel's height.
+void make_room_for_legend(Figure& figure) {
+  constexpr int row_height = 24;
+  const auto rows = static_cast<int>((figure.panels.front().series.size() + 1) / 2);
+  figure.panel_height += row_height * std::max(0, rows - 1);
 }
 
 /// A stable curve of many points is thinned.
@@ -220,8 +251,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   for (const solvers::Branch& branch : sweep.branches)
     for (const auto& point : branch.curve.points) values.push_back(point.max_displacement);
   const double largest = *std::max_element(values.begin(), values.end());
-  // Where the curve did not end well, one wild point must not set the axis.
-  const double top = sweep.converged() ? largest : top_of_most(values);
+  const double top = shown_top(sweep, table, values);
   const Scale scale = scale_of(top);
   Figure figure;
   figure.title = method_title(scene);
@@ -245,7 +275,6 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
                           : std::vector<PlacedPoint>());
   }
   draw_branches(panel, sweep, 1.0, scale.factor);
-  figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
   std::vector<PlacedPoint> marks =
       placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter);
   for (const solvers::Branch& branch : sweep.branches)
@@ -253,9 +282,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
          placed(branch.stability.special_points, scale.factor, branch.curve.parameter))
       marks.push_back(one);
   draw_special_points(panel, marks);
+  make_room_for_legend(figure);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
-  if (has_gap(scene.contact.law) && one_gap)
-    panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");
+  if (has_gap(scene.contact.law) && one_gap) panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   return figure;
 }

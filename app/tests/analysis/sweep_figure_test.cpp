@@ -36,6 +36,38 @@ TEST(SweepFigure, OneWildPointOfACurveThatDidNotEndWellDoesNotSetTheAxis) {
   EXPECT_FALSE(whole.panels[0].y.upper);
 }
 
+TEST(SweepFigure, TheEndOfAnUnboundedCurveDoesNotSetTheAxis) {
+  Sweep sweep;
+  for (int i = 0; i < 1000; ++i) {  // most of its points lie where it runs away
+    solvers::SweepPoint point;
+    point.frequency = i < 200 ? 100.0 + i : 300.0 + 1e-4 * i;
+    point.max_displacement = i < 200 ? 1e-3 : 1e-3 * (i - 199);
+    point.rms_displacement = 0.6 * point.max_displacement;
+    sweep.curve.points.push_back(point);
+  }
+  sweep.curve.status = solvers::SweepStatus::unbounded;
+  const Panel panel = sweep_figure(scene_of(sweep_overrides), sweep).panels[0];
+  EXPECT_EQ(panel.y.label, "Displacement (mm)");
+  ASSERT_TRUE(panel.y.upper);
+  EXPECT_NEAR(*panel.y.upper, 1.1, 1e-12);
+}
+
+TEST(SweepFigure, ALongLegendDoesNotMakeThePanelLower) {
+  Sweep sweep = sweep_with_a_wild_point(solvers::SweepStatus::reached_end);
+  const int alone = sweep_figure(scene_of(sweep_overrides), sweep).panel_height;
+  using solvers::SpecialPointType;
+  for (const auto type : {SpecialPointType::fold, SpecialPointType::period_doubling,
+                          SpecialPointType::neimark_sacker, SpecialPointType::grazing}) {
+    solvers::SpecialPoint point;
+    point.type = type;
+    point.frequency = 150.0;
+    point.max_displacement = 1e-3;
+    sweep.stability.special_points.push_back(point);
+  }
+  // Two curves take one row of two names; four kinds of points take two more.
+  EXPECT_EQ(sweep_figure(scene_of(sweep_overrides), sweep).panel_height, alone + 2 * 24);
+}
+
 TEST(SweepFigure, OfManyPointsShowsThePeaksAndTheEnds) {
   Sweep sweep;
   for (int i = 0; i < 1'000'000; ++i) {
