@@ -1,5 +1,7 @@
 #include "analysis/mode_record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -93,6 +95,28 @@ void append_statuses(Summary& summary, const Backbone& curve) {
   summary.emplace_back("interruptions", static_cast<std::int64_t>(curve.interruptions.size()));
 }
 
+/// The points of a curve without a motion, which beside an internal resonance leave it converged.
+void warn_of_failed_points(Record& record, const Backbone& curve) {
+  std::vector<std::string> counts;
+  int failed = 0;
+  for (const auto status : {ModeStatus::cycling, ModeStatus::no_contact, ModeStatus::singular}) {
+    const int count = curve.count(status);
+    if (count > 0) counts.push_back(fmt::format("{} {}", count, to_string(status)));
+    failed += count;
+  }
+  if (failed == 0) return;
+  std::vector<std::string> ranges;
+  for (const Interruption& gap : curve.interruptions)
+    if (!gap.status.empty())
+      ranges.push_back(gap.first_ratio < gap.last_ratio
+                           ? fmt::format("{:.4f} to {:.4f}", gap.first_ratio, gap.last_ratio)
+                           : fmt::format("{:.4f}", gap.first_ratio));
+  record.warnings.push_back(fmt::format(
+      "{} of {} points of the curve have no motion ({}), at frequency ratios {}; analysis.samples = 2 x "
+      "analysis.harmonics, or other harmonics, may leave fewer.",
+      failed, curve.points.size(), fmt::join(counts, ", "), fmt::join(ranges, ", ")));
+}
+
 void append_quality(Summary& summary, double penetration, double min_force, double virial_residual) {
   summary.emplace_back("max_penetration_over_gap", std::max(0.0, penetration));
   summary.emplace_back("min_contact_force_N", min_force);
@@ -110,6 +134,7 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   append_curve(record.summary, curve, common_gap(study));
   append_discretisation(record.summary, study);
   append_statuses(record.summary, curve);
+  warn_of_failed_points(record, curve);
   append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
                  -largest(curve, [](const auto& point) { return -point.min_force; }),
                  largest(curve, [](const auto& point) { return point.virial_residual; }));
@@ -238,17 +263,23 @@ Record published_record(const ModeStudy& study) {
   return record;
 }
 
+Record record_of(const ModeStudy& study, const Observer& observer) {
+  const Analysis& analysis = study.scene().analysis;
+  const double energy = analysis.energy_ratio;
+  const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
+  if (analysis.formulation == ModeFormulation::published && with_contact) return published_record(study);
+  return energy > 0.0 ? motion_record(study) : curve_record(study, observer);
+}
+
 }  // namespace
 
 Record mode_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
   goes_on(observer, {"linear modes"});
   const ModeStudy study(scene, model);
   goes_on(observer, {"backbone"});
-  const double energy = scene.analysis.energy_ratio;
-  const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
-  if (scene.analysis.formulation == ModeFormulation::published && with_contact)
-    return published_record(study);
-  return energy > 0.0 ? motion_record(study) : curve_record(study, observer);
+  Record record = record_of(study, observer);
+  record.summary.emplace_back("warnings", record.warnings);
+  return record;
 }
 
 }  // namespace wavebalance::app
