@@ -127,6 +127,10 @@ void write(const std::filesystem::path& folder, const app::Table& table, const a
   app::write_pictures(folder / "adaptive_wavelet", figure);
 }
 
+constexpr const char* about =
+    "Measures the error of adaptive and of uniform wavelet balance over the number of unknowns.\n"
+    "Writes adaptive_wavelet.csv, adaptive_wavelet_selection.csv and a picture.";
+
 void run(const bench::Program& program) {
   const bench::Sizes sizes = program.quick ? bench::Sizes{1024, 128, 255, 48} : bench::Sizes{};
   const auto study = [&](const char* name) { return bench::make_study(name, sizes); };
@@ -158,4 +162,4 @@ void run(const bench::Program& program) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return bench::run_program(argc, argv, run); }
+int main(int argc, char** argv) { return bench::run_program(argc, argv, about, run); }

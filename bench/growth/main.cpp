@@ -208,6 +208,10 @@ void draw(app::Panel& panel, const std::vector<SizeSeries>& all, const Results& 
   }
 }
 
+constexpr const char* about =
+    "Measures time and memory of one solve of the bar of JL14 over the number of functions and of elements.\n"
+    "Writes growth.csv, growth_slopes.csv and a picture.";
+
 void run(const Program& program) {
   Results results;
   const std::vector<SizeSeries> all = all_series(program.quick);
@@ -238,5 +242,5 @@ void run(const Program& program) {
 }  // namespace wavebalance::bench
 
 int main(int argc, char** argv) {
-  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::about, wavebalance::bench::run);
 }

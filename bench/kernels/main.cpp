@@ -8,6 +8,10 @@
 namespace wavebalance::bench {
 namespace {
 
+constexpr const char* about =
+    "Measures the parts of a solve beside the limits of this machine: the rate of a dense LU and of a copy.\n"
+    "Writes kernels.csv and a picture.";
+
 void run(const Program& program) {
   const std::string min_time = std::string("--benchmark_min_time=") + (program.quick ? "0.0001" : "0.02");
   const std::string repetitions = std::string("--benchmark_repetitions=") + (program.quick ? "1" : "5");
@@ -36,5 +40,5 @@ void run(const Program& program) {
 }  // namespace wavebalance::bench
 
 int main(int argc, char** argv) {
-  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::about, wavebalance::bench::run);
 }

@@ -137,6 +137,10 @@ void report(const app::Table& table) {
   }
 }
 
+constexpr const char* about =
+    "Measures what a scene with a tolerance costs beside the cheapest fixed choice of the same error.\n"
+    "Writes tolerance.csv and a picture.";
+
 void run(const Program& program) {
   StudySizes sizes;
   std::vector<double> tolerances{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
@@ -161,5 +165,5 @@ void run(const Program& program) {
 }  // namespace wavebalance::bench
 
 int main(int argc, char** argv) {
-  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::about, wavebalance::bench::run);
 }

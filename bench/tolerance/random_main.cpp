@@ -57,6 +57,10 @@ void report(const app::Table& table) {
       table.rows(), converged, judged, beyond, largest);
 }
 
+constexpr const char* about =
+    "Solves 200 random bars to a tolerance and measures the true error, beside shooting from what was found.\n"
+    "Writes tolerance_random.csv.";
+
 void run(const Program& program) {
   const std::uint64_t motions = program.quick ? 4 : 200;
   app::Table table = empty_table();
@@ -75,5 +79,5 @@ void run(const Program& program) {
 }  // namespace wavebalance::bench
 
 int main(int argc, char** argv) {
-  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::run);
+  return wavebalance::bench::run_program(argc, argv, wavebalance::bench::about, wavebalance::bench::run);
 }

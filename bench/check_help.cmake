@@ -1,0 +1,12 @@
+# cmake -D program=FILE -P check_help.cmake: the program says with --help how it is called and what it measures, and
+# names an option that it does not know.
+execute_process(COMMAND ${program} --help RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+foreach(part "usage: wavebalance_bench" "Writes [a-z_]+\\.csv" "--output DIR" "--quick")
+  if(NOT code EQUAL 0 OR NOT out MATCHES "${part}")
+    message(FATAL_ERROR "--help exits with ${code} and says\n${out}${err}\nwithout \"${part}\"")
+  endif()
+endforeach()
+execute_process(COMMAND ${program} --sceen x RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+if(NOT code EQUAL 2 OR NOT err MATCHES "argument \"--sceen\"; allowed: --output DIR")
+  message(FATAL_ERROR "--sceen exits with ${code} and says\n${out}${err}")
+endif()
