@@ -104,7 +104,7 @@ Eigen::MatrixXd bar_motion_of(const Scene& scene, const StructureModel& model, c
 int structure_points(const Scene& scene) {
   const int written = std::max(0, scene.analysis.motion_points);
   if (written > 0 || scene.structure.type != StructureType::bar) return written;
-  return scene.analysis.type == AnalysisType::time_stepping ? scene.analysis.output_points : bar_instants;
+  return integrates_in_time(scene.analysis.type) ? scene.analysis.output_points : bar_instants;
 }
 
 /// Why a structure that is free to move has no periodic motion, and along what it moves.
@@ -385,6 +385,8 @@ Record analyse(const Scene& scene, const StartMotion& start, const Observer& obs
       return mode_record(scene, model, observer);
     case AnalysisType::time_stepping:
       return response_record(scene, model, time_stepping_response(scene, model, options));
+    case AnalysisType::shooting:
+      return response_record(scene, model, shooting_response(scene, model, options));
     case AnalysisType::forced_response:
       break;
   }

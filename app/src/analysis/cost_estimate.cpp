@@ -48,16 +48,16 @@ bool is_sweep(const Analysis& analysis) {
 
 bool is_balance(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  return type != AnalysisType::time_stepping && type != AnalysisType::nonlinear_mode;
+  return !integrates_in_time(type) && type != AnalysisType::nonlinear_mode;
 }
 
 double structure_bytes(const Scene& scene, const Sizes& sizes) {
   const double n = sizes.degrees;
   const double motion =
       std::max(0, scene.analysis.motion_points) * static_cast<double>(structure_dofs(scene));
-  const double dense = scene.analysis.type == AnalysisType::time_stepping ? 128.0 * n * n
-                       : takes_all_modes(scene, n)                        ? 64.0 * n * n
-                                                                          : 0.0;
+  const double dense = integrates_in_time(scene.analysis.type) ? 128.0 * n * n
+                       : takes_all_modes(scene, n)             ? 64.0 * n * n
+                                                               : 0.0;
   return 20e6 + 1500.0 * static_cast<double>(structure_dofs(scene)) + dense + 50.0 * motion;
 }
 
@@ -126,8 +126,8 @@ std::string slow_stepping_advice(const Scene& scene) {
     return "";
   return fmt::format(
       "time stepping follows all {} modes, the fastest of which may take hours; structure.kept_modes = 8 takes "
-      "the lowest, and analysis.type = \"forced_response\" needs no steps",
-      reduced_size(scene));
+      "the lowest, and analysis.type = \"forced_response\" needs no steps{}",
+      reduced_size(scene), contact_count(scene) == 1 ? ", \"shooting\" none of the fastest mode" : "");
 }
 
 double available_memory() {

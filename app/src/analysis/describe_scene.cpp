@@ -193,6 +193,9 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
                        number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
+  if (scene.analysis.type == AnalysisType::shooting)
+    return fmt::format("size       {} states, of which the map of one period is solved by Newton's method\n",
+                       2 * reduced_size(scene));
   if (scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
@@ -290,7 +293,7 @@ std::string warning_lines(const Scene& scene) {
 }  // namespace
 
 std::string describe_scene(const Scene& scene) {
-  const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
+  const bool stepping = integrates_in_time(scene.analysis.type);
   const std::string first_lines = "analysis   " + name_of(scene.analysis.type) + "\n" +
                                   structure_line(scene) + matrices_lines(scene) + contact_line(scene);
   if (scene.analysis.type == AnalysisType::nonlinear_mode)

@@ -82,6 +82,57 @@ bool wants_structure(const Scene& scene, const ResponseOptions& options) {
   return points > 0;
 }
 
+/// Starts shooting at the balance with Fourier functions, if there is one.
+bool start_at_balance(const Scene& scene, const StructureModel& model, const Observer& observer,
+                      solvers::ShootingOptions& shooting) {
+  constexpr int instants = 16;  // of which the first is taken
+  Scene balanced = scene;
+  balanced.analysis.type = AnalysisType::forced_response;
+  balanced.time = {};
+  balanced.time.trial = balanced.time.weight = "fourier";
+  balanced.time.tolerance = 1e-3;
+  const Response near =
+      weighted_residual_response(balanced, model, {.structure_points = instants, .observer = observer});
+  if (!near.converged) return false;
+  shooting.settling_periods = 0;
+  shooting.initial_displacement = near.structure.displacement.col(0);
+  shooting.initial_velocity = near.structure.velocity.col(0);
+  return true;
+}
+
+/// What shooting does not take is an error with what to take in its place. Where ten periods do not bring the
+/// state near to a periodic motion, as beside an unstable one, the balance does.
+solvers::ShootingResult shot(const Scene& scene, const StructureModel& model,
+                             const ResponseOptions& options) {
+  solvers::ShootingOptions shooting;
+  shooting.output_points = scene.analysis.output_points;
+  shooting.full_history = wants_structure(scene, options);
+  shooting.observer = options.observer;
+  try {
+    const solvers::AnyContactLaw law = make_laws(scene)[0];
+    auto found = solvers::shoot(model.structure, law, scene.forcing.frequency, shooting);
+    using solvers::ShootingStatus;
+    const bool far =
+        found.status == ShootingStatus::stalled || found.status == ShootingStatus::iteration_limit;
+    if (far && start_at_balance(scene, model, options.observer, shooting))
+      found = solvers::shoot(model.structure, law, scene.forcing.frequency, shooting);
+    return found;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format(
+        "analysis.type = \"shooting\": {}; expected \"time_stepping\" or \"forced_response\"", error.what()));
+  }
+}
+
+/// Its multipliers come by falling modulus.
+ResponseStability stability_of_shot(const solvers::ShootingResult& found) {
+  const Eigen::VectorXcd& multipliers = found.floquet_multipliers;
+  ResponseStability stability;
+  stability.unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
+  stability.status = stability.unstable > 0 ? "unstable" : "stable";
+  if (multipliers.size() > 0) stability.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
+  return stability;
+}
+
 }  // namespace
 
 void note_solution(Response& result, solvers::CondensedProblem& problem,
@@ -187,13 +238,12 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
 }
 
 Response shooting_response(const Scene& scene, const ResponseOptions& options) {
+  return shooting_response(scene, make_model(scene, options.observer), options);
+}
+
+Response shooting_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
   const auto start = Clock::now();
-  solvers::ShootingOptions shooting;
-  shooting.output_points = scene.analysis.output_points;
-  shooting.full_history = wants_structure(scene, options);
-  shooting.observer = options.observer;
-  const StructureModel model = make_model(scene, options.observer);
-  auto found = solvers::shoot(model.structure, make_law(scene.contact), scene.forcing.frequency, shooting);
+  const solvers::ShootingResult found = shot(scene, model, options);
   Response result;
   result.wall_seconds = seconds_since(start);
   result.converged = found.status == solvers::ShootingStatus::converged;
@@ -201,8 +251,9 @@ Response shooting_response(const Scene& scene, const ResponseOptions& options) {
   result.residual = found.residual;
   result.iterations = found.iterations;
   result.unknowns = 2 * model.size();
-  result.contacts = std::move(found.contacts);
-  result.structure = std::move(found.structure);
+  result.contacts = found.contacts;
+  result.structure = found.structure;
+  if (result.converged) result.stability = stability_of_shot(found);
   return result;
 }
 

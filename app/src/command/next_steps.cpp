@@ -53,6 +53,13 @@ const Remedies& of_time_stepping() {
   return all;
 }
 
+const Remedies& of_shooting() {
+  static const std::string others = "analysis.type = \"forced_response\" or \"time_stepping\"";
+  static const Remedies all{
+      {"stalled", others}, {"iteration_limit", others}, {"step_failure", "a softer contact"}};
+  return all;
+}
+
 }  // namespace
 
 std::string next_step(AnalysisType type, const std::string& status) {
@@ -61,6 +68,7 @@ std::string next_step(AnalysisType type, const std::string& status) {
   const Remedies& remedies = type == AnalysisType::forced_response  ? of_responses()
                              : type == AnalysisType::nonlinear_mode ? of_modes()
                              : type == AnalysisType::time_stepping  ? of_time_stepping()
+                             : type == AnalysisType::shooting       ? of_shooting()
                                                                     : of_sweeps();
   const auto found = remedies.find(status);
   return found == remedies.end() ? "" : found->second;

@@ -58,8 +58,8 @@ std::vector<ContactLawType> laws_of(const Contact& contact) {
 /// The velocity of a sum of trial functions needs their derivative at points.
 void check_velocity(const Document& document, const Scene& scene, ContactLawType law) {
   constexpr int any = 16;  // no matter how many
-  const bool balanced = scene.analysis.type != AnalysisType::time_stepping &&
-                        scene.analysis.type != AnalysisType::nonlinear_mode;
+  const bool balanced =
+      !integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::nonlinear_mode;
   if (!balanced || scene.time.trial.empty()) return;
   if (make_basis(scene.time.trial, any).pointwise_derivatives() >= 1) return;
   fail_rule(

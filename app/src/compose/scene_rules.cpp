@@ -137,7 +137,7 @@ void check_motions(const Document& document, const Scene& scene) {
 
 /// Each series has what its file and the functions can hold.
 void check_series(const Document& document, const Scene& scene) {
-  const bool balanced = scene.analysis.type != AnalysisType::time_stepping && scene.time.tolerance == 0.0;
+  const bool balanced = !integrates_in_time(scene.analysis.type) && scene.time.tolerance == 0.0;
   const int most = (scene.time.functions - 1) / 2 / scene.analysis.subharmonic;
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
     const ForcingTerm& term = scene.forcing.terms[i];
@@ -178,13 +178,13 @@ std::string size_text(const Scene& scene) {
 }
 
 void check_dense_size(const Document& document, const Scene& scene) {
-  const bool stepping = scene.analysis.type == AnalysisType::time_stepping;
+  const bool stepping = integrates_in_time(scene.analysis.type);
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   const bool damped = scene.structure.modal_damping > 0.0;
   if ((!stepping && !mode && !damped) || reduced_size(scene) <= most_dense_unknowns) return;
   const std::string most = "expected at most " + std::to_string(most_dense_unknowns) + " ";
   const std::string why = mode       ? "for a nonlinear mode, which takes all linear modes"
-                          : stepping ? "for time stepping, whose matrices are dense"
+                          : stepping ? "for time stepping and shooting, whose matrices are dense"
                                      : "for modal damping, which takes all linear modes";
   if (scene.structure.type == StructureType::bar) fail_rule(document, {"structure.elements"}, most + why);
   const std::string advice = "; structure.kept_modes reduces them";
@@ -246,8 +246,8 @@ void check_mode(const Document& document, const Scene& scene) {
 
 void check_rigid(const Document& document, const Scene& scene) {
   if (scene.contact.law != ContactLawType::rigid) return;
-  const bool balanced = scene.analysis.type != AnalysisType::time_stepping &&
-                        scene.analysis.type != AnalysisType::nonlinear_mode;
+  const bool balanced =
+      !integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::nonlinear_mode;
   if (balanced && scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)
     fail_rule(
         document, {"contact.mass"},
@@ -257,12 +257,24 @@ void check_rigid(const Document& document, const Scene& scene) {
     fail_rule(document, {"contact.form"},
               "not with contact.law = \"rigid\", whose force is no function of the displacement; expected "
               "\"automatic\" or \"force\"");
-  if (scene.analysis.type == AnalysisType::time_stepping)
+  if (integrates_in_time(scene.analysis.type))
     fail_rule(
         document, {"contact.law", "analysis.type"},
-        "not with time stepping: at a rigid obstacle the motion of a structure cut into elements goes "
+        "not with time stepping and shooting: at a rigid obstacle the motion of a structure cut into elements goes "
         "on only with a law of impact, which the scene does not have; expected a stiff \"linear\" law, or "
         "analysis.type = \"forced_response\"");
+}
+
+/// Shooting knows one contact, whose force depends on the displacement alone.
+void check_shooting(const Document& document, const Scene& scene) {
+  const std::string others = "; expected analysis.type = \"time_stepping\" or \"forced_response\"";
+  const int contacts = contact_count(scene);
+  if (contacts != 1)
+    fail_rule(document, {"structure.contact_dofs", "analysis.type"},
+              "there are " + std::to_string(contacts) + " contacts, and shooting knows one" + others);
+  if (make_laws(scene).depend_on_velocity())
+    fail_rule(document, {"contact.law", "analysis.type"},
+              "not with shooting, which knows no force of the velocity" + others);
 }
 
 /// Each number may be in range and their products not.
@@ -291,7 +303,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_structure_rules(document, scene);
   check_laws(document, scene);
   const AnalysisType type = scene.analysis.type;
-  const bool stepping = type == AnalysisType::time_stepping, mode = type == AnalysisType::nonlinear_mode;
+  const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
   if (!stepping && !mode) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
@@ -301,6 +313,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (type == AnalysisType::frequency_sweep) check_motions(document, scene);
   if (!mode) check_series(document, scene);
   if (!stepping && !mode) check_subharmonic(document, scene);
+  if (type == AnalysisType::shooting) check_shooting(document, scene);
   check_branches(document, scene);
   check_dense_size(document, scene);
 }

@@ -58,10 +58,11 @@ void check_loss_factor(const Document& document, const Scene& scene) {
       scene.structure.type == StructureType::bar
           ? "stiffness_damping = loss_factor / omega, which damps as much at the angular frequency omega"
           : "modal_damping = loss_factor / 2, which damps each mode as much at its own frequency";
-  if (scene.analysis.type == AnalysisType::time_stepping)
+  if (integrates_in_time(scene.analysis.type))
     fail_rule(
         document, {"structure.loss_factor", "analysis.type"},
-        "not with time stepping: structural damping has no equation in time; expected 0, or " + instead);
+        "not with time stepping and shooting: structural damping has no equation in time; expected 0, or " +
+            instead);
   if (scene.analysis.branches)
     fail_rule(
         document, {"structure.loss_factor", "analysis.branches"},

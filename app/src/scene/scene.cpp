@@ -56,9 +56,13 @@ Scene with_longer_period(Scene scene, int times) {
   return scene;
 }
 
+bool integrates_in_time(AnalysisType type) {
+  return type == AnalysisType::time_stepping || type == AnalysisType::shooting;
+}
+
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (type == AnalysisType::time_stepping) return false;
+  if (integrates_in_time(type)) return false;
   const bool rigid = scene.contact.law == ContactLawType::rigid && type != AnalysisType::nonlinear_mode;
   return scene.contact.mass == ContactMass::redistribute ||
          (scene.contact.mass == ContactMass::automatic && rigid && !scene.structure.massless_tip);

@@ -137,7 +137,7 @@ std::vector<std::string> keys_in(const std::string& text) {
 TEST(NextSteps, NameKeysThatExist) {
   int advised = 0;
   for (const auto type : {AnalysisType::forced_response, AnalysisType::frequency_sweep,
-                          AnalysisType::nonlinear_mode, AnalysisType::time_stepping})
+                          AnalysisType::nonlinear_mode, AnalysisType::time_stepping, AnalysisType::shooting})
     for (const char* status :
          {"stalled", "iteration_limit", "effort_limit", "inaccurate", "singular", "unbalanced", "size_limit",
           "stagnated", "not_converged", "returned", "no_start", "closed", "lost", "unbounded", "point_limit",

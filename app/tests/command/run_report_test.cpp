@@ -31,7 +31,7 @@ TEST(RunReport, ReportTellsWhatWasAskedAndWhatCameOut) {
 TEST(RunReport, TheMovingBarOfTheReportIsTheMotionOfTheResponse) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("case.toml", bar_scene);
-  for (const std::string type : {"forced_response", "time_stepping"}) {
+  for (const std::string type : {"forced_response", "time_stepping", "shooting"}) {
     run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.type=" + type});
     const std::string script = read_file(folder / "out" / "response.motion.js");
     const std::size_t begin = script.find("\"tip\":[") + 7;

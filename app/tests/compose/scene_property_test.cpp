@@ -77,8 +77,9 @@ Time any_time() {
 
 Analysis any_analysis() {
   Analysis analysis;
-  analysis.type = one_of({AnalysisType::forced_response, AnalysisType::frequency_sweep,
-                          AnalysisType::amplitude_sweep, AnalysisType::time_stepping});
+  analysis.type =
+      one_of({AnalysisType::forced_response, AnalysisType::frequency_sweep, AnalysisType::amplitude_sweep,
+              AnalysisType::time_stepping, AnalysisType::shooting});
   analysis.output_points = 1 << *rc::gen::inRange(1, 14);
   if (analysis.type == AnalysisType::frequency_sweep) {
     analysis.frequency_from = positive();
@@ -123,7 +124,7 @@ Scene any_scene() {
   if (*rc::gen::inRange(0, 4) == 0) return any_mode_scene();
   Scene scene{any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
   scene.forcing.terms = any_terms((scene.time.functions - 1) / 2);
-  if (scene.analysis.type == AnalysisType::time_stepping) return scene;
+  if (integrates_in_time(scene.analysis.type)) return scene;
   if (scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0) {
     scene.time.functions = scene.time.quadrature_points = 0;
     scene.time.tolerance = *rc::gen::inRange(1, 1000) / 1e6;

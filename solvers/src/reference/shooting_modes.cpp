@@ -1,5 +1,7 @@
 #include "reference/shooting_modes.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <complex>
 #include <numbers>
 #include <stdexcept>
@@ -10,12 +12,20 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
+/// A coupling counts where rounding of the matrices and of the modes does not explain it.
 void require_modal_damping(const Eigen::MatrixXd& modal) {
-  const double largest = modal.diagonal().cwiseAbs().maxCoeff();
-  Eigen::MatrixXd coupling = modal;
-  coupling.diagonal().setZero();
-  const double worst = coupling.cwiseAbs().maxCoeff();
-  if (worst <= 1e-9 * largest) return;
+  const Eigen::VectorXd sizes = modal.diagonal().cwiseAbs();
+  const double largest = sizes.maxCoeff();
+  double worst = 0.0;
+  bool coupled = false;
+  for (Eigen::Index j = 0; j < modal.cols(); ++j)
+    for (Eigen::Index i = 0; i < modal.rows(); ++i) {
+      const double rounding = std::max(1e-9 * largest, 1e-8 * std::sqrt(sizes[i] * sizes[j]));
+      if (i == j || std::abs(modal(i, j)) <= rounding) continue;
+      coupled = true;
+      worst = std::max(worst, std::abs(modal(i, j)));
+    }
+  if (!coupled) return;
   throw std::invalid_argument(
       "shoot: damping couples the undamped modes (largest coupling " + std::to_string(worst) +
       " 1/s, largest modal damping " + std::to_string(largest) +

@@ -133,6 +133,23 @@ TEST(Shooting, LawThatJumpsIsAStepFailure) {
   EXPECT_EQ(result.contacts.points(), 0);
 }
 
+// As the modes of a stiff structure leave it between the fastest ones, by which modal damping was built.
+TEST(Shooting, TakesDampingOfWhichRoundingAloneCouplesTheModes) {
+  const auto damped = [](double coupling) {
+    Eigen::Matrix3d damping = Eigen::Vector3d(10.0, 1e5, 1e5).asDiagonal();
+    damping(1, 2) = damping(2, 1) = 1e5 * coupling;
+    LinearStructure structure;
+    structure.mass = Eigen::MatrixXd(Eigen::Matrix3d::Identity()).sparseView();
+    structure.stiffness = Eigen::MatrixXd(Eigen::Vector3d(1e5, 1e13, 2e13).asDiagonal()).sparseView();
+    structure.damping = Eigen::MatrixXd(damping).sparseView();
+    structure.load = Eigen::Vector3d(1.0, 0.0, 0.0);
+    structure.contact_directions = contact_rows({0}, 3);
+    return structure;
+  };
+  EXPECT_EQ(shoot(damped(2e-9), AnyContactLaw(), 30.0).status, ShootingStatus::converged);
+  EXPECT_THROW(shoot(damped(2e-8), AnyContactLaw(), 30.0), std::invalid_argument);
+}
+
 TEST(Shooting, RejectsStructuresItCannotTreat) {
   const LinearStructure bar = jl14_bar(3, 1e-4);
   for (const double bad : {0.0, -150.0, nan, std::numeric_limits<double>::infinity()})

@@ -73,10 +73,11 @@ struct Response {
   /// solvers::PeriodicResponse::rounding_error; NaN as above. Above largest_rounding_error the response has
   /// not converged, and the status says `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
-  double wall_seconds = 0.0;                   ///< composition, solution and samples
-  std::optional<RigidContact> rigid;           ///< set in scenes with rigid contact
-  std::optional<Refinement> refinement;        ///< set in scenes with time.tolerance
-  std::optional<ResponseStability> stability;  ///< set with ResponseOptions::stability if converged
+  double wall_seconds = 0.0;             ///< composition, solution and samples
+  std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
+  std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
+  /// Set if converged, with ResponseOptions::stability or by shooting.
+  std::optional<ResponseStability> stability;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
@@ -121,7 +122,11 @@ Response time_stepping_response(const Scene& scene, const ResponseOptions& optio
 Response time_stepping_response(const Scene& scene, const StructureModel& model,
                                 const ResponseOptions& options = {});
 
-/// The scene's response by shooting, for checks of the other two. One contact only.
+/// The scene's response by shooting, with its stability: Newton's method on the map of one period, which
+/// takes unstable motions as well as stable ones. Throws std::invalid_argument for what solvers::shoot() does
+/// not take: several contacts, forces of the velocity, damping that couples the modes, rows without mass.
 Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
+Response shooting_response(const Scene& scene, const StructureModel& model,
+                           const ResponseOptions& options = {});
 
 }  // namespace wavebalance::app

@@ -46,7 +46,17 @@ enum class ContactMass { automatic, keep, redistribute };
 /// Where the obstacles of a contact direction stand, contact.pairs.side.
 enum class ObstacleSide { positive, negative, both };
 /// Analyses, analysis.type.
-enum class AnalysisType { forced_response, frequency_sweep, amplitude_sweep, time_stepping, nonlinear_mode };
+enum class AnalysisType {
+  forced_response,
+  frequency_sweep,
+  amplitude_sweep,
+  time_stepping,
+  shooting,
+  nonlinear_mode
+};
+/// Whether the equation of motion is integrated in time, so that there are no functions: time stepping,
+/// shooting.
+bool integrates_in_time(AnalysisType type);
 /// What a further load is, forcing.terms.kind: a force, or the motion of supports.
 enum class LoadKind { force, base_displacement, base_acceleration };
 
