@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <thread>
 #include <utility>
 
-#include "linalg/parallel_for.hpp"
 #include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
 #include "structure/largest_entry.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -186,10 +185,7 @@ Condensation& Condensation::operator=(Condensation&&) noexcept = default;
 Condensation::~Condensation() = default;
 
 void Condensation::set_threads(int threads) {
-  if (threads < 0)
-    throw std::invalid_argument("Condensation::set_threads: threads is " + std::to_string(threads) +
-                                "; it must be at least 1, or 0 for one per core");
-  threads_ = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  threads_ = thread_count(threads);
   method_->set_threads(threads_);
 }
 

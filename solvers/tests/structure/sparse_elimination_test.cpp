@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "linalg/parallel_for.hpp"
 #include "structure/condensation_method.hpp"
 #include "support/small_problems.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -166,6 +169,44 @@ TEST(ParallelFor, ThrowsTheExceptionOfTheLeastIndexAfterAllIndicesBeforeIt) {
     }
     EXPECT_EQ(std::count(done.begin(), done.begin() + 40, 1), 40);
   }
+}
+
+TEST(ParallelFor, CallsWatchInTheCallersThreadWhileOthersStillWork) {
+  const auto caller = std::this_thread::get_id();
+  std::atomic<bool> begun{false}, released{false};
+  int watched = 0;
+  const auto work = [&](int worker, Eigen::Index) {
+    const std::atomic<bool>& awaited = worker == 0 ? begun : released;
+    if (worker != 0) begun = true;
+    while (!awaited) std::this_thread::yield();
+  };
+  const auto watch = [&] {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    released = ++watched == 3;
+  };
+  parallel_for(2, 2, work, watch);
+  EXPECT_EQ(watched, 3);
+}
+
+TEST(ParallelFor, WaitsForItsThreadsWhenWatchThrows) {
+  std::atomic<int> begun{0}, ended{0};
+  const auto work = [&](int worker, Eigen::Index) {
+    if (worker == 0) {
+      while (begun == 0) std::this_thread::yield();
+      return;
+    }
+    ++begun;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ++ended;
+  };
+  EXPECT_THROW(parallel_for(2, 2, work, [] { throw std::runtime_error("watched"); }), std::runtime_error);
+  EXPECT_EQ(ended, begun);
+}
+
+TEST(ThreadCount, IsTheNumberGivenOrOneForEachCoreAndRefusesNegativeOnes) {
+  EXPECT_EQ(thread_count(3), 3);
+  EXPECT_GE(thread_count(0), 1);
+  EXPECT_THROW(thread_count(-1), std::invalid_argument);
 }
 
 }  // namespace
