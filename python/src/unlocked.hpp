@@ -1,9 +1,11 @@
 #pragma once
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <thread>
 
 #include "wavebalance/solvers/linalg/progress.hpp"
 
@@ -24,7 +26,9 @@ class OneBlasThread {
 class Unlocked {
  public:
   /// Stops long work on Ctrl-C: signals are handled about ten times per second, with the lock taken for that
-  /// moment. This object must outlive the work.
+  /// moment. Only the thread that made this object takes it, since Python handles signals in its main thread
+  /// alone; other threads that work for it call the observer, too, and never wait for the lock. This object
+  /// must outlive the work.
   solvers::Observer observer() {
     return [this](const solvers::Progress&) { return goes_on(); };
   }
@@ -33,7 +37,7 @@ class Unlocked {
 
  private:
   bool goes_on() {
-    if (interrupted_) return false;
+    if (interrupted_ || std::this_thread::get_id() != owner_) return !interrupted_;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return true;
     next_ = now + interval;
@@ -44,7 +48,8 @@ class Unlocked {
 
   static constexpr std::chrono::milliseconds interval{100};
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + interval;
-  bool interrupted_ = false;
+  std::atomic<bool> interrupted_ = false;
+  const std::thread::id owner_ = std::this_thread::get_id();
   pybind11::gil_scoped_release released_;
 };
 
