@@ -34,7 +34,7 @@ struct Run {
 
 /// The folder is tried before the solution, so that nothing is computed that cannot be written.
 Run run_scene(const SceneSource& source, const std::string& output, const std::string& start_from,
-              const solvers::Observer& observer) {
+              int threads, const solvers::Observer& observer) {
   Run run;
   run.arguments.scene = source.name;
   run.arguments.output = output;
@@ -47,7 +47,7 @@ Run run_scene(const SceneSource& source, const std::string& output, const std::s
   app::require_start_fits(start, run.scene);
   std::optional<app::OutputFiles> files;
   if (!output.empty()) files.emplace(output);
-  run.record = app::analyse(run.scene, start, observer);
+  run.record = app::analyse(run.scene, {.start = start, .observer = observer, .threads = threads});
   if (files && !run.record.interrupted)
     app::write_run_files(*files, app::run_files(run.arguments, run.scene, run.record));
   return run;
@@ -88,12 +88,12 @@ void add_scenes(py::module_& module) {
       .def("write", [](const Run& run, const std::string& output) {
         unlocked([&](const solvers::Observer&) { return write(run, output), true; });
       });
-  module.def("run_scene",
-             [](const SceneSource& source, const std::string& output, const std::string& start_from) {
-               return unlocked([&](const solvers::Observer& observer) {
-                 return run_scene(source, output, start_from, observer);
-               });
-             });
+  module.def("run_scene", [](const SceneSource& source, const std::string& output,
+                             const std::string& start_from, int threads) {
+    return unlocked([&](const solvers::Observer& observer) {
+      return run_scene(source, output, start_from, threads, observer);
+    });
+  });
   module.def("write_matrix_market", [](const std::string& file, const Eigen::SparseMatrix<double>& matrix) {
     fem::write_matrix_market(file, matrix);
   });

@@ -8,6 +8,7 @@ import threading
 import time
 
 import numpy as np
+import pytest
 import scipy.sparse
 
 import wavebalance as wb
@@ -59,6 +60,57 @@ def test_ctrl_c_ends_the_run_of_a_scene_which_then_writes_nothing(scenes, tmp_pa
         assert process.stdout.readline() == "interrupted\n"
         assert process.wait(60) == 0
     assert not (tmp_path / "out").exists()
+
+
+COMPARISON = """
+import sys
+import wavebalance as wb
+print("ready", flush=True)
+try:
+    while True:  # a fast machine may end one comparison before the signal comes
+        wb.compare(sys.argv[1], {"time.functions": 16, "time.quadrature_points": 64},
+                   pairs="fourier:fourier,bspline:bspline", budget=600.0, threads=int(sys.argv[2]))
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+@pytest.mark.parametrize("scene", ["case1", "case2_sweep"])
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("seconds", [0.2, 2.0])
+def test_ctrl_c_ends_a_comparison_on_several_threads(scenes, scene, threads, seconds):
+    file = scenes / "jones_legrand_2014" / f"{scene}.toml"
+    command = [sys.executable, "-c", COMPARISON, str(file), str(threads)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "ready\n"
+        time.sleep(seconds)
+        assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        try:
+            assert process.wait(60) == 0
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
+        assert process.stdout.readline() == "interrupted\n"
+
+
+def test_threads_of_python_run_while_others_compare_on_several_threads(scenes):
+    file = str(scenes / "jones_legrand_2014" / "case2_sweep.toml")
+    counted, statuses = 0, []
+
+    def compare():
+        found = wb.compare(file, pairs="fourier:fourier,bspline:bspline", budget=1.0, threads=2)
+        statuses.append(found.status)
+
+    comparisons = [threading.Thread(target=compare, daemon=True) for _ in range(3)]
+    for thread in comparisons:
+        thread.start()
+    end = time.monotonic() + 60.0
+    while any(thread.is_alive() for thread in comparisons) and time.monotonic() < end:
+        counted += 1
+        time.sleep(0.001)
+    assert statuses == ["converged"] * 3
+    assert counted > 10
 
 
 def test_a_thread_of_python_runs_while_another_solves():

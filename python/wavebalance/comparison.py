@@ -57,6 +57,7 @@ def compare(
     pairs: str | Iterable[str] = (),
     budget: float = 10.0,
     unset: Iterable[str] = (),
+    threads: int = 0,
 ) -> Comparison:
     """Solves a scene in several pairs of bases and sizes, and says which to take, as ``wavebalance compare`` does.
 
@@ -68,6 +69,8 @@ def compare(
         Pairs such as ``["fourier:fourier", "haar:fourier"]``; all admissible ones of the common bases by default.
     budget:
         Wall time of everything, s, above 0.
+    threads:
+        Pairs solved side by side; 0: one per core.
 
     Raises
     ------
@@ -76,4 +79,4 @@ def compare(
     """
     names = pairs if isinstance(pairs, str) else ",".join(pairs)
     with scene_source(scene, overrides, unset) as source:
-        return Comparison(_core.compare_scene(source, names, float(budget)))
+        return Comparison(_core.compare_scene(source, names, float(budget), threads))

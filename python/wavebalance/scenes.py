@@ -19,6 +19,7 @@ def run(
     *,
     unset: Iterable[str] = (),
     start_from: str | os.PathLike[str] | None = None,
+    threads: int = 0,
 ) -> Record:
     """Solves a scene and returns its record, with the same digits as ``wavebalance run``.
 
@@ -38,6 +39,8 @@ def run(
         Keys that are dropped, as ``"time.trial"``.
     start_from:
         Results of an earlier run, near whose motion the response is sought.
+    threads:
+        Harmonics that are condensed side by side, with the same digits; 0: one per core.
 
     Returns
     -------
@@ -55,7 +58,7 @@ def run(
     """
     with scene_source(scene, overrides, unset, output) as source:
         start = "" if start_from is None else os.fspath(start_from)
-        return Record(_core.run_scene(source, "" if output is None else os.fspath(output), start))
+        return Record(_core.run_scene(source, "" if output is None else os.fspath(output), start, threads))
 
 
 def check(scene: SceneLike, overrides: Overrides = None, *, unset: Iterable[str] = ()) -> str:

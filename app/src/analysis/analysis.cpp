@@ -367,13 +367,19 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
 }  // namespace
 
 Record analyse(const Scene& scene, const Observer& observer) {
-  return analyse(scene, StartMotion{}, observer);
+  return analyse(scene, AnalysisOptions{.observer = observer});
 }
 
 Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer) {
+  return analyse(scene, AnalysisOptions{.start = start, .observer = observer});
+}
+
+Record analyse(const Scene& scene, const AnalysisOptions& how) {
+  const auto& [start, observer, threads] = how;
   require_start_fits(start, scene);
   if (scene.structure.kept_modes >= 0) goes_on(observer, {"reduction of the structure"});
-  const StructureModel model = make_model(scene, observer);
+  StructureModel model = make_model(scene, observer);
+  model.threads = threads;
   ResponseOptions options;
   options.observer = observer;
   options.structure_points = structure_points(scene);

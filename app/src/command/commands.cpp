@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include "command/interrupt_guard.hpp"
 #include "command/next_steps.hpp"
@@ -71,13 +72,16 @@ void report(const RunArguments& arguments, const Scene& scene, const Record& rec
 
 /// Solves with a progress bar, unless `quiet`, until the guard has noted a signal. Ends the program if that
 /// was before anything was solved.
-Record solve(const Scene& scene, const StartMotion& start, const InterruptGuard& guard, bool quiet) {
+Record solve(const Scene& scene, StartMotion start, const InterruptGuard& guard,
+             const RunArguments& arguments) {
   ProgressBar bar;
+  AnalysisOptions options{.start = std::move(start), .threads = arguments.threads};
+  options.observer = [&](const Progress& progress) {
+    if (!arguments.quiet) bar.show(progress);
+    return guard.signal() == 0;
+  };
   try {
-    return analyse(scene, start, [&](const Progress& progress) {
-      if (!quiet) bar.show(progress);
-      return guard.signal() == 0;
-    });
+    return analyse(scene, options);
   } catch (const ReductionCancelled&) {
     bar.finish();
     guard.end_program();
@@ -108,7 +112,7 @@ int run_scene(const RunArguments& arguments) {
   OutputFiles files(arguments.output);
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep ||
                        scene.analysis.type == AnalysisType::amplitude_sweep);
-  const Record record = solve(scene, start, guard, arguments.quiet);
+  const Record record = solve(scene, start, guard, arguments);
   if (record.interrupted && record.sweep.empty()) guard.end_program();
   const RunFiles results = run_files(arguments, scene, record);
   if (!results.no_picture.empty())

@@ -17,6 +17,7 @@ struct RunArguments {
   std::vector<std::string> removed;    ///< "section.key"
   std::filesystem::path start_from;    ///< a motion to start near, see read_start_motion(); empty: none
   double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
+  int threads = 0;                     ///< AnalysisOptions::threads, ComparisonOptions::threads
   bool quiet = false;
   bool report = true;  ///< whether report.html is written
 };

@@ -1,5 +1,6 @@
 #include "command/compare_command.hpp"
 
+#include <cstdint>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -22,6 +24,7 @@ ComparisonOptions options_of(const CompareArguments& arguments) {
   ComparisonOptions options;
   if (!arguments.pairs.empty()) options.pairs = parse_pairs(arguments.pairs);
   options.budget = arguments.budget;
+  options.threads = arguments.run.threads;
   return options;
 }
 
@@ -51,6 +54,7 @@ Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord&
                       const std::vector<ResultFile>& files) {
   Summary summary = record.summary;
   summary.emplace_back("budget_seconds", arguments.budget);
+  summary.emplace_back("threads", std::int64_t{solvers::thread_count(arguments.run.threads)});
   summary.emplace_back("scene", arguments.run.scene.string());
   summary.emplace_back("set", arguments.run.overrides);
   summary.emplace_back("unset", arguments.run.removed);

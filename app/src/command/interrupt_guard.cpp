@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <string_view>
 
 namespace wavebalance::app {
@@ -11,8 +12,10 @@ namespace {
 
 constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t note_first_signal = 0;
-volatile std::sig_atomic_t noted_signal = 0;
+// Read by threads, too.
+std::atomic<int> note_first_signal = 0;
+std::atomic<int> noted_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // as a signal handler needs it
 
 /// Writes in the one way that a signal handler may.
 void say(std::string_view message) {

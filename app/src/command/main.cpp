@@ -2,6 +2,7 @@
 // command.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -67,6 +68,21 @@ void add_scene(CLI::App& command, RunArguments& arguments) {
   add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
 }
 
+void add_threads(CLI::App& command, RunArguments& arguments, const std::string& help) {
+  const auto check = [](const std::string& text) -> std::string {
+    constexpr int most = 1024;
+    int value = -1;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    if (read.ec == std::errc() && read.ptr == end && value >= 0 && value <= most) return "";
+    return "\"" + text + "\": expected a whole number from 0 to " + std::to_string(most) +
+           "; 0: one per core";
+  };
+  command.add_option("--threads", arguments.threads, help + "; one per core without it")
+      ->type_name("N")
+      ->check(CLI::Validator(check, ""));
+}
+
 void add_compare(CLI::App& command, CompareArguments& arguments) {
   add_scene(command, arguments.run);
   command.add_option("--output,-o", arguments.run.output, "folder of the results, made if missing")
@@ -77,6 +93,7 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
                   "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
+  add_threads(command, arguments.run, "pairs that are solved side by side");
   command.add_flag("!--no-report", arguments.run.report, "write no report.html");
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
@@ -164,6 +181,7 @@ int dispatch(int argc, char** argv) {
                  "refuse a scene that is expected to take more; without it, more than the machine has")
       ->type_name("GB")
       ->check(CLI::PositiveNumber);
+  add_threads(run, arguments, "harmonics that are condensed side by side, with the same digits");
   run.add_flag("!--no-report", arguments.report, "write no report.html");
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");

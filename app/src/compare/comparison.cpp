@@ -56,7 +56,9 @@ SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options) {
 class ResponseComparison {
  public:
   ResponseComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
-      : measured_{scene, make_model(scene, observer), {}}, options_(options), observer_(observer) {}
+      : measured_{scene, make_model(scene, observer), {}}, options_(options), observer_(observer) {
+    measured_.model.threads = options.threads;
+  }
 
   Comparison compare() {
     SplitPairs pairs = split_pairs(measured_.scene, options_);
@@ -97,6 +99,7 @@ class ResponseComparison {
     sizes.longest_ratio = 10.0;
     sizes.dominated_ratio = 5.0;
     sizes.construction = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
+    sizes.threads = options_.threads;
     sizes.observer = [this](const solvers::Progress& progress) {
       return goes_on(progress.phase) && seconds_of(start_) < (1.0 - stability_share) * options_.budget;
     };
@@ -150,6 +153,9 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options) {
   check_scene_type(scene);
   if (!(options.budget > 0.0) || !std::isfinite(options.budget))
     throw std::invalid_argument("--budget " + cell_text(options.budget) + ": expected seconds > 0");
+  if (options.threads < 0)
+    throw std::invalid_argument("--threads " + std::to_string(options.threads) +
+                                ": expected at least 1, or 0 for one per core");
   for (const BasisPair& pair : options.pairs) {
     const auto found = admissibility_of(pair, scene);
     if (!found.admissible)

@@ -4,12 +4,15 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
@@ -26,12 +29,13 @@ double relative_error(const Eigen::MatrixXd& values, const Eigen::MatrixXd& refe
   return relative_rms_error(values.reshaped(), reference.reshaped());
 }
 
-/// Times of all series so far.
+/// Times of all series so far. Threads may share it.
 class SolvedSoFar {
  public:
   /// `size` is the power of two that the functions are or are one less than.
   void note(int size, const SolvePoint& point) {
     if (!point.converged) return;
+    const std::lock_guard alone(guard_);
     converged_.push_back(point);
     const auto found = fastest_.try_emplace({size, point.points}, point.seconds).first;
     found->second = std::min(found->second, point.seconds);
@@ -42,6 +46,7 @@ class SolvedSoFar {
   double fastest(int size, int points) const {
     constexpr double growth = 4.0;
     double factor = 1.0;
+    const std::lock_guard alone(guard_);
     for (; size > 0 && points > 0; size /= 2, points /= 2, factor *= growth)
       if (const auto found = fastest_.find({size, points}); found != fastest_.end())
         return factor * found->second;
@@ -52,6 +57,7 @@ class SolvedSoFar {
   double lag(const SolvePoint& point) const {
     if (!point.converged) return std::numeric_limits<double>::infinity();
     double fastest = point.seconds;
+    const std::lock_guard alone(guard_);
     for (const SolvePoint& other : converged_)
       if (other.error <= point.error) fastest = std::min(fastest, other.seconds);
     return point.seconds / fastest;
@@ -59,6 +65,7 @@ class SolvedSoFar {
 
   /// Whether another solve with no larger error was `ratio` times as fast. A failure has an infinite error.
   bool dominates(const SolvePoint& point, double ratio) const {
+    const std::lock_guard alone(guard_);
     if (!point.converged) return !converged_.empty();
     return std::any_of(converged_.begin(), converged_.end(), [&](const SolvePoint& other) {
       return other.error <= point.error && ratio * other.seconds <= point.seconds;
@@ -66,6 +73,7 @@ class SolvedSoFar {
   }
 
  private:
+  mutable std::mutex guard_;
   std::vector<SolvePoint> converged_;
   std::map<std::pair<int, int>, double> fastest_;
 };
@@ -202,6 +210,20 @@ std::vector<SizeSeries*> in_order(std::vector<SizeSeries>& all, const SizeStudyO
   return order;
 }
 
+/// All series of the pairs in the order of the rows.
+std::vector<SizeSeries> make_series(const MeasuredScene& measured, const std::vector<BasisPair>& pairs,
+                                    const SizeStudyOptions& options, SolvedSoFar& solved) {
+  const bool dropped = measured.scene.time.nyquist == NyquistCoefficient::drop;
+  std::vector<SizeSeries> all;
+  for (const BasisPair& pair : pairs)
+    for (const int points : options.points_per_function) {
+      if (!pair.is_fourier() || !dropped || !options.without_equals)
+        all.emplace_back(measured, options, solved, pair, points, 0);
+      if (pair.is_fourier()) all.emplace_back(measured, options, solved, pair, points, -1);
+    }
+  return all;
+}
+
 }  // namespace
 
 Scene discretised(Scene scene, const BasisPair& pair, int functions, int points) {
@@ -223,17 +245,18 @@ double force_error(const solvers::Motion& motion, const solvers::Motion& referen
 
 std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vector<BasisPair>& pairs,
                                    const SizeStudyOptions& options) {
-  const bool dropped = measured.scene.time.nyquist == NyquistCoefficient::drop;
+  SharedObserver observer(options.observer);
+  SizeStudyOptions shared = options;
+  shared.observer = [&observer](const solvers::Progress& progress) { return observer.goes_on(progress); };
+  const auto watch = [&observer] { observer.goes_on({observer.phase()}); };
+  const int threads = solvers::thread_count(options.threads);
   SolvedSoFar solved;
-  std::vector<SizeSeries> all;
-  for (const BasisPair& pair : pairs)
-    for (const int points : options.points_per_function) {
-      if (!pair.is_fourier() || !dropped || !options.without_equals)
-        all.emplace_back(measured, options, solved, pair, points, 0);
-      if (pair.is_fourier()) all.emplace_back(measured, options, solved, pair, points, -1);
-    }
-  for (const int functions : options.functions)
-    for (SizeSeries* series : in_order(all, options)) series->add(functions);
+  std::vector<SizeSeries> all = make_series(measured, pairs, shared, solved);
+  for (const int functions : options.functions) {
+    const std::vector<SizeSeries*> order = in_order(all, options);
+    const auto add = [&](int, Eigen::Index i) { order[static_cast<std::size_t>(i)]->add(functions); };
+    solvers::parallel_for(threads, static_cast<Eigen::Index>(order.size()), add, watch);
+  }
   std::vector<SolvePoint> points;
   for (SizeSeries& series : all)
     points.insert(points.end(), std::make_move_iterator(series.points().begin()),

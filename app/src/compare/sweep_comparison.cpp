@@ -1,17 +1,21 @@
 #include "wavebalance/app/compare/sweep_comparison.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
+#include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -69,24 +73,34 @@ ComparedCurve curve_of(const Scene& scene, const BasisPair& pair, const Sweep& s
   return curve;
 }
 
+/// The curves of one pair over growing sizes, of which one thread at a time adds the next.
+struct CurveChain {
+  BasisPair pair;
+  TimeLimit limit;
+  int largest;            // size
+  int size = first_size;  // of the next curve
+  bool busy = false;
+  std::vector<ComparedCurve> curves = {};
+
+  bool ended() const { return size > largest || !limit.allows(); }
+};
+
 class CurveComparison {
  public:
   CurveComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
       : scene_(scene), model_(make_model(scene, observer)), options_(options), observer_(observer) {
     scene_.analysis.stability = scene_.analysis.branches = false;
+    model_.threads = 1;  // so that the time of a curve is that of its thread
   }
 
   SweepComparison compare() {
-    std::vector<BasisPair> pairs = options_.pairs;
-    if (pairs.empty())
-      for (const BasisPair& pair : common_pairs()) admit(pair, pairs);
-    std::vector<TimeLimit> limits(pairs.size(), TimeLimit(longest_share * options_.budget));
-    for (int size = first_size; size <= last_size && goes_on({}); size *= 2)
-      for (std::size_t i = 0; i < pairs.size() && goes_on({}); ++i)
-        if (limits[i].allows()) {
-          add(pairs[i], size);
-          limits[i].took(found_.curves.back().seconds);
-        }
+    make_chains();
+    const int workers = std::min(solvers::thread_count(options_.threads), static_cast<int>(chains_.size()));
+    solvers::parallel_for(
+        workers, workers, [this](int, Eigen::Index) { follow_chains(); },
+        [this] { goes_on(observer_.phase()); });
+    found_.interrupted = observer_.stopped();
+    gather_curves();
     compare_with_finest();
     found_.wall_seconds = elapsed();
     return std::move(found_);
@@ -99,6 +113,15 @@ class CurveComparison {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
+  void make_chains() {
+    std::vector<BasisPair> pairs = options_.pairs;
+    if (pairs.empty())
+      for (const BasisPair& pair : common_pairs()) admit(pair, pairs);
+    const TimeLimit limit(longest_share * options_.budget);
+    for (const BasisPair& pair : pairs)
+      chains_.push_back({pair, limit, std::min(last_size, options_.largest_functions)});
+  }
+
   void admit(const BasisPair& pair, std::vector<BasisPair>& pairs) {
     const auto admissible = admissibility_of(pair, scene_);
     if (admissible.admissible) return pairs.push_back(pair);
@@ -108,34 +131,68 @@ class CurveComparison {
     found_.inadmissible.push_back(std::move(other));
   }
 
+  /// Until the observer stops it, or time is up. May be called by several threads.
   bool goes_on(std::string_view phase) {
-    if (!found_.interrupted)
-      found_.interrupted = !solvers::goes_on(observer_, {phase,
-                                                         static_cast<int>(found_.curves.size()),
-                                                         SolvePoint::unknown,
-                                                         {},
-                                                         std::min(1.0, elapsed() / options_.budget)});
-    return !found_.interrupted && elapsed() < options_.budget;
+    const double share = std::min(1.0, elapsed() / options_.budget);
+    return observer_.goes_on({phase, finished_, SolvePoint::unknown, {}, share}) &&
+           elapsed() < options_.budget;
   }
 
-  void add(const BasisPair& pair, int size) {
+  /// What a thread does: the smallest size that is to be solved, again and again.
+  void follow_chains() try {
+    while (CurveChain* chain = next_chain()) {
+      ComparedCurve curve = solved_curve(chain->pair, chain->size);
+      ++finished_;
+      const std::lock_guard alone(choosing_);
+      chain->limit.took(curve.seconds);
+      chain->curves.push_back(std::move(curve));
+      chain->size *= 2;
+      chain->busy = false;
+    }
+  } catch (...) {
+    observer_.stop();
+    throw;
+  }
+
+  /// That with the smallest next size which no other thread adds to, the first of several; null: none.
+  CurveChain* next_chain() {
+    if (!goes_on({})) return nullptr;
+    const std::lock_guard alone(choosing_);
+    CurveChain* chosen = nullptr;
+    for (CurveChain& chain : chains_)
+      if (!chain.busy && !chain.ended() && (chosen == nullptr || chain.size < chosen->size)) chosen = &chain;
+    if (chosen != nullptr) chosen->busy = true;
+    return chosen;
+  }
+
+  ComparedCurve solved_curve(const BasisPair& pair, int size) {
     const int functions = pair.is_fourier() ? size - 1 : size;
     const Scene scene = discretised(scene_, pair, functions, size * points_of_scene(scene_));
     const std::string phase = name_of(pair) + ", " + std::to_string(functions) + " functions";
     const double start = processor_seconds();
+    const auto without_points = [&](const char* status) {
+      ComparedCurve curve = curve_of(scene, pair, Sweep{}, processor_seconds() - start);
+      curve.status = status;
+      return curve;
+    };
     try {
       const Sweep sweep =
           frequency_sweep(scene, model_, [&](const solvers::Progress&) { return goes_on(phase); });
-      found_.curves.push_back(curve_of(scene, pair, sweep, processor_seconds() - start));
+      ComparedCurve curve = curve_of(scene, pair, sweep, processor_seconds() - start);
+      if (curve.status == "interrupted" && !observer_.stopped()) curve.status = "out_of_time";
+      return curve;
     } catch (const solvers::SingularSystem&) {
-      found_.curves.push_back(curve_of(scene, pair, Sweep{}, processor_seconds() - start));
-      found_.curves.back().status = "singular";
+      return without_points("singular");
     } catch (const std::invalid_argument&) {
-      found_.curves.push_back(curve_of(scene, pair, Sweep{}, processor_seconds() - start));
-      found_.curves.back().status = "refused";  // as many Fourier functions as points at the middles
+      return without_points("refused");  // as many Fourier functions as points at the middles
     }
-    ComparedCurve& last = found_.curves.back();
-    if (last.status == "interrupted" && !found_.interrupted) last.status = "out_of_time";
+  }
+
+  /// By rising functions, all pairs of each.
+  void gather_curves() {
+    for (std::size_t i = 0; static_cast<int>(found_.curves.size()) < finished_; ++i)
+      for (CurveChain& chain : chains_)
+        if (i < chain.curves.size()) found_.curves.push_back(std::move(chain.curves[i]));
   }
 
   void compare_with_finest() {
@@ -160,7 +217,10 @@ class CurveComparison {
   Scene scene_;
   StructureModel model_;
   const ComparisonOptions& options_;
-  const solvers::Observer& observer_;
+  SharedObserver observer_;
+  std::mutex choosing_;
+  std::vector<CurveChain> chains_;
+  std::atomic<int> finished_ = 0;  // curves
   SweepComparison found_;
 };
 

@@ -237,7 +237,7 @@ solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel&
   Eigen::VectorXcd cosine = Eigen::VectorXcd::Zero(periods + 1);
   cosine[periods] = 1.0;
   solvers::CondensedProblem problem(make_pair(scene.time), model.structure, std::move(cosine));
-  problem.set_threads(0);
+  problem.set_threads(model.threads);
   if (scene.forcing.frequency > 0.0) problem.set_frequency(scene.forcing.frequency / periods);
   return problem;
 }

@@ -130,6 +130,33 @@ TEST(CommandLine, WrongArgumentsAreNamedWithWhatIsProbablyMeantAndWhereToRead) {
             std::string::npos);
 }
 
+TEST(CommandLine, ThreadsThatAreNoneAreNamedWithWhatIsAllowedAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  for (const char* threads : {"-1", "1.5", "two", "", "1025"}) {
+    const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out", "--threads", threads});
+    EXPECT_EQ(outcome.exit_code, 2) << threads;
+    EXPECT_NE(outcome.errors.find("--threads: \"" + std::string(threads) +
+                                  "\": expected a whole number from 0 to 1024; 0: one per core"),
+              std::string::npos)
+        << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  }
+}
+
+TEST(CommandLine, RunsOnSeveralThreadsHaveTheDigitsOfOne) {
+  const TemporaryFolder folder;
+  const auto response = [&](const char* threads) {
+    const Outcome outcome = run(folder, {"run", WAVEBALANCE_SCENES "/matrices/strip_forced.toml", "--output",
+                                         folder / threads, "--threads", threads, "--no-report"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return read_file(folder / threads / "response.csv");
+  };
+  const std::string one = response("1");
+  EXPECT_FALSE(one.empty());
+  for (const char* threads : {"0", "2", "3"}) EXPECT_EQ(response(threads), one) << threads;
+}
+
 TEST(CommandLine, MissingSceneIsAnsweredWithTheCommandThatWritesOne) {
   const TemporaryFolder folder;
   for (const char* command : {"run", "check", "compare"}) {

@@ -90,6 +90,9 @@ TEST(CommandCompare, WrongPairsBudgetsKeysAndAnalysesAreTwoAndNameWhatIsAllowed)
       {{"--pairs", "haar"}, "\"haar\" is no pair; expected TRIAL:WEIGHT"},
       {{"--budget", "0"}, "wavebalance: --budget 0: expected seconds > 0\n"},
       {{"--budget", "soon"}, "--budget"},
+      {{"--threads", "two"}, "--threads: \"two\": expected a whole number from 0 to 1024; 0: one per core"},
+      {{"--threads", "-1"}, "--threads: \"-1\": expected a whole number from 0 to 1024"},
+      {{"--threads", "1025"}, "--threads: \"1025\": expected a whole number from 0 to 1024"},
       {{"--set", "contact.gab=1"}, "unknown key; did you mean contact.gap?"},
       {{"--set", "analysis.type=time_stepping"},
        "analysis.type = \"time_stepping\": pairs of bases are compared"},
@@ -128,6 +131,25 @@ TEST(CommandCompare, InterruptedWritesWhatWasMeasuredSoFar) {
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"status\": \"interrupted\""),
             std::string::npos);
   EXPECT_GT(read_csv(folder / "out" / "comparison.csv").rows(), 1u);
+}
+
+TEST(CommandCompare, OfSweepsOnTwoThreadsInterruptedWritesWhatWasMeasuredSoFar) {
+  const TemporaryFolder folder;
+  Command command(folder,
+                  {"compare", folder.write("case.toml", bar_scene), "--output", folder / "out", "--budget",
+                   "600", "--threads", "2", "--set", "analysis.type=frequency_sweep", "--set",
+                   "analysis.frequency_from=100", "--set", "analysis.frequency_to=110"},
+                  WAVEBALANCE_COMMAND);
+  for (int i = 0; i < 1200 && read_file(folder / "stderr").find(" functions") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  command.send(SIGINT);
+  const Outcome outcome = command.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
+  EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"status\": \"interrupted\""),
+            std::string::npos);
+  const Table table = read_csv(folder / "out" / "comparison.csv");
+  EXPECT_GT(table.where("status", "reached_end").rows(), 1u);
+  EXPECT_GE(table.where("status", "interrupted").rows(), 1u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -176,6 +177,9 @@ TEST(Comparison, RefusesWhatItCannotCompareAndSaysWhatIsAllowed) {
   EXPECT_NE(message(scene_of({"analysis.subharmonic=2"}), brief()).find("analysis.subharmonic = 2"),
             std::string::npos);
   EXPECT_NE(message(scene_of(), brief(0.0)).find("--budget 0: expected seconds > 0"), std::string::npos);
+  ComparisonOptions negative = brief();
+  negative.threads = -1;
+  EXPECT_EQ(message(scene_of(), negative), "--threads -1: expected at least 1, or 0 for one per core");
 }
 
 TEST(Comparison, ThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
@@ -243,12 +247,15 @@ TEST(BasisPairs, AreReadFromTextAndErrorsNameWhatIsWrong) {
   EXPECT_EQ(label_of({"daubechies6", "bspline"}), "DB6:B-spline");
 }
 
+const std::vector<std::string> brief_sweep{"analysis.type=frequency_sweep", "analysis.frequency_from=100",
+                                           "analysis.frequency_to=160", "time.functions=16",
+                                           "time.quadrature_points=64"};
+
 TEST(SweepComparison, LaysCurvesOfSeveralPairsOverTheFinest) {
   ComparisonOptions options = brief(20.0);
   options.largest_functions = 64;
-  std::vector<std::string> sweep{"analysis.type=frequency_sweep", "analysis.frequency_from=100",
-                                 "analysis.frequency_to=160", "time.functions=16",
-                                 "time.quadrature_points=64"};
+  options.threads = 1;  // one curve ends after the other
+  const std::vector<std::string>& sweep = brief_sweep;
   // Time for a few sizes only.
   int most = 0;
   const SweepComparison found = compare_sweeps(scene_of(sweep), options, [&](const Progress& progress) {
@@ -270,6 +277,94 @@ TEST(SweepComparison, LaysCurvesOfSeveralPairsOverTheFinest) {
   EXPECT_NEAR(coarse.peak, finest.peak, 0.1 * finest.peak);
   EXPECT_GE(finest.peak_frequency, 100.0);
   EXPECT_LE(finest.peak_frequency, 160.0);
+}
+
+void expect_same_curve(const ComparedCurve& found, const ComparedCurve& expected) {
+  EXPECT_EQ(found.pair, expected.pair);
+  EXPECT_EQ(found.functions, expected.functions);
+  EXPECT_EQ(found.points, expected.points);
+  EXPECT_EQ(found.status, expected.status);
+  EXPECT_EQ(found.frequency, expected.frequency);
+  EXPECT_EQ(found.displacement, expected.displacement);
+  EXPECT_EQ(found.turning_points, expected.turning_points);
+  EXPECT_EQ(found.distance, expected.distance);
+  EXPECT_GT(found.seconds, 0.0);
+}
+
+TEST(SweepComparison, OnSeveralThreadsHasTheCurvesOfOneToTheLastDigit) {
+  ComparisonOptions options = brief(600.0);
+  options.pairs.push_back({"haar", "fourier"});
+  options.largest_functions = 64;
+  options.threads = 1;
+  const SweepComparison expected = compare_sweeps(scene_of(brief_sweep), options);
+  ASSERT_EQ(expected.curves.size(), 12u);
+  EXPECT_GE(std::count_if(expected.curves.begin(), expected.curves.end(),
+                          [](const ComparedCurve& curve) { return curve.converged(); }),
+            9);
+  for (const int threads : {2, 5, 0}) {
+    options.threads = threads;
+    std::atomic<int> inside{0}, together{0};
+    const SweepComparison found = compare_sweeps(scene_of(brief_sweep), options, [&](const Progress&) {
+      if (++inside > 1) ++together;
+      --inside;
+      return true;
+    });
+    EXPECT_EQ(together, 0) << threads;
+    ASSERT_EQ(found.curves.size(), expected.curves.size()) << threads;
+    for (std::size_t i = 0; i < expected.curves.size(); ++i)
+      expect_same_curve(found.curves[i], expected.curves[i]);
+    EXPECT_EQ(found.finest, expected.finest);
+    EXPECT_EQ(found.status(), "converged");
+  }
+}
+
+TEST(SweepComparison, OnTwoThreadsThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
+  ComparisonOptions options = brief(600.0);
+  options.threads = 2;
+  int calls_after = 0;
+  bool stopped = false;
+  const SweepComparison found = compare_sweeps(scene_of(brief_sweep), options, [&](const Progress& progress) {
+    calls_after += stopped ? 1 : 0;
+    stopped = stopped || progress.step >= 4;
+    return !stopped;
+  });
+  EXPECT_EQ(calls_after, 0);
+  EXPECT_TRUE(found.interrupted);
+  EXPECT_EQ(found.status(), "interrupted");
+  EXPECT_GE(found.curves.size(), 4u);
+  EXPECT_LE(found.curves.size(), 6u);  // those of both threads were under way
+  EXPECT_TRUE(found.curves.front().converged());
+}
+
+TEST(SweepComparison, OnTwoThreadsCarriesAnExceptionOfItsObserverToTheCaller) {
+  ComparisonOptions options = brief(600.0);
+  options.threads = 2;
+  const auto observer = [](const Progress& progress) -> bool {
+    if (progress.step >= 3) throw std::runtime_error("of the observer");
+    return true;
+  };
+  EXPECT_THROW(compare_sweeps(scene_of(brief_sweep), options, observer), std::runtime_error);
+}
+
+TEST(Comparison, OnTwoThreadsHasTheMotionsOfOneToTheLastDigit) {
+  ComparisonOptions options = brief(20.0);
+  options.largest_functions = 64;
+  options.threads = 1;
+  const Comparison expected = compare_responses(scene_of(), options);
+  options.threads = 2;
+  const Comparison found = compare_responses(scene_of(), options);
+  int compared = 0;
+  for (const SolvePoint& one : expected.points)
+    for (const SolvePoint& other : found.points) {
+      const bool same =
+          one.pair == other.pair && one.functions == other.functions && one.points == other.points;
+      if (!same || !one.converged || !other.converged) continue;  // a solve may end for the time it takes
+      EXPECT_EQ(one.error, other.error) << name_of(one.pair) << ' ' << one.functions;
+      EXPECT_EQ(one.force_error, other.force_error) << name_of(one.pair) << ' ' << one.functions;
+      ++compared;
+    }
+  EXPECT_GE(compared, 20);
+  EXPECT_EQ(found.status(), "converged");
 }
 
 TEST(SweepComparison, MeasuresTheLargestDistanceBothWaysInUnitsOfTheWindow) {

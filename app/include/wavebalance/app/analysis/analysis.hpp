@@ -84,12 +84,20 @@ struct Record {
   Figure figure;  ///< without panels when there is nothing to draw
 };
 
+/// Where a solution starts, what watches it, and on how many threads it runs.
+struct AnalysisOptions {
+  /// A motion near which the response or the first point of a sweep is sought, see require_start_fits(); what
+  /// is not found near it is not sought elsewhere. Empty: none.
+  StartMotion start{};
+  Observer observer{};
+  int threads = 0;  ///< that condense several harmonics side by side; 0: one per core. Digits do not change
+};
+
 /// Solves `scene`. A failure to converge is reported in the record. Throws std::invalid_argument or
 /// solvers::InadmissiblePair for scenes that load_scene() would have rejected.
 Record analyse(const Scene& scene, const Observer& observer = {});
-/// The same near a motion, see require_start_fits(): a response, or the first point of a sweep. What is not
-/// found near it is not sought elsewhere.
 Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer = {});
+Record analyse(const Scene& scene, const AnalysisOptions& options);
 
 /// The table of a frequency sweep's record; those of a motion are in contact_motion.hpp.
 Table sweep_table(const solvers::FrequencySweep& curve);

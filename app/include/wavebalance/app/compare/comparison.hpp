@@ -19,6 +19,7 @@ struct ComparisonOptions {
   int largest_functions = 1 << 15;
   std::vector<int> points_per_function = {1, 2, 4, 8};
   std::vector<double> errors = {1e-2, 1e-4, 1e-6};  ///< for which a choice is recommended
+  int threads = 0;                                  ///< that solve pairs side by side; 0: one per core
 };
 
 /// How a pair did in all its sizes.
@@ -52,14 +53,15 @@ struct Comparison {
 };
 
 /// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,
-/// the budget is not positive, or the scene is none to be compared: forced responses and frequency sweeps
-/// over one period of the load are. O(pairs).
+/// the budget is not positive, the threads are negative, or the scene is none to be compared: forced
+/// responses and frequency sweeps over one period of the load are. O(pairs).
 void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and
 /// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. Three tenths
-/// of the budget at most are the reference's. Times are processor seconds of this thread. An observer that
-/// returns false ends it with what was measured so far. Throws as check_comparison().
+/// of the budget at most are the reference's. Times are processor seconds of the thread that solves; digits
+/// do not depend on the threads. The observer is called by one thread at a time, not always this one; when it
+/// returns false the comparison ends with what was measured so far. Throws as check_comparison().
 Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
                              const solvers::Observer& observer = {});
 

@@ -3,8 +3,8 @@
 
 namespace wavebalance::app {
 
-/// Processor seconds that this thread has used. Everything measured here runs in one thread, and other
-/// programs' load then hardly shows.
+/// Processor seconds that this thread has used. What is measured runs in one thread, and load of other
+/// programs and threads then hardly shows.
 double processor_seconds();
 
 struct Repetition {

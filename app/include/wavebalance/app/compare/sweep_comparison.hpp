@@ -13,7 +13,7 @@ struct ComparedCurve {
   int functions = 0, points = 0;  ///< M and N
   std::string
       status;  ///< of the sweep, "reached_end" where it was solved; "out_of_time" if the budget ended it
-  double seconds = SolvePoint::unknown;         ///< processor time, once
+  double seconds = SolvePoint::unknown;         ///< processor time of its thread, once
   std::vector<double> frequency;                ///< Hz, along the curve
   std::vector<double> displacement;             ///< m, the largest over the period and the contacts
   int turning_points = 0;                       ///< at which the curve reverses in frequency
@@ -37,8 +37,9 @@ struct SweepComparison {
 };
 
 /// Follows the scene's frequency response in each pair with 8, 16, ... functions, a pair of Fourier functions
-/// with one less, and the points per function of the scene, until the budget is used. Throws as
-/// check_comparison().
+/// with one less, and the points per function of the scene, to largest_functions or 16384 or until the budget
+/// is used. Pairs are followed side by side, one in each thread; a curve and its digits do not depend on the
+/// others. The observer is called by one thread at a time. Throws as check_comparison().
 SweepComparison compare_sweeps(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer = {});
 

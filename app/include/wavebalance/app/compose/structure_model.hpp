@@ -15,7 +15,7 @@
 namespace wavebalance::app {
 
 /// A scene's structure, composed once: the structure that is solved, and the way back to the whole structure.
-/// Immutable.
+/// Immutable once it is used.
 struct StructureModel {
   /// Reduced if the scene has kept_modes. The load is the force's amplitude.
   solvers::LinearStructure structure;
@@ -29,6 +29,8 @@ struct StructureModel {
   /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are equal.
   Eigen::MatrixXd recovery;
   std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
+  /// Of the condensations of problems that are made of it, as CondensedProblem::set_threads() takes them.
+  int threads = 0;
 
   int contacts() const { return structure.contacts(); }
   int size() const { return structure.size(); }
