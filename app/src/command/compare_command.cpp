@@ -9,12 +9,12 @@
 #include "command/compare_report.hpp"
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
+#include "command/run_record.hpp"
 #include "command/run_report.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
-#include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::app {
@@ -37,16 +37,8 @@ std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& rec
   if (!record.table.empty())
     files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
   files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
-  try {
-    for (const RecordPicture& picture : record.pictures) {
-      files.push_back({picture.stem + ".svg", render(picture.figure, PictureFormat::svg), picture.about});
-      if (report && has_curves(picture.figure))
-        files.push_back({picture.stem + ".figure.js", figure_script(picture.figure, picture.stem),
-                         "the curves of report.html"});
-    }
-  } catch (const PlotError& error) {
-    std::fprintf(stderr, "wavebalance: no picture: %s\n", error.what());
-  }
+  const std::string no_picture = append_pictures(files, record.pictures, report);
+  if (!no_picture.empty()) std::fprintf(stderr, "wavebalance: no picture: %s\n", no_picture.c_str());
   return files;
 }
 
@@ -63,13 +55,6 @@ Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord&
   for (const ResultFile& file : files) list.append_row({file.name, file.about});
   summary.emplace_back("files", std::move(list));
   return summary;
-}
-
-void write_all(OutputFiles& output, const std::vector<ResultFile>& files, const std::string& summary) {
-  output.replace(files_of_record(output.directory() / "summary.json"));
-  for (const ResultFile& file : files) output.add(file.name, file.contents);
-  output.add("summary.json", summary);
-  output.commit();
 }
 
 void say(const CompareArguments& arguments, const ComparisonRecord& record,
@@ -123,7 +108,7 @@ int compare_scene(const CompareArguments& arguments) {
   if (arguments.run.report)
     files.front().contents = comparison_report(arguments, scene, record, summary, files);
   guard.defer();
-  write_all(output, files, json_text(summary));
+  write_run_files(output, {files, json_text(summary), ""});
   say(arguments, record, files);
   if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -29,35 +28,11 @@ std::string command_of(const CompareArguments& arguments) {
   return text + " --output " + shell_word(arguments.run.output.string());
 }
 
-std::string short_text(const Cell& cell) {
-  const auto* number = std::get_if<double>(&cell);
-  if (number == nullptr) return cell_text(cell);
-  return std::isfinite(*number) ? fmt::format("{:.3g}", *number) : "";
-}
-
 /// "1e-2"
 std::string error_text(double error) {
   std::string text = fmt::format("{:.0e}", error);
   const auto zero = text.find("e-0");
   return zero == std::string::npos ? text : text.erase(zero + 2, 1);
-}
-
-/// A sentence from what a picture shows.
-std::string sentence(std::string about) {
-  if (!about.empty()) about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
-  return about + ".";
-}
-
-/// Columns of a table under other names, numbers with three digits.
-std::string columns_html(const Table& table,
-                         const std::vector<std::pair<std::string, std::string>>& columns) {
-  std::vector<std::vector<std::string>> rows(1);
-  for (const auto& [column, name] : columns) rows.front().push_back(name);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    rows.emplace_back();
-    for (const auto& [column, name] : columns) rows.back().push_back(short_text(table.at(row, column)));
-  }
-  return table_html(rows);
 }
 
 /// Two sentences for each error, with the table to paste where it is not that of the error before.
@@ -88,20 +63,6 @@ std::string recommendations(const Summary& summary) {
       {"force_error", "error of the force"},
       {"fourier_time_ratio", "time of Fourier:Fourier over it"}};
   return html + "<h3>Side by side</h3>\n" + columns_html(*table, columns);
-}
-
-std::string pictures(const ComparisonRecord& record, const std::vector<ResultFile>& files) {
-  std::string html;
-  for (const RecordPicture& picture : record.pictures) {
-    if (!holds_file(files, picture.stem + ".svg")) continue;
-    FigureBlock block{picture.stem};
-    block.alternative = picture.about;
-    block.caption = escaped(sentence(picture.about));
-    block.curves = holds_file(files, picture.stem + ".figure.js");
-    html += figure_html(block);
-  }
-  const bool missing = html.empty() && !record.pictures.empty();
-  return missing ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;
 }
 
 std::string pairs(const Summary& summary) {
@@ -170,7 +131,7 @@ std::string comparison_report(const CompareArguments& arguments, const Scene& sc
   page.libraries = {Library::d3};
   page.body =
       "<main>\n<h1>Which basis for this scene?</h1>\n" + section_html("What to take", outcome) +
-      section_html("Pictures", pictures(record, files)) +
+      section_html("Pictures", pictures_html(record.pictures, files)) +
       section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
       section_html("The reference", reference(summary)) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +

@@ -14,6 +14,7 @@
 #include "command/init_command.hpp"
 #include "command/keys_command.hpp"
 #include "command/overlay_command.hpp"
+#include "command/study_command.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -40,6 +41,7 @@ std::string footer() {
          "  wavebalance run case.toml --output results/reference --set analysis.type=time_stepping\n"
          "  wavebalance run case.toml --output results/next --start-from results/case --set forcing.frequency=155\n"
          "  wavebalance compare case.toml --output results/compare     # which basis, how many functions?\n"
+         "  wavebalance study study.toml --output results/study        # the scene over values of its keys\n"
          "  wavebalance run case.toml --output results/rigid --set contact.law=rigid \\\n"
          "    --unset contact.constant --unset contact.exponent\n\n"
          "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
@@ -96,6 +98,20 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
   add_threads(command, arguments.run, "pairs that are solved side by side");
   command.add_flag("!--no-report", arguments.run.report, "write no report.html");
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
+}
+
+void add_study(CLI::App& command, StudyArguments& arguments) {
+  command.add_option("STUDY", arguments.study, "study file (TOML), see app/STUDIES.md")->required();
+  command
+      .add_option("--output,-o", arguments.output,
+                  "folder of the results, made if missing; a study that was begun there goes on")
+      ->required();
+  command
+      .add_option("--threads", arguments.threads,
+                  "runs solved side by side; without it one per core, below mpirun one per process")
+      ->type_name("N");
+  command.add_flag("!--no-report", arguments.report, "write no report.html");
+  command.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
 }
 
 void add_overlay(CLI::App& command, OverlayArguments& arguments) {
@@ -193,6 +209,9 @@ int dispatch(int argc, char** argv) {
   CLI::App& overlay =
       *app.add_subcommand("overlay", "draw responses and modes of one structure over each other");
   add_overlay(overlay, drawing);
+  StudyArguments over;
+  CLI::App& study = *app.add_subcommand("study", "solve a scene over a grid, a list or samples of its keys");
+  add_study(study, over);
   std::vector<std::string> filters;
   bool names = false;
   CLI::App& keys = *app.add_subcommand("keys", "list every key of a scene: meaning, unit, range, default");
@@ -211,6 +230,7 @@ int dispatch(int argc, char** argv) {
   if (init.parsed()) return init_scene(start);
   if (compare.parsed()) return compare_scene(comparison);
   if (overlay.parsed()) return overlay_results(drawing);
+  if (study.parsed()) return solve_study(over);
   return check.parsed() ? check_scene(arguments) : run_scene(arguments);
 }
 

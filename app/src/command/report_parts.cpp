@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 
 #include "wavebalance/app/page/html.hpp"
 
@@ -20,6 +22,12 @@ std::string value_text(const SummaryValue& value) {
   if (const auto* truth = std::get_if<bool>(&value)) return cell_text(*truth);
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   return fmt::format("{} rows", std::get<Table>(value).rows());
+}
+
+std::string short_text(const Cell& cell) {
+  const auto* number = std::get_if<double>(&cell);
+  if (number == nullptr) return cell_text(cell);
+  return std::isfinite(*number) ? fmt::format("{:.3g}", *number) : "";
 }
 
 }  // namespace
@@ -88,6 +96,36 @@ std::string files_list(const std::vector<ResultFile>& files) {
 
 bool holds_file(const std::vector<ResultFile>& files, const std::string& name) {
   return std::any_of(files.begin(), files.end(), [&](const ResultFile& file) { return file.name == name; });
+}
+
+std::string sentence(std::string about) {
+  if (!about.empty()) about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
+  return about + ".";
+}
+
+std::string columns_html(const Table& table,
+                         const std::vector<std::pair<std::string, std::string>>& columns) {
+  std::vector<std::vector<std::string>> rows(1);
+  for (const auto& [column, name] : columns) rows.front().push_back(name);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    rows.emplace_back();
+    for (const auto& [column, name] : columns) rows.back().push_back(short_text(table.at(row, column)));
+  }
+  return table_html(rows);
+}
+
+std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<ResultFile>& files) {
+  std::string html;
+  for (const RecordPicture& picture : pictures) {
+    if (!holds_file(files, picture.stem + ".svg")) continue;
+    FigureBlock block{picture.stem};
+    block.alternative = picture.about;
+    block.caption = escaped(sentence(picture.about));
+    block.curves = holds_file(files, picture.stem + ".figure.js");
+    html += figure_html(block);
+  }
+  const bool missing = html.empty() && !pictures.empty();
+  return missing ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;
 }
 
 }  // namespace wavebalance::app

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command/run_report.hpp"
@@ -29,6 +30,12 @@ std::vector<std::vector<std::string>> text_rows(const Table& table);
 const Table* table_of(const Summary& summary, const std::string& name);
 /// All values of a summary, lists in one cell.
 std::string values_table(const Summary& summary);
+/// Columns of a table under other names, numbers with three digits.
+std::string columns_html(const Table& table, const std::vector<std::pair<std::string, std::string>>& columns);
+/// A sentence from what a picture shows.
+std::string sentence(std::string about);
+/// The pictures whose files there are, with what they show; a sentence if there should be some.
+std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<ResultFile>& files);
 /// Links to summary.json and to the files, each with its sentence.
 std::string files_list(const std::vector<ResultFile>& files);
 /// Whether one of the files has this name.

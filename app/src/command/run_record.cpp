@@ -25,15 +25,7 @@ void append_picture(RunFiles& run, const Record& record, bool report) {
   const std::string stem = !record.sweep.empty()      ? "sweep"
                            : !record.backbone.empty() ? "backbone"
                                                       : "response";
-  try {
-    run.files.push_back({stem + ".svg", render(record.figure, PictureFormat::svg), "the picture"});
-  } catch (const PlotError& error) {
-    run.no_picture = error.what();
-    return;
-  }
-  if (report && has_curves(record.figure))
-    run.files.push_back(
-        {stem + ".figure.js", figure_script(record.figure, stem), "the curves of report.html"});
+  run.no_picture = append_pictures(run.files, {{stem, record.figure, "the picture"}}, report);
 }
 
 /// All files but the summary; with `report` first the report, still without contents.
@@ -79,6 +71,21 @@ RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Reco
     run.files.front().contents = report_text(arguments, scene, record, summary, run.files);
   run.summary = json_text(summary);
   return run;
+}
+
+std::string append_pictures(std::vector<ResultFile>& files, const std::vector<RecordPicture>& pictures,
+                            bool curves) {
+  try {
+    for (const RecordPicture& picture : pictures) {
+      files.push_back({picture.stem + ".svg", render(picture.figure, PictureFormat::svg), picture.about});
+      if (curves && has_curves(picture.figure))
+        files.push_back({picture.stem + ".figure.js", figure_script(picture.figure, picture.stem),
+                         "the curves of report.html"});
+    }
+  } catch (const PlotError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 void write_run_files(OutputFiles& output, const RunFiles& files) {

@@ -19,6 +19,11 @@ struct RunFiles {
 /// The files of a record. The picture takes gnuplot, without which it is left out.
 RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record);
 
+/// Appends pictures as SVG and, with `curves`, the data of those that a page can zoom. Returns why there are
+/// none, if gnuplot was not found; else an empty text.
+std::string append_pictures(std::vector<ResultFile>& files, const std::vector<RecordPicture>& pictures,
+                            bool curves);
+
 /// Writes all files at once, in place of those of an earlier record. The summary is last, so that it exists
 /// only if the others do. Throws IoError.
 void write_run_files(OutputFiles& output, const RunFiles& files);

@@ -2,7 +2,8 @@
 
 namespace wavebalance::app {
 
-const char* const bar_starter = R"(# A bar is clamped at one end, driven at the other below its first resonance, and meets a stop.
+const char* const bar_starter =
+    R"(# A bar is clamped at one end, driven at the other below its first resonance, and meets a stop.
 [structure]
 type = "bar"                  # or "matrices", "blade"
 youngs_modulus = 70e9         # Pa
@@ -22,7 +23,8 @@ frequency = 150.0             # Hz
 tolerance = 1e-4              # the program chooses bases and sizes; or give trial, weight and functions
 )";
 
-const char* const matrices_starter = R"(# A structure of your own as matrices. The two files beside this scene are an example: a steel cantilever of
+const char* const matrices_starter =
+    R"(# A structure of your own as matrices. The two files beside this scene are an example: a steel cantilever of
 # 0.5 m x 20 mm x 5 mm in ten beam elements, rows w1, rotation1, w2, ... from the clamp to the tip. Replace them by
 # yours, without clamped rows and columns. SciPy writes them from sparse matrices M and K:
 #   from scipy.io import mmwrite
@@ -59,7 +61,8 @@ frequency_to = 25.0               # Hz
 motion_at = ["peak"]              # writes the motion of the largest response too
 )";
 
-const char* const blade_starter = R"(# A titanium blade of 91 mm in 8-node hexahedra, driven near its first mode at the leading edge of its tip, whose
+const char* const blade_starter =
+    R"(# A titanium blade of 91 mm in 8-node hexahedra, driven near its first mode at the leading edge of its tip, whose
 # corner nodes touch an elastic casing. Its mesh and material are defaults: wavebalance keys structure structure.type=blade
 [structure]
 type = "blade"

@@ -10,13 +10,6 @@
 
 namespace wavebalance::app {
 
-/// A picture of a record, by the name of its file without extension.
-struct RecordPicture {
-  std::string stem;
-  Figure figure;
-  std::string about;  ///< one sentence
-};
-
 /// The results of a comparison, ready to be written and shown.
 struct ComparisonRecord {
   bool converged = false;

@@ -151,6 +151,13 @@ struct Figure {
   Panel& add_panel(std::string panel_title = "");
 };
 
+/// A picture of a record, by the name of its file without extension.
+struct RecordPicture {
+  std::string stem;
+  Figure figure;
+  std::string about;  ///< one sentence
+};
+
 /// File format of a picture.
 enum class PictureFormat { svg, png };
 

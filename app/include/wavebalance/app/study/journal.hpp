@@ -1,0 +1,45 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <vector>
+
+#include "wavebalance/app/study/study_row.hpp"
+
+namespace wavebalance::app {
+
+/// The rows of a study in DIR/study.journal, a line of JSON each after a first line that says which study it
+/// is. A row is there once append() has returned, also if the process is killed after it; where the machine
+/// loses power, those of the last second may be lost. A line that was cut off is dropped as the file is
+/// opened again.
+class StudyJournal {
+ public:
+  static constexpr const char* file_name = "study.journal";
+
+  /// Opens the journal in `folder`, or begins one; the folder is made if it is missing. Throws IoError if
+  /// another process writes to it, it belongs to another study or another version of the program, or it
+  /// cannot be read or written.
+  StudyJournal(const std::filesystem::path& folder, const Study& study, const StudyRuns& runs);
+  ~StudyJournal();
+  StudyJournal(const StudyJournal&) = delete;
+  StudyJournal& operator=(const StudyJournal&) = delete;
+
+  /// The rows found as it was opened, each run once, in the order of the file. Moved out.
+  std::vector<StudyRow> take_rows() { return std::move(rows_); }
+  /// Throws IoError; the file then ends with the row before.
+  void append(const StudyRow& row);
+
+ private:
+  void read(const std::string& header, std::int64_t runs);
+  void write_line(const std::string& line);
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::int64_t size_ = 0;  // bytes of whole lines
+  std::chrono::steady_clock::time_point flushed_;
+  std::vector<StudyRow> rows_;
+};
+
+/// The runs that have no row yet, in ascending order.
+std::vector<std::int64_t> missing_runs(const std::vector<StudyRow>& rows, std::int64_t runs);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,117 @@
+#include "command/study_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "command/commands.hpp"
+#include "command/interrupt_guard.hpp"
+#include "command/progress_bar.hpp"
+#include "command/run_record.hpp"
+#include "command/study_report.hpp"
+#include "wavebalance/app/files/npz.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/study/journal.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// All files but the summary; with `report` first the report, still without contents.
+std::vector<ResultFile> study_files(const StudyArguments& arguments, const Study& study,
+                                    const StudyRecord& record) {
+  std::vector<ResultFile> files;
+  if (arguments.report)
+    files.push_back({"report.html", "", "what came out of the runs, to read in a browser"});
+  files.push_back({"study.csv", csv_text(record.table), "a row per run"});
+  files.push_back({"study.npz", npz_text(record.table), "the same columns for numpy.load()"});
+  files.push_back({"scene.toml", study.scene_text, "the scene of all runs, before their changes"});
+  const std::string no_picture = append_pictures(files, record.pictures, arguments.report);
+  if (!no_picture.empty()) std::fprintf(stderr, "wavebalance: no picture: %s\n", no_picture.c_str());
+  return files;
+}
+
+void write_study(OutputFiles& output, const StudyArguments& arguments, const Study& study,
+                 const StudyRecord& record, std::vector<ResultFile> files) {
+  Summary summary = record.summary;
+  summary.emplace_back("study", study.name);
+  summary.emplace_back("scene", study.scene.string());
+  summary.emplace_back("version", std::string(version()));
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
+  if (arguments.report) files.front().contents = study_report(arguments, study, record, summary, files);
+  write_run_files(output, {std::move(files), json_text(summary), ""});
+}
+
+void say_outcome(const StudyArguments& arguments, const StudyRecord& record, const StudyOutcome& outcome) {
+  if (!arguments.quiet) {
+    std::fputs(study_outcome(record).c_str(), stdout);
+    std::printf("written to %s: study.csv, study.npz, summary.json%s\n", arguments.output.c_str(),
+                arguments.report ? ", report.html" : "");
+  }
+  for (const std::string& warning : record.warnings)
+    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  if (outcome.lost > 0)
+    std::fprintf(stderr, "wavebalance: warning: %d of the processes fell silent; others solved their runs\n",
+                 outcome.lost);
+  if (outcome.stopped) std::fputs("wavebalance: interrupted; the same command goes on from here\n", stderr);
+}
+
+/// The part of the process that writes.
+int lead_study(const StudyArguments& arguments, const Study& study, const StudyRuns& runs,
+               Messenger* messenger) {
+  OutputFiles output(arguments.output);
+  StudyJournal journal(arguments.output, study, runs);
+  std::vector<StudyRow> rows = journal.take_rows();
+  const std::vector<std::int64_t> todo = missing_runs(rows, runs.size());
+  if (!rows.empty() && !arguments.quiet)
+    std::fprintf(stderr, "wavebalance: %zu of %lld runs are there already\n", rows.size(),
+                 static_cast<long long>(runs.size()));
+  InterruptGuard guard(true);
+  ProgressBar bar;
+  StudyOptions options;
+  options.threads = arguments.threads;
+  options.messenger = messenger;
+  const StudyOutcome outcome = run_study(
+      study, runs, todo, options,
+      [&](const StudyRow& row) {
+        journal.append(row);
+        rows.push_back(row);
+      },
+      [&](const solvers::Progress& progress) {
+        if (!arguments.quiet) bar.show(progress);
+        return guard.signal() == 0;
+      });
+  bar.finish();
+  const StudyRecord record = study_record(study, runs, std::move(rows), outcome);
+  guard.defer();
+  write_study(output, arguments, study, record, study_files(arguments, study, record));
+  say_outcome(arguments, record, outcome);
+  if (outcome.stopped) return interrupted + guard.signal();
+  return record.converged ? solved : not_converged;
+}
+
+}  // namespace
+
+int solve_study(const StudyArguments& arguments) {
+  if (arguments.output.empty())
+    throw std::invalid_argument(
+        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  if (arguments.threads < 0)
+    throw std::invalid_argument(
+        fmt::format("--threads {}: expected at least 1, or 0 for one per core", arguments.threads));
+  const Study study = load_study(arguments.study);
+  const StudyRuns runs(study);
+  check_study(study, runs);
+  const std::unique_ptr<Messenger> messenger = launched_messenger();
+  if (!messenger || messenger->rank() == 0) return lead_study(arguments, study, runs, messenger.get());
+  StudyOptions options;
+  options.threads = arguments.threads;
+  serve_study(study, runs, *messenger, options);
+  return solved;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,124 @@
+#include "command/study_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "command/report_parts.hpp"
+#include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/page/html.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::size_t most_failures = 20;
+
+std::string command_of_study(const StudyArguments& arguments) {
+  return "wavebalance study " + shell_word(arguments.study.string()) + " --output " +
+         shell_word(arguments.output.string());
+}
+
+/// The command that solves the run of a row alone.
+std::string command_of_row(const Study& study, const Table& table, std::size_t row) {
+  std::string text = "wavebalance run " + shell_word(study.scene.string());
+  for (const std::string& one : study.unset) text += " --unset " + shell_word(one);
+  for (const std::string& one : study.set) text += " --set " + shell_word(one);
+  for (const StudyParameter& one : study.parameters)
+    text += " --set " + shell_word(one.key + "=" + cell_text(table.at(row, one.key)));
+  return text + " --output run" + cell_text(table.at(row, "run"));
+}
+
+std::vector<std::size_t> failures_of(const Table& table) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.rows() && rows.size() < most_failures; ++i)
+    if (!std::get<bool>(table.at(i, "converged"))) rows.push_back(i);
+  return rows;
+}
+
+std::string failures_html(const Study& study, const StudyRecord& record) {
+  const std::vector<std::size_t> failures = failures_of(record.table);
+  if (failures.empty()) return "";
+  std::vector<std::vector<std::string>> rows{{"run"}};
+  for (const StudyParameter& one : study.parameters) rows.front().push_back(one.key);
+  rows.front().insert(rows.front().end(), {"status", "message"});
+  for (const std::size_t i : failures) {
+    rows.push_back({cell_text(record.table.at(i, "run"))});
+    for (const StudyParameter& one : study.parameters)
+      rows.back().push_back(cell_text(record.table.at(i, one.key)));
+    for (const char* name : {"status", "message"}) rows.back().push_back(cell_text(record.table.at(i, name)));
+  }
+  const std::string which =
+      failures.size() == most_failures
+          ? fmt::format("<p>The first {} are shown; study.csv holds all.</p>\n", most_failures)
+          : "";
+  return which + table_html(rows) + "<p>This command solves the first of them alone:</p>\n" +
+         code_html(command_of_row(study, record.table, failures.front()));
+}
+
+/// Numbers with four digits.
+std::string quantiles_html(const Summary& summary) {
+  const Table* table = table_of(summary, "quantiles");
+  if (table == nullptr) return "";
+  std::vector<std::vector<std::string>> rows{table->columns()};
+  for (std::size_t i = 0; i < table->rows(); ++i) {
+    rows.emplace_back();
+    for (const Cell& cell : table->row(i)) {
+      const auto* number = std::get_if<double>(&cell);
+      rows.back().push_back(number == nullptr ? cell_text(cell) : fmt::format("{:.4g}", *number));
+    }
+  }
+  return "<p>Of the runs that converged; q05 is the value that 5 % of them do not exceed.</p>\n" +
+         table_html(rows);
+}
+
+std::string asked(const StudyArguments& arguments, const Study& study) {
+  std::string parameters;
+  for (const StudyParameter& one : study.parameters)
+    parameters += one.is_interval() ? fmt::format("{} from {} to {}{}\n", one.key, one.from, one.to,
+                                                  one.logarithmic ? ", logarithmic" : "")
+                                    : fmt::format("{} of {} values\n", one.key, one.values.size());
+  return "<p>The command, which goes on where it stopped:</p>\n" + code_html(command_of_study(arguments)) +
+         fmt::format("<p>The parameters ({}):</p>\n", name_of(study.sampling)) + code_html(parameters) +
+         folded("The scene", code_html(study.scene_text));
+}
+
+}  // namespace
+
+std::string study_outcome(const StudyRecord& record) {
+  const Summary& summary = record.summary;
+  const auto value = [&](const char* wanted) {
+    for (const auto& [name, one] : summary)
+      if (const auto* count = std::get_if<std::int64_t>(&one); count != nullptr && name == wanted)
+        return *count;
+    return std::int64_t{0};
+  };
+  std::string text = fmt::format("{} of {} runs have ended, and {} of them converged.\n", value("runs_ended"),
+                                 value("runs"), value("runs_converged"));
+  const Table* statuses = table_of(summary, "statuses");
+  for (std::size_t i = 0; statuses != nullptr && i < statuses->rows(); ++i)
+    text +=
+        fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
+  return text;
+}
+
+std::string study_report(const StudyArguments& arguments, const Study& study, const StudyRecord& record,
+                         const Summary& summary, const std::vector<ResultFile>& files) {
+  PageParts page;
+  page.title = "Study, Wavebalance";
+  page.assets = "";
+  page.libraries = {Library::d3};
+  page.body =
+      "<main>\n<h1>A scene over its parameters</h1>\n" +
+      section_html("What came out", code_html(study_outcome(record))) +
+      section_html("Pictures", pictures_html(record.pictures, files)) +
+      section_html("Quantiles", quantiles_html(summary)) +
+      section_html("Runs that did not converge", failures_html(study, record)) +
+      section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
+      section_html("What was asked", asked(arguments, study)) +
+      section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
+      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
+  return page_html(page);
+}
+
+}  // namespace wavebalance::app

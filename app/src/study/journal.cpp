@@ -1,0 +1,131 @@
+#include "wavebalance/app/study/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "wavebalance/app/files/output.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string header_of(const Study& study, const StudyRuns& runs) {
+  return nlohmann::ordered_json{{"wavebalance_study", std::string(version())},
+                                {"runs", runs.size()},
+                                {"identity", study_identity(study)}}
+      .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+int open_locked(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw IoError(file, std::string("cannot be opened: ") + std::strerror(errno));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  const bool in_use = errno == EWOULDBLOCK;
+  const std::string reason = in_use ? "another study writes to this folder now"
+                                    : std::string("cannot be locked: ") + std::strerror(errno);
+  ::close(descriptor);
+  throw IoError(file, reason);
+}
+
+std::string difference_text(const std::string& found, const std::string& expected) {
+  const auto one = nlohmann::json::parse(found, nullptr, false);
+  const auto other = nlohmann::json::parse(expected);
+  if (!one.is_object() || !one.contains("wavebalance_study")) return "is no journal of a study";
+  if (one["wavebalance_study"] != other["wavebalance_study"])
+    return "was written by version " + one["wavebalance_study"].dump() +
+           "; name another folder, or remove the file to begin anew";
+  return "belongs to another study or scene; name another folder, or remove the file to begin anew";
+}
+
+}  // namespace
+
+StudyJournal::StudyJournal(const fs::path& folder, const Study& study, const StudyRuns& runs)
+    : file_(folder / file_name), flushed_(std::chrono::steady_clock::now()) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw IoError(folder, "cannot be created: " + error.message());
+  descriptor_ = open_locked(file_);
+  try {
+    const std::string header = header_of(study, runs);
+    read(header, runs.size());
+    if (size_ == 0) write_line(header);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+StudyJournal::~StudyJournal() {
+  ::fdatasync(descriptor_);
+  ::close(descriptor_);
+}
+
+void StudyJournal::read(const std::string& header, std::int64_t runs) {
+  const std::string text = read_file(file_);
+  std::vector<bool> seen(static_cast<std::size_t>(runs));
+  std::size_t begin = 0;
+  int line_number = 0;
+  for (std::size_t end = text.find('\n'); end != std::string::npos;
+       begin = end + 1, end = text.find('\n', begin)) {
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    if (++line_number == 1) {
+      if (line != header) throw IoError(file_, difference_text(std::string(line), header));
+      continue;
+    }
+    try {
+      StudyRow row = parse_row(line);
+      if (row.run < 0 || row.run >= runs) throw std::invalid_argument("its run is not one of the study");
+      const auto index = static_cast<std::size_t>(row.run);
+      if (!seen[index]) rows_.push_back(std::move(row));
+      seen[index] = true;
+    } catch (const std::invalid_argument& error) {
+      throw IoError(file_, "line " + std::to_string(line_number) + ": " + error.what());
+    }
+  }
+  size_ = static_cast<std::int64_t>(begin);
+  if (begin < text.size() && ::ftruncate(descriptor_, size_) != 0)
+    throw IoError(file_, std::string("cannot be shortened: ") + std::strerror(errno));
+}
+
+void StudyJournal::write_line(const std::string& line) {
+  const std::string text = line + "\n";
+  for (std::string_view rest = text; !rest.empty();) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const std::string reason = std::strerror(errno);
+      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, size_);
+      throw IoError(file_, "cannot be written: " + reason);
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  size_ += static_cast<std::int64_t>(text.size());
+}
+
+void StudyJournal::append(const StudyRow& row) {
+  write_line(json_line(row));
+  const auto now = std::chrono::steady_clock::now();
+  if (now - flushed_ < std::chrono::seconds(1)) return;
+  ::fdatasync(descriptor_);
+  flushed_ = now;
+}
+
+std::vector<std::int64_t> missing_runs(const std::vector<StudyRow>& rows, std::int64_t runs) {
+  std::vector<bool> there(static_cast<std::size_t>(runs));
+  for (const StudyRow& row : rows) there[static_cast<std::size_t>(row.run)] = true;
+  std::vector<std::int64_t> missing;
+  for (std::int64_t run = 0; run < runs; ++run)
+    if (!there[static_cast<std::size_t>(run)]) missing.push_back(run);
+  return missing;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,277 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "study/quantile.hpp"
+#include "wavebalance/app/study/study_record.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_curves = 8, most_scatters = 5;
+
+/// A column as pictures show it: "max_displacement_m" as "max displacement (mm)".
+struct Shown {
+  std::string label;
+  double factor = 1.0;
+};
+
+Shown shown_as(const std::string& column) {
+  constexpr std::array<std::tuple<std::string_view, std::string_view, double>, 4> units{
+      {{"_m", "mm", 1e3}, {"_N", "N", 1.0}, {"_Hz", "Hz", 1.0}, {"_J", "J", 1.0}}};
+  for (const auto& [suffix, unit, factor] : units) {
+    if (!column.ends_with(suffix)) continue;
+    std::string words = column.substr(0, column.size() - suffix.size());
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return {fmt::format("{} ({})", words, unit), factor};
+  }
+  return {plain(column), 1.0};
+}
+
+double number_of(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*count);
+  return no_number;
+}
+
+/// The quantity in rows that converged, NaN in others.
+std::vector<double> drawn_values(const Table& table, const std::string& quantity) {
+  const double factor = shown_as(quantity).factor;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    values.push_back(std::get<bool>(table.at(i, "converged")) ? factor * number_of(table.at(i, quantity))
+                                                              : no_number);
+  return values;
+}
+
+/// A parameter that varies: its numbers in all rows, and its distinct ones in order.
+struct Varying {
+  std::string key;
+  bool numeric = true;
+  bool logarithmic = false;
+  std::vector<double> numbers;
+  std::vector<double> distinct;
+};
+
+std::vector<Varying> varying_parameters(const Study& study, const Table& table) {
+  std::vector<Varying> found;
+  for (const StudyParameter& parameter : study.parameters) {
+    Varying one{parameter.key, true, parameter.logarithmic, {}, {}};
+    std::set<std::string> texts;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      const Cell& cell = table.at(i, parameter.key);
+      one.numbers.push_back(number_of(cell));
+      one.numeric = one.numeric && std::isfinite(one.numbers.back());
+      texts.insert(cell_text(cell));
+    }
+    if (texts.size() < 2) continue;
+    one.distinct = one.numbers;
+    std::sort(one.distinct.begin(), one.distinct.end());
+    one.distinct.erase(std::unique(one.distinct.begin(), one.distinct.end()), one.distinct.end());
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
+bool is_uniform(const std::vector<double>& values) {
+  if (values.size() < 2) return false;
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  constexpr double tolerance = 1e-6;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (std::abs(values[i] - values[i - 1] - step) > tolerance * std::abs(step)) return false;
+  return true;
+}
+
+std::vector<double> in_decades(std::vector<double> values) {
+  for (double& one : values) one = std::log10(one);
+  return values;
+}
+
+/// An axis of a map: the parameter's values, or their decadic logarithms where only those are uniform.
+struct MapAxis {
+  std::vector<double> values;
+  std::string label;
+};
+
+MapAxis map_axis(const Varying& one) {
+  if (is_uniform(one.distinct)) return {one.distinct, plain(one.key)};
+  return {in_decades(one.distinct), "log_{10} " + plain(one.key)};
+}
+
+/// Half a step beyond its first and last value.
+Axis axis_of_map(const MapAxis& axis) {
+  const double half = 0.5 * (axis.values[1] - axis.values[0]);
+  Axis result;
+  result.label = axis.label;
+  result.lower = axis.values.front() - half;
+  result.upper = axis.values.back() + half;
+  return result;
+}
+
+bool draws_map(const Study& study, const std::vector<Varying>& varying) {
+  return study.sampling == Sampling::grid && varying.size() == 2 &&
+         std::all_of(varying.begin(), varying.end(), [](const Varying& one) {
+           return one.numeric && (is_uniform(one.distinct) ||
+                                  (one.distinct.front() > 0.0 && is_uniform(in_decades(one.distinct))));
+         });
+}
+
+std::size_t place_in(const std::vector<double>& ordered, double value) {
+  return static_cast<std::size_t>(std::lower_bound(ordered.begin(), ordered.end(), value) - ordered.begin());
+}
+
+void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
+             const std::string& quantity) {
+  const Varying &x = varying[0], &y = varying[1];
+  HeatMap map;
+  const MapAxis across = map_axis(x), up = map_axis(y);
+  map.x = across.values;
+  map.y = up.values;
+  map.values.assign(map.x.size() * map.y.size(), no_number);
+  double least = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    map.values[place_in(y.distinct, y.numbers[i]) * map.x.size() + place_in(x.distinct, x.numbers[i])] =
+        values[i];
+    least = std::fmin(least, values[i]);
+    largest = std::fmax(largest, std::abs(values[i]));
+  }
+  if (!(largest > 0.0)) return;
+  map.largest = largest;
+  map.from_zero = least >= 0.0;
+  map.label = shown_as(quantity).label;
+  Panel& panel = figure.add_panel();
+  panel.x = axis_of_map(across);
+  panel.y = axis_of_map(up);
+  panel.heat_map = std::move(map);
+}
+
+/// Over one parameter, what the other ones make of each of its values.
+void add_quantile_curves(Panel& panel, const Varying& x, const std::vector<double>& values) {
+  std::map<double, std::vector<double>> columns;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isfinite(values[i])) columns[x.numbers[i]].push_back(values[i]);
+  for (auto& [at, column] : columns) std::sort(column.begin(), column.end());
+  for (const double share : {0.05, 0.5, 0.95}) {
+    Series series(fmt::format("{:g} % of the runs are below", 100 * share), std::vector<double>(),
+                  std::vector<double>());
+    for (const auto& [at, column] : columns) {
+      series.x.push_back(at);
+      series.y.push_back(quantile_of(column, share));
+    }
+    panel.add(std::move(series));
+  }
+}
+
+/// What all parameters but that of the abscissa are in a row.
+std::string others_text(const Study& study, const Table& table, std::size_t row, const std::string& abscissa,
+                        const std::set<std::string>& shown) {
+  std::string text;
+  for (const StudyParameter& one : study.parameters)
+    if (one.key != abscissa && shown.contains(one.key))
+      text += (text.empty() ? "" : ", ") + one.key + " = " + cell_text(table.at(row, one.key));
+  return text;
+}
+
+void add_curves(Figure& figure, const Study& study, const Table& table, const std::vector<Varying>& varying,
+                const std::vector<double>& values, const std::string& quantity) {
+  const auto most = [](const Varying& a, const Varying& b) {
+    return (a.numeric ? a.distinct.size() : 0) < (b.numeric ? b.distinct.size() : 0);
+  };
+  const Varying& x = *std::max_element(varying.begin(), varying.end(), most);
+  if (!x.numeric) return;
+  Panel& panel = figure.add_panel();
+  panel.x.label = plain(x.key);
+  panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
+  panel.y.label = shown_as(quantity).label;
+  panel.legend = varying.size() > 1 ? Legend::below_panel : Legend::none;
+  std::set<std::string> shown;
+  for (const Varying& one : varying) shown.insert(one.key);
+  std::map<std::string, std::map<double, double>> curves;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    curves[others_text(study, table, i, x.key, shown)][x.numbers[i]] = values[i];
+  if (curves.size() > most_curves) return add_quantile_curves(panel, x, values);
+  constexpr int legend_line = 24;  // pixels
+  if (panel.legend == Legend::below_panel)
+    figure.panel_height += legend_line * static_cast<int>(curves.size());
+  for (const auto& [text, curve] : curves) {
+    Series series(plain(text), std::vector<double>(), std::vector<double>(), SeriesStyle::line_points);
+    for (const auto& [at, value] : curve) {
+      series.x.push_back(at);
+      series.y.push_back(value);
+    }
+    panel.add(std::move(series));
+  }
+}
+
+void add_distribution(Figure& figure, std::vector<double> values, const std::string& quantity) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.size() < 2) return;
+  std::sort(values.begin(), values.end());
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    shares.push_back(100.0 * static_cast<double>(i + 1) / static_cast<double>(values.size()));
+  Panel& panel = figure.add_panel("Distribution");
+  panel.x.label = shown_as(quantity).label;
+  panel.y.label = "Runs with at most this value (%)";
+  panel.legend = Legend::none;
+  panel.add({"", values, shares, SeriesStyle::steps});
+}
+
+void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
+                  const std::string& quantity) {
+  constexpr std::size_t most_points = 4000;
+  const std::size_t step = values.size() / most_points + 1;
+  std::size_t drawn = 0;
+  for (const Varying& one : varying) {
+    if (!one.numeric || drawn++ == most_scatters) continue;
+    Series series("", std::vector<double>(), std::vector<double>(), SeriesStyle::points);
+    for (std::size_t i = 0; i < values.size(); i += step) {
+      series.x.push_back(one.numbers[i]);
+      series.y.push_back(values[i]);
+    }
+    series.marker = 1;
+    Panel& panel = figure.add_panel("Over " + plain(one.key));
+    panel.x.label = plain(one.key);
+    panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
+    panel.y.label = shown_as(quantity).label;
+    panel.legend = Legend::none;
+    panel.add(std::move(series));
+  }
+}
+
+}  // namespace
+
+Figure study_figure(const Study& study, const StudyRuns& runs, const Table& table,
+                    const std::string& quantity) {
+  Figure figure;
+  figure.panel_width = 640;
+  figure.panel_height = 420;
+  if (quantity.empty()) return figure;
+  const std::vector<double> values = drawn_values(table, quantity);
+  const std::vector<Varying> varying = varying_parameters(study, table);
+  if (varying.empty() ||
+      std::none_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+    return figure;
+  figure.title = fmt::format("{} runs", runs.size());
+  if (draws_map(study, varying)) {
+    add_map(figure, varying, values, quantity);
+  } else if (study.sampling == Sampling::grid) {
+    add_curves(figure, study, table, varying, values, quantity);
+  } else {
+    add_distribution(figure, values, quantity);
+    add_scatters(figure, varying, values, quantity);
+    figure.columns = 2;
+  }
+  return figure;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,171 @@
+#include "wavebalance/app/study/study_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "study/quantile.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+
+/// A name of the summaries' values, and whether a row holds text for it.
+struct ValueColumn {
+  std::string name;
+  bool text = false;
+};
+
+std::vector<ValueColumn> value_columns(const std::vector<StudyRow>& rows) {
+  std::vector<ValueColumn> columns;
+  std::map<std::string, std::size_t> places;
+  for (const StudyRow& row : rows)
+    for (const auto& [name, value] : row.values) {
+      const auto place = places.try_emplace(name, columns.size());
+      if (place.second) columns.push_back({name, false});
+      if (std::holds_alternative<std::string>(value)) columns[place.first->second].text = true;
+    }
+  return columns;
+}
+
+Cell cell_of(const SummaryValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
+  return std::get<std::string>(value);
+}
+
+Cell found_cell(const StudyRow& row, const ValueColumn& column) {
+  for (const auto& [name, value] : row.values)
+    if (name == column.name) return cell_of(value);
+  return column.text ? Cell(std::string()) : Cell(not_there);
+}
+
+/// The finite numbers of a column in the rows that converged, in order; empty if it holds text.
+std::vector<double> ordered_values(const Table& table, std::size_t column) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const Cell& cell = table.row(i)[column];
+    if (std::holds_alternative<std::string>(cell)) return {};
+    if (!std::get<bool>(table.at(i, "converged"))) continue;
+    const double value = std::visit(
+        [](const auto& one) {
+          if constexpr (std::is_arithmetic_v<std::decay_t<decltype(one)>>) return static_cast<double>(one);
+          return not_there;
+        },
+        cell);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+void append_outcome(Summary& summary, const StudyOutcome& outcome, const Table& table) {
+  const std::int64_t solved = outcome.solved;
+  summary.emplace_back("workers", std::int64_t{outcome.workers});
+  summary.emplace_back("processes_lost", std::int64_t{outcome.lost});
+  summary.emplace_back("runs_solved_now", solved);
+  summary.emplace_back("wall_seconds", outcome.wall_seconds);
+  const std::vector<double> seconds = table.empty() ? std::vector<double>() : table.numbers("seconds");
+  summary.emplace_back("seconds_of_all_runs", std::accumulate(seconds.begin(), seconds.end(), 0.0));
+  summary.emplace_back("runs_per_second",
+                       outcome.wall_seconds > 0.0 ? double(solved) / outcome.wall_seconds : not_there);
+}
+
+std::string status_of(const StudyRecord& record) {
+  return record.converged ? "converged" : record.complete ? "not_converged" : "interrupted";
+}
+
+}  // namespace
+
+Table study_table(const Study& study, const StudyRuns& runs, const std::vector<StudyRow>& rows) {
+  const std::vector<ValueColumn> values = value_columns(rows);
+  std::vector<std::string> names{"run"};
+  for (const StudyParameter& one : study.parameters) names.push_back(one.key);
+  for (const char* name : {"status", "converged", "seconds"}) names.emplace_back(name);
+  for (const ValueColumn& one : values) names.push_back(one.name);
+  names.emplace_back("message");
+  Table table(names);
+  for (const StudyRow& row : rows) {
+    std::vector<Cell> cells{row.run + 1};
+    for (std::size_t i = 0; i < runs.parameters(); ++i) cells.push_back(runs.cell(row.run, i));
+    cells.insert(cells.end(), {row.status, row.converged, row.seconds});
+    for (const ValueColumn& one : values) cells.push_back(found_cell(row, one));
+    cells.emplace_back(row.message);
+    table.append_row(std::move(cells));
+  }
+  return table;
+}
+
+Table quantiles_table(const Study& study, const Table& table) {
+  Table quantiles({"quantity", "runs", "mean", "min", "q05", "q25", "median", "q75", "q95", "max"});
+  for (std::size_t j = study.parameters.size() + 4; j + 1 < table.columns().size(); ++j) {
+    const std::vector<double> values = ordered_values(table, j);
+    if (values.empty() || values.front() == values.back()) continue;
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+    std::vector<Cell> row{table.columns()[j], static_cast<std::int64_t>(values.size()), mean, values.front()};
+    for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95}) row.emplace_back(quantile_of(values, share));
+    row.emplace_back(values.back());
+    quantiles.append_row(std::move(row));
+  }
+  return quantiles;
+}
+
+Table statuses_table(const Table& table) {
+  std::map<std::string, std::int64_t> counts;
+  for (std::size_t i = 0; i < table.rows(); ++i) ++counts[std::get<std::string>(table.at(i, "status"))];
+  std::vector<std::pair<std::string, std::int64_t>> ordered(counts.begin(), counts.end());
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  Table statuses({"status", "runs"});
+  for (const auto& [status, count] : ordered) statuses.append_row({status, count});
+  return statuses;
+}
+
+std::string drawn_quantity(const Study& study, const Table& table) {
+  if (table.empty()) return "";
+  if (table.has_column(study.quantity)) return study.quantity;
+  if (table.has_column("max_displacement_m")) return "max_displacement_m";
+  for (std::size_t j = study.parameters.size() + 4; j + 1 < table.columns().size(); ++j)
+    if (!ordered_values(table, j).empty()) return table.columns()[j];
+  return "";
+}
+
+StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<StudyRow> rows,
+                         const StudyOutcome& outcome) {
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.run < b.run; });
+  StudyRecord record;
+  record.table = study_table(study, runs, rows);
+  record.complete = std::int64_t(rows.size()) == runs.size();
+  const auto converged =
+      std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.converged; });
+  record.converged = record.complete && converged == std::int64_t(rows.size());
+  record.status = status_of(record);
+  record.summary = {{"converged", record.converged},
+                    {"status", record.status},
+                    {"runs", runs.size()},
+                    {"runs_ended", static_cast<std::int64_t>(rows.size())},
+                    {"runs_converged", static_cast<std::int64_t>(converged)},
+                    {"sampling", name_of(study.sampling)}};
+  append_outcome(record.summary, outcome, record.table);
+  const std::string quantity = drawn_quantity(study, record.table);
+  if (!study.quantity.empty() && quantity != study.quantity)
+    record.warnings.push_back(fmt::format("quantity = \"{}\": no run has such a value; pictures show {}",
+                                          study.quantity, quantity));
+  record.summary.emplace_back("warnings", record.warnings);
+  record.summary.emplace_back("quantity", quantity);
+  record.summary.emplace_back("statuses", statuses_table(record.table));
+  record.summary.emplace_back("quantiles", quantiles_table(study, record.table));
+  Figure figure = study_figure(study, runs, record.table, quantity);
+  if (!figure.panels.empty())
+    record.pictures.push_back({"study", std::move(figure), quantity + " over the parameters"});
+  return record;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,51 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "wavebalance/app/study/study_row.hpp"
+
+namespace wavebalance::app {
+
+/// Threads that solve the runs of a study given to them. All members may be called by one thread, which is
+/// none of them.
+class StudyWorkers {
+ public:
+  /// `study` and `runs` must outlive the object.
+  StudyWorkers(const Study& study, const StudyRuns& runs, int threads);
+  /// Stops the runs under way and waits for their threads.
+  ~StudyWorkers();
+  StudyWorkers(const StudyWorkers&) = delete;
+  StudyWorkers& operator=(const StudyWorkers&) = delete;
+
+  void add(std::int64_t run);
+  /// Runs added whose rows finished() has not returned.
+  std::size_t pending() const { return pending_; }
+  int threads() const { return static_cast<int>(threads_.size()); }
+  /// The rows since the last call, after `wait` at most if there are none yet.
+  std::vector<StudyRow> finished(std::chrono::milliseconds wait);
+
+ private:
+  void work();
+
+  const Study& study_;
+  const StudyRuns& runs_;
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;
+  std::condition_variable given_, done_;
+  std::deque<std::int64_t> queue_;
+  std::vector<StudyRow> rows_;
+  std::size_t pending_ = 0;
+  std::vector<std::jthread> threads_;
+};
+
+/// How many runs a worker thread is given before the first of them has ended: one, or several where runs are
+/// so short that it would wait for the next.
+int runs_ahead(double mean_seconds);
+
+}  // namespace wavebalance::app
