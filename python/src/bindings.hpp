@@ -9,6 +9,8 @@ namespace wavebalance::python {
 void add_exceptions(pybind11::module_& module);
 /// Scenes: solving, checking, and writing of records.
 void add_scenes(pybind11::module_& module);
+/// A scene over values of its keys.
+void add_studies(pybind11::module_& module);
 /// Comparison of bases in a scene.
 void add_comparison(pybind11::module_& module);
 /// Contact laws, and those of functions of Python.

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_exceptions(module);
   python::add_scenes(module);
   python::add_comparison(module);
+  python::add_studies(module);
   python::add_laws(module);
   python::add_problem(module);
   python::add_response(module);

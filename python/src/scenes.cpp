@@ -69,7 +69,12 @@ std::string picture(const app::Figure& figure) {
 void add_scenes(py::module_& module) {
   py::class_<SceneSource>(module, "SceneSource")
       .def(py::init<std::string, std::string, std::vector<std::string>, std::vector<std::string>>(),
-           py::arg("text"), py::arg("name"), py::arg("overrides"), py::arg("removed"));
+           py::arg("text"), py::arg("name"), py::arg("overrides"), py::arg("removed"))
+      .def_readonly("text", &SceneSource::text)
+      .def_readonly("name", &SceneSource::name)
+      .def_readonly("overrides", &SceneSource::overrides)
+      .def_readonly("removed", &SceneSource::removed)
+      .def_readwrite("temporary", &SceneSource::temporary);
   py::class_<Run>(module, "Run")
       .def_property_readonly("converged", [](const Run& run) { return run.record.converged; })
       .def_property_readonly("status", [](const Run& run) { return run.record.status; })

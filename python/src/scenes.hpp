@@ -12,6 +12,7 @@ struct SceneSource {
   std::string name;  ///< of the file, in messages too; its paths are relative to that folder
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"
+  bool temporary = false;              ///< it names files that are gone once it has been used
 };
 
 /// The scene, complete and within range. Throws app::SceneError.

@@ -4,6 +4,7 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 
 - :func:`run` solves it and returns a :class:`Record`; :func:`check` says what would be solved.
 - :func:`compare` measures pairs of bases against each other.
+- :func:`study` solves it for many values of its keys, on all cores or with any executor.
 
 A structure of one's own is made of SciPy's sparse matrices:
 
@@ -40,6 +41,7 @@ from .record import Record
 from .responses import Motion, Problem, Response, Stability, forced_response, stability
 from .scenes import check, complete, run
 from .structure import Pair, Structure
+from .studies import Study, study
 from .sweeps import Sweep, amplitude_sweep, frequency_sweep
 
 __all__ = [
@@ -67,6 +69,7 @@ __all__ = [
     "SingularSystem",
     "Stability",
     "Structure",
+    "Study",
     "Sweep",
     "Table",
     "__version__",
@@ -79,5 +82,6 @@ __all__ = [
     "frequency_sweep",
     "run",
     "stability",
+    "study",
     "wavelets",
 ]

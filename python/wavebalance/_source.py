@@ -38,7 +38,9 @@ def scene_source(
             changes = _override_list(overrides, store)
             if not is_dict:
                 changes = _files_of_numpy(name, text, store) + changes
-            yield _core.SceneSource(text, name, changes, list(unset))
+            source = _core.SceneSource(text, name, changes, list(unset))
+            source.temporary = store.temporary
+            yield source
             store.keep()
         except _core.SceneError as error:
             store.forget()
@@ -75,6 +77,11 @@ class _Store:
         self._new_folders = [one for one in (self._kept, *self._kept.parents) if not one.exists()]
         self._kept.mkdir(parents=True, exist_ok=True)
         return self._kept
+
+    @property
+    def temporary(self) -> bool:
+        """Whether files are gone with the body."""
+        return bool(self.files) and self._kept is None
 
     def keep(self) -> None:
         """Removes those of an earlier run."""

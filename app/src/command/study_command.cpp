@@ -12,39 +12,11 @@
 #include "command/progress_bar.hpp"
 #include "command/run_record.hpp"
 #include "command/study_report.hpp"
-#include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/study/journal.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-/// All files but the summary; with `report` first the report, still without contents.
-std::vector<ResultFile> study_files(const StudyArguments& arguments, const Study& study,
-                                    const StudyRecord& record) {
-  std::vector<ResultFile> files;
-  if (arguments.report)
-    files.push_back({"report.html", "", "what came out of the runs, to read in a browser"});
-  files.push_back({"study.csv", csv_text(record.table), "a row per run"});
-  files.push_back({"study.npz", npz_text(record.table), "the same columns for numpy.load()"});
-  files.push_back({"scene.toml", study.scene_text, "the scene of all runs, before their changes"});
-  const std::string no_picture = append_pictures(files, record.pictures, arguments.report);
-  if (!no_picture.empty()) std::fprintf(stderr, "wavebalance: no picture: %s\n", no_picture.c_str());
-  return files;
-}
-
-void write_study(OutputFiles& output, const StudyArguments& arguments, const Study& study,
-                 const StudyRecord& record, std::vector<ResultFile> files) {
-  Summary summary = record.summary;
-  summary.emplace_back("study", study.name);
-  summary.emplace_back("scene", study.scene.string());
-  summary.emplace_back("version", std::string(version()));
-  Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
-  summary.emplace_back("files", std::move(list));
-  if (arguments.report) files.front().contents = study_report(arguments, study, record, summary, files);
-  write_run_files(output, {std::move(files), json_text(summary), ""});
-}
 
 void say_outcome(const StudyArguments& arguments, const StudyRecord& record, const StudyOutcome& outcome) {
   if (!arguments.quiet) {
@@ -88,7 +60,10 @@ int lead_study(const StudyArguments& arguments, const Study& study, const StudyR
   bar.finish();
   const StudyRecord record = study_record(study, runs, std::move(rows), outcome);
   guard.defer();
-  write_study(output, arguments, study, record, study_files(arguments, study, record));
+  const RunFiles files = study_files(arguments, study, record);
+  if (!files.no_picture.empty())
+    std::fprintf(stderr, "wavebalance: no picture: %s\n", files.no_picture.c_str());
+  write_run_files(output, files);
   say_outcome(arguments, record, outcome);
   if (outcome.stopped) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

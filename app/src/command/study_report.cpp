@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "command/report_parts.hpp"
+#include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/page/html.hpp"
 
@@ -102,6 +104,8 @@ std::string study_outcome(const StudyRecord& record) {
   return text;
 }
 
+namespace {
+
 std::string study_report(const StudyArguments& arguments, const Study& study, const StudyRecord& record,
                          const Summary& summary, const std::vector<ResultFile>& files) {
   PageParts page;
@@ -119,6 +123,29 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
       section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
       fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
   return page_html(page);
+}
+
+}  // namespace
+
+RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record) {
+  RunFiles run;
+  std::vector<ResultFile>& files = run.files;
+  if (arguments.report)
+    files.push_back({"report.html", "", "what came out of the runs, to read in a browser"});
+  files.push_back({"study.csv", csv_text(record.table), "a row per run"});
+  files.push_back({"study.npz", npz_text(record.table), "the same columns for numpy.load()"});
+  files.push_back({"scene.toml", study.scene_text, "the scene of all runs, before their changes"});
+  run.no_picture = append_pictures(files, record.pictures, arguments.report);
+  Summary summary = record.summary;
+  summary.emplace_back("study", study.name);
+  summary.emplace_back("scene", study.scene.string());
+  summary.emplace_back("version", std::string(version()));
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
+  if (arguments.report) files.front().contents = study_report(arguments, study, record, summary, files);
+  run.summary = json_text(summary);
+  return run;
 }
 
 }  // namespace wavebalance::app

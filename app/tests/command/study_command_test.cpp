@@ -87,7 +87,7 @@ TEST(CommandStudy, WrongStudiesAndOptionsAreTwoAndNothingIsWritten) {
       {"scene = \"none.toml\"\n" + small_study.substr(19), {}, "none.toml: cannot be read"},
       {small_study + "vallues = 3\n",
        {},
-       "study.toml:10: parameters[2].vallues = 3: unknown key; did you mean values?"},
+       "study.toml:11: parameters[2].vallues = 3: unknown key; did you mean values?"},
       {small_study, {"--threads", "-1"}, "--threads -1: expected at least 1"},
       {small_study, {"--thread", "1"}, "did you mean --threads?"},
   };

@@ -130,7 +130,7 @@ TEST(StudyFile, WrongKeysAndValuesNameLineKeyAndWhatIsAllowed) {
     const char* message;
   };
   const std::vector<Wrong> wrong{
-      {"", "study.toml: parameters: expected tables [[parameters]]"},
+      {"", "study.toml:1: parameters: expected tables [[parameters]]"},
       {"sampling = \"gird\"\n", "study.toml:1: sampling = \"gird\": expected one of \"grid\", \"list\""},
       {"[[parameters]]\nkey = \"contact.gab\"\nvalues = [1]\n",
        "study.toml:2: parameters[1].key = \"contact.gab\": no key of a scene; did you mean contact.gap?"},
