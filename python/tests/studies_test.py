@@ -96,9 +96,9 @@ def test_what_was_solved_before_a_failure_is_not_solved_again(bar, tmp_path):
     with pytest.raises(RuntimeError, match="a worker died"):
         wb.study(bar, PARAMETERS, output=tmp_path, executor=FailingExecutor(4))
     rows = (tmp_path / "study.journal").read_text().count("\n") - 1
-    assert 0 < rows <= 4
+    assert rows == 4
     study = wb.study(bar, PARAMETERS, output=tmp_path)
-    assert study.summary["runs_solved_now"] == 10 - rows
+    assert study.summary["runs_solved_now"] == 6
     same(study, wb.study(bar, PARAMETERS))
 
 

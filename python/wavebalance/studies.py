@@ -198,10 +198,21 @@ def _solve_with(executor: concurrent.futures.Executor, plan: _core.StudyPlan, se
     missing = session.missing()
     size = max(1, len(missing) // _TASKS)
     tasks = [executor.submit(_solve, plan, missing[begin : begin + size]) for begin in range(0, len(missing), size)]
+    failure: Exception | None = None
     try:
         for task in concurrent.futures.as_completed(tasks):
-            session.add(task.result())
+            try:
+                session.add(task.result())
+            except Exception as error:  # what other workers have solved is kept
+                failure = failure or error
+                _cancel(tasks)
     except BaseException:
-        for task in tasks:
-            task.cancel()
+        _cancel(tasks)
         raise
+    if failure is not None:
+        raise failure
+
+
+def _cancel(tasks: list[concurrent.futures.Future[list[str]]]) -> None:
+    for task in tasks:
+        task.cancel()

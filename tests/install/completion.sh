@@ -35,7 +35,7 @@ expect_only() {
   [ "$found" = "$2" ] || { echo "'$1' is completed by: $found; expected: $2" >&2; exit 1; }
 }
 
-expect "wavebalance " run check compare overlay keys init
+expect "wavebalance " run check compare study overlay keys init
 expect_only "wavebalance ini" init
 expect_only "wavebalance run " "my scene.toml other.toml results"
 expect "wavebalance run other.toml --" --output --set --unset --start-from --quiet

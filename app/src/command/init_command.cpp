@@ -12,7 +12,7 @@
 namespace wavebalance::app {
 namespace {
 
-constexpr std::array<const char*, 3> starters{"bar", "matrices", "blade"};
+constexpr std::array<const char*, 4> starters{"bar", "matrices", "blade", "study"};
 
 /// Mass and stiffness of a clamped beam of Euler and Bernoulli in elements with cubic displacements.
 struct Cantilever {
@@ -79,6 +79,7 @@ std::vector<ResultFile> starter_scene(const std::string& kind, const std::string
   const std::string name = stem + ".toml";
   if (kind == "bar") return {{name, bar_starter, ""}};
   if (kind == "blade") return {{name, blade_starter, ""}};
+  if (kind == "study") return {{name, with_stem(study_starter, stem), ""}, {stem + "_scene.toml", bar_starter, ""}};
   if (kind == "matrices") {
     const Cantilever beam = cantilever();
     return {{name, with_stem(matrices_starter, stem), ""},
@@ -106,8 +107,10 @@ int init_scene(const InitArguments& arguments) {
     list += (list.empty() ? "" : ", ") + (folder / file.name).string();
   }
   files.commit();
-  return print("written: " + list + "\nnext:    wavebalance check " + scene.string() +
-               "\n         wavebalance run " + scene.string() + " --output " + scene.stem().string() + "\n");
+  const bool study = arguments.kind == "study";
+  return print("written: " + list + "\nnext:    " +
+               (study ? "wavebalance study " : "wavebalance check " + scene.string() + "\n         wavebalance run ") +
+               scene.string() + " --output " + scene.stem().string() + "\n");
 }
 
 }  // namespace wavebalance::app

@@ -12,11 +12,11 @@ struct InitArguments {
   std::filesystem::path output;  ///< the scene; empty: <kind>.toml in the current folder
 };
 
-/// "bar", "matrices", "blade".
+/// "bar", "matrices", "blade", "study".
 std::vector<std::string> starter_kinds();
 
-/// A commented scene of this kind to start from, first, and the files that it reads, whose names begin with
-/// `stem`. Throws std::invalid_argument for another kind.
+/// A commented scene of this kind, or a study, to start from, first, and the files that it reads, whose names
+/// begin with `stem`. Throws std::invalid_argument for another kind.
 std::vector<ResultFile> starter_scene(const std::string& kind, const std::string& stem);
 
 /// Writes starter_scene() and says what to do next; stem is that of the output. Returns solved. Throws

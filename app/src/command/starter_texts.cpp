@@ -93,4 +93,29 @@ type = "forced_response"
 # frequency_to = 700.0      # Hz
 )";
 
+const char* const study_starter =
+    R"(# A scene over values of its keys: wavebalance study STEM.toml --output STEM
+scene = "STEM_scene.toml"         # relative to this file
+# sampling = "sobol"              # or "latin_hypercube", "list"; a grid without it
+# samples = 200                   # runs of the first two, whose parameters need no count
+# set = ["contact.stiffness=1e8"] # changes of all runs
+
+[[parameters]]
+key = "forcing.frequency"         # any key of a scene: wavebalance keys
+from = 120.0
+to = 180.0
+count = 13
+
+[[parameters]]
+key = "contact.gap"
+from = 2e-4
+to = 2e-3
+count = 9
+spacing = "logarithmic"
+
+# [[parameters]]
+# key = "contact.law"
+# values = ["linear", "none"]
+)";
+
 }  // namespace wavebalance::app

@@ -6,5 +6,7 @@ namespace wavebalance::app {
 extern const char* const bar_starter;
 extern const char* const matrices_starter;
 extern const char* const blade_starter;
+/// A study of STEM_scene.toml.
+extern const char* const study_starter;
 
 }  // namespace wavebalance::app

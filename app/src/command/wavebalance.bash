@@ -39,7 +39,7 @@ _wavebalance() {
     *:--output:* | *:-o:* | *:--start-from:*) _wavebalance_files folders "$word" ;;
     *:*:-*) _wavebalance_words "$(_wavebalance_options "$program" "$command")" "$word" ;;
     keys:*) _wavebalance_words "$(_wavebalance_filters "$program")" "$word" ;;
-    init:*) _wavebalance_words "bar matrices blade" "$word" ;;
+    init:*) _wavebalance_words "bar matrices blade study" "$word" ;;
     overlay:*) _wavebalance_files folders "$word" ;;
     *) _wavebalance_files scenes "$word" ;;
   esac

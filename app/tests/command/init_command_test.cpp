@@ -52,10 +52,20 @@ TEST(CommandInit, OverwritesNothingAndLeavesNothingBehind) {
 TEST(CommandInit, WrongNamesAreAnsweredWithWhatIsAllowed) {
   const TemporaryFolder folder;
   EXPECT_EQ(run(folder, {"init", "matrixes"}).errors,
-            "wavebalance: init matrixes: there are bar, matrices, blade; did you mean matrices?\n");
+            "wavebalance: init matrixes: there are bar, matrices, blade, study; did you mean matrices?\n");
   const Outcome outcome = run(folder, {"init", "--output", folder / "scene.txt"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.errors.find("expected the name of a file that ends in .toml"), std::string::npos);
+}
+
+TEST(CommandInit, StudyIsOneThatRuns) {
+  const TemporaryFolder folder;
+  const Outcome written = run(folder, {"init", "study", "--output", folder / "map.toml"});
+  EXPECT_EQ(written.exit_code, 0) << written.errors;
+  EXPECT_NE(written.output.find("next:    wavebalance study "), std::string::npos) << written.output;
+  const Outcome solved = run(folder, {"study", folder / "map.toml", "--output", folder / "map"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.errors << solved.output;
+  EXPECT_NE(solved.output.find("117 of 117 runs have ended, and 117 of them converged."), std::string::npos);
 }
 
 TEST(CommandInit, WritesTheSceneOfReadme) {
