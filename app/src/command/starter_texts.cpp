@@ -101,9 +101,9 @@ scene = "STEM_scene.toml"         # relative to this file
 # set = ["contact.stiffness=1e8"] # changes of all runs
 
 [[parameters]]
-key = "forcing.frequency"         # any key of a scene: wavebalance keys
-from = 120.0
-to = 180.0
+key = "forcing.amplitude"         # any key of a scene: wavebalance keys
+from = 50e3
+to = 350e3
 count = 13
 
 [[parameters]]

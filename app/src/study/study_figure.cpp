@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "study/quantile.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study_record.hpp"
 
 namespace wavebalance::app {
@@ -102,9 +103,16 @@ struct MapAxis {
   std::string label;
 };
 
+/// A parameter with its unit.
+std::string labelled(const std::string& key) {
+  const SceneKey* known = find_scene_key(key);
+  const bool unit = known != nullptr && !known->unit.empty();
+  return plain(key) + (unit ? fmt::format(" ({})", known->unit) : "");
+}
+
 MapAxis map_axis(const Varying& one) {
-  if (is_uniform(one.distinct)) return {one.distinct, plain(one.key)};
-  return {in_decades(one.distinct), "log_{10} " + plain(one.key)};
+  if (is_uniform(one.distinct)) return {one.distinct, labelled(one.key)};
+  return {in_decades(one.distinct), "log_{10} " + labelled(one.key)};
 }
 
 /// Half a step beyond its first and last value.
@@ -189,7 +197,7 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   const Varying& x = *std::max_element(varying.begin(), varying.end(), most);
   if (!x.numeric) return;
   Panel& panel = figure.add_panel();
-  panel.x.label = plain(x.key);
+  panel.x.label = labelled(x.key);
   panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
   panel.y.label = shown_as(quantity).label;
   panel.legend = varying.size() > 1 ? Legend::below_panel : Legend::none;
@@ -240,7 +248,7 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
     }
     series.marker = 1;
     Panel& panel = figure.add_panel("Over " + plain(one.key));
-    panel.x.label = plain(one.key);
+    panel.x.label = labelled(one.key);
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
     panel.y.label = shown_as(quantity).label;
     panel.legend = Legend::none;

@@ -164,7 +164,7 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
   record.summary.emplace_back("quantiles", quantiles_table(study, record.table));
   Figure figure = study_figure(study, runs, record.table, quantity);
   if (!figure.panels.empty())
-    record.pictures.push_back({"study", std::move(figure), quantity + " over the parameters"});
+    record.pictures.push_back({"study", std::move(figure), "values of " + quantity + " over the parameters"});
   return record;
 }
 
