@@ -35,9 +35,10 @@ class StudyPlan {
   std::vector<std::string> solve(const std::vector<std::int64_t>& which,
                                  const solvers::Observer& observer) const {
     std::vector<std::string> lines;
+    app::LastStructure last;
     for (const std::int64_t run : which) {
       if (run < 0 || run >= runs_.size()) throw std::out_of_range("StudyPlan.solve: there is no such run");
-      lines.push_back(app::json_line(app::solve_run(study_, runs_, run, observer)));
+      lines.push_back(app::json_line(app::solve_run(study_, runs_, run, last, observer)));
     }
     return lines;
   }
@@ -142,7 +143,8 @@ void add_session(py::module_& module) {
 
 void add_studies(py::module_& module) {
   py::class_<StudyPlan, std::shared_ptr<StudyPlan>>(module, "StudyPlan")
-      .def(py::init<std::string, std::string, std::string>(), py::arg("text"), py::arg("name"), py::arg("scene"))
+      .def(py::init<std::string, std::string, std::string>(), py::arg("text"), py::arg("name"),
+           py::arg("scene"))
       .def("__len__", [](const StudyPlan& plan) { return plan.runs().size(); })
       .def("check", [](const StudyPlan& plan) { app::check_study(plan.study(), plan.runs()); })
       .def("overrides", [](const StudyPlan& plan, std::int64_t run) { return plan.runs().overrides(run); })

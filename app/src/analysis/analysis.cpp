@@ -44,47 +44,6 @@ void append_refinement(Summary& summary, const Refinement& refinement, double to
   summary.emplace_back("ladder_seconds", refinement.seconds);
 }
 
-/// Which motion was found where those of several periods of the load were sought.
-void append_period(Record& record, int periods, int motion_periods) {
-  if (periods == 1) return;
-  record.summary.emplace_back("subharmonic", std::int64_t{periods});
-  record.summary.emplace_back("period_of_motion", std::int64_t{motion_periods});
-  if (motion_periods == periods) return;
-  record.warnings.push_back(fmt::format(
-      "analysis.subharmonic is {}, but the motion found repeats after {} of the load already: none of {} "
-      "periods was found.",
-      periods, motion_periods == 1 ? "one period" : fmt::format("{} periods", motion_periods), periods));
-}
-
-/// What the structure does from rest, where it was integrated.
-void append_attractor(Record& record, int periods, const Response& response) {
-  if (response.attractor_periods < 0) return;
-  record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
-  const int attractor = response.attractor_periods;
-  if (attractor > 0 && periods % attractor == 0) return;
-  record.warnings.push_back(
-      attractor == 0
-          ? std::string(
-                "From rest the structure settles to no motion of up to 16 periods of the load within the "
-                "periods integrated: it is aperiodic, or has not settled yet.")
-          : fmt::format("From rest the structure settles to a motion of {} periods of the load, which "
-                        "analysis.subharmonic = {} computes.",
-                        attractor, attractor));
-}
-
-/// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
-void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
-  const Contact& contact = scene.contact;
-  const bool damped =
-      is_damped(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                                            [](const auto& one) { return is_damped(one.law); });
-  if (!damped) return;
-  const solvers::Motion& motion = response.contacts;
-  const double power =
-      motion.empty() ? missing : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
-  summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
-}
-
 /// Instants of the period at which the motion of a bar is kept for its report.
 constexpr int bar_instants = 128;
 
@@ -364,31 +323,16 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
   return record;
 }
 
-}  // namespace
-
-Record analyse(const Scene& scene, const Observer& observer) {
-  return analyse(scene, AnalysisOptions{.observer = observer});
-}
-
-Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer) {
-  return analyse(scene, AnalysisOptions{.start = start, .observer = observer});
-}
-
-Record analyse(const Scene& scene, const AnalysisOptions& how) {
-  const auto& [start, observer, threads] = how;
-  require_start_fits(start, scene);
-  if (scene.structure.kept_modes >= 0) goes_on(observer, {"reduction of the structure"});
-  StructureModel model = make_model(scene, observer);
-  model.threads = threads;
+Record record_of(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
   ResponseOptions options;
-  options.observer = observer;
+  options.observer = how.observer;
   options.structure_points = structure_points(scene);
   switch (scene.analysis.type) {
     case AnalysisType::frequency_sweep:
     case AnalysisType::amplitude_sweep:
-      return stable_sweep_record(scene, model, start, observer);
+      return stable_sweep_record(scene, model, how.start, how.observer);
     case AnalysisType::nonlinear_mode:
-      return mode_record(scene, model, observer);
+      return mode_record(scene, model, how.observer);
     case AnalysisType::time_stepping:
       return response_record(scene, model, time_stepping_response(scene, model, options));
     case AnalysisType::shooting:
@@ -396,7 +340,22 @@ Record analyse(const Scene& scene, const AnalysisOptions& how) {
     case AnalysisType::forced_response:
       break;
   }
-  return forced_record(scene, model, start, std::move(options));
+  return forced_record(scene, model, how.start, std::move(options));
+}
+
+}  // namespace
+
+Record analyse(const Scene& scene, const Observer& observer) {
+  return analyse(scene, AnalysisOptions{.observer = observer});
+}
+
+Record analyse(const Scene& scene, const AnalysisOptions& how) {
+  require_start_fits(how.start, scene);
+  if (how.model != nullptr) return record_of(scene, *how.model, how);
+  if (scene.structure.kept_modes >= 0) goes_on(how.observer, {"reduction of the structure"});
+  StructureModel model = make_model(scene, how.observer);
+  model.threads = how.threads;
+  return record_of(scene, model, how);
 }
 
 }  // namespace wavebalance::app

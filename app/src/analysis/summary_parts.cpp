@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wavebalance/app/analysis/contact_motion.hpp"
@@ -73,6 +74,44 @@ void append_motion(Summary& summary, const solvers::Motion& leading) {
   summary.emplace_back("rms_displacement_m", empty ? missing : rms(u.reshaped()));
   summary.emplace_back("max_contact_force_N", empty ? missing : leading.force.maxCoeff());
   summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(leading));
+}
+
+void append_period(Record& record, int periods, int motion_periods) {
+  if (periods == 1) return;
+  record.summary.emplace_back("subharmonic", std::int64_t{periods});
+  record.summary.emplace_back("period_of_motion", std::int64_t{motion_periods});
+  if (motion_periods == periods) return;
+  record.warnings.push_back(fmt::format(
+      "analysis.subharmonic is {}, but the motion found repeats after {} of the load already: none of {} "
+      "periods was found.",
+      periods, motion_periods == 1 ? "one period" : fmt::format("{} periods", motion_periods), periods));
+}
+
+void append_attractor(Record& record, int periods, const Response& response) {
+  if (response.attractor_periods < 0) return;
+  record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
+  const int attractor = response.attractor_periods;
+  if (attractor > 0 && periods % attractor == 0) return;
+  record.warnings.push_back(
+      attractor == 0
+          ? std::string(
+                "From rest the structure settles to no motion of up to 16 periods of the load within the "
+                "periods integrated: it is aperiodic, or has not settled yet.")
+          : fmt::format("From rest the structure settles to a motion of {} periods of the load, which "
+                        "analysis.subharmonic = {} computes.",
+                        attractor, attractor));
+}
+
+void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
+  const Contact& contact = scene.contact;
+  const bool damped =
+      is_damped(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                                            [](const auto& one) { return is_damped(one.law); });
+  if (!damped) return;
+  const solvers::Motion& motion = response.contacts;
+  const double power =
+      motion.empty() ? missing : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
+  summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
 }
 
 }  // namespace wavebalance::app

@@ -27,6 +27,15 @@ void append_condition(Record& record, double condition, double rounding_error);
 /// The table of all contacts, and which of them the record shows, where there are several.
 void add_contacts(Record& record, const solvers::Motion& contacts, int leading);
 
+/// Which motion was found where those of several periods of the load were sought.
+void append_period(Record& record, int periods, int motion_periods);
+
+/// What the structure does from rest, where it was integrated.
+void append_attractor(Record& record, int periods, const Response& response);
+
+/// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
+void append_dissipation(Summary& summary, const Scene& scene, const Response& response);
+
 /// The fields of the motion of the leading contact; missing values of an empty one.
 void append_motion(Summary& summary, const solvers::Motion& leading);
 

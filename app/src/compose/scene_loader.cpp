@@ -19,9 +19,10 @@ std::string read_text(const std::filesystem::path& file) {
   }
 }
 
-Scene checked_scene(const Document& given) {
+Scene checked_scene(const Document& given, const Scene* earlier = nullptr) {
   const Document document = with_rows_for_names(given);
   Scene scene = read_scene(document);
+  if (earlier != nullptr) scene.structure.matrices.files = earlier->structure.matrices.files;
   check_scene_rules(document, scene);
   return scene;
 }
@@ -29,11 +30,11 @@ Scene checked_scene(const Document& given) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                  std::span<const std::string> removed) {
+                  std::span<const std::string> removed, const Scene* earlier) {
   Document document = parse_document(text, name);
   remove_entries(document, removed);
   apply_overrides(document, overrides);
-  return checked_scene(document);
+  return checked_scene(document, earlier);
 }
 
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides,

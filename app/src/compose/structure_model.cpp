@@ -272,6 +272,16 @@ Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) cons
   return reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates;
 }
 
+void set_gaps(StructureModel& model, const Scene& scene) {
+  const int contacts = model.contacts();
+  if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
+    throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +
+                                " numbers; there must be one, or one for each of " +
+                                std::to_string(contacts) + " contacts");
+  model.gaps.resize(contacts);
+  for (int contact = 0; contact < contacts; ++contact) model.gaps[contact] = scene.contact.gap_of(contact);
+}
+
 StructureModel make_model(const Scene& scene, const solvers::Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   StructureModel model = model_of_type(scene, observer);
@@ -286,13 +296,7 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer)
       make_contacts_massless(model, massless_modes(scene.structure, model.structure));
     model.frequency_change = frequency_change(with_mass, model.structure);
   }
-  const int contacts = model.contacts();
-  if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
-    throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +
-                                " numbers; there must be one, or one for each of " +
-                                std::to_string(contacts) + " contacts");
-  model.gaps.resize(contacts);
-  for (int contact = 0; contact < contacts; ++contact) model.gaps[contact] = scene.contact.gap_of(contact);
+  set_gaps(model, scene);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (scene.structure.type != StructureType::bar) model.reduction_seconds = elapsed.count();
   return model;

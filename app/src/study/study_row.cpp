@@ -42,9 +42,11 @@ void require_memory(const Scene& scene) {
                                 memory_text(limit));
 }
 
-void solve_into(StudyRow& row, const Scene& scene, const solvers::Observer& observer) {
+/// One thread per run: others solve the next ones.
+void solve_into(StudyRow& row, const Scene& scene, LastStructure& last, const solvers::Observer& observer) {
   require_memory(scene);
-  const Record record = analyse(scene, observer);
+  const Record record =
+      analyse(scene, {.observer = observer, .threads = 1, .model = &last.model_of(scene, observer)});
   row.status = record.status;
   row.converged = record.converged;
   row.values = scalars_of(record.summary);
@@ -63,12 +65,18 @@ SummaryValue value_of_json(const nlohmann::ordered_json& value) {
 
 StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run,
                    const solvers::Observer& observer) {
+  LastStructure none;
+  return solve_run(study, runs, run, none, observer);
+}
+
+StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, LastStructure& last,
+                   const solvers::Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   StudyRow row;
   row.run = run;
   row.status = "refused";
   try {
-    solve_into(row, scene_of_run(study, runs, run), observer);
+    solve_into(row, scene_of_run(study, runs, run, last.earlier()), last, observer);
   } catch (const std::invalid_argument& error) {
     row.message = error.what();
   } catch (const SceneError& error) {

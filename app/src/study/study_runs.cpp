@@ -122,10 +122,10 @@ std::vector<std::string> StudyRuns::overrides(std::int64_t run) const {
   return texts;
 }
 
-Scene scene_of_run(const Study& study, const StudyRuns& runs, std::int64_t run) {
+Scene scene_of_run(const Study& study, const StudyRuns& runs, std::int64_t run, const Scene* earlier) {
   std::vector<std::string> overrides = study.set;
   for (std::string& one : runs.overrides(run)) overrides.push_back(std::move(one));
-  return parse_scene(study.scene_text, study.scene.string(), overrides, study.unset);
+  return parse_scene(study.scene_text, study.scene.string(), overrides, study.unset, earlier);
 }
 
 void check_study(const Study& study, const StudyRuns& runs) {

@@ -35,6 +35,7 @@ std::vector<StudyRow> StudyWorkers::finished(std::chrono::milliseconds wait) {
 
 void StudyWorkers::work() {
   const solvers::Observer observer = [this](const solvers::Progress&) { return !stopped_; };
+  LastStructure last;
   std::unique_lock lock(mutex_);
   for (;;) {
     given_.wait(lock, [this] { return stopped_ || !queue_.empty(); });
@@ -42,7 +43,7 @@ void StudyWorkers::work() {
     const std::int64_t run = queue_.front();
     queue_.pop_front();
     lock.unlock();
-    StudyRow row = solve_run(study_, runs_, run, observer);
+    StudyRow row = solve_run(study_, runs_, run, last, observer);
     lock.lock();
     if (stopped_) return;
     rows_.push_back(std::move(row));

@@ -91,12 +91,13 @@ struct AnalysisOptions {
   StartMotion start{};
   Observer observer{};
   int threads = 0;  ///< that condense several harmonics side by side; 0: one per core. Digits do not change
+  /// That of the scene, made before, whose threads then hold; null: it is made.
+  const StructureModel* model = nullptr;
 };
 
 /// Solves `scene`. A failure to converge is reported in the record. Throws std::invalid_argument or
 /// solvers::InadmissiblePair for scenes that load_scene() would have rejected.
 Record analyse(const Scene& scene, const Observer& observer = {});
-Record analyse(const Scene& scene, const StartMotion& start, const Observer& observer = {});
 Record analyse(const Scene& scene, const AnalysisOptions& options);
 
 /// The table of a frequency sweep's record; those of a motion are in contact_motion.hpp.

@@ -17,9 +17,10 @@ namespace wavebalance::app {
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {},
                  std::span<const std::string> removed = {});
 
-/// The same for `text`, which messages call `name`.
+/// The same for `text`, which messages call `name`. Files of matrices that `earlier` has read, too, are not
+/// read again.
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const std::string> overrides = {},
-                  std::span<const std::string> removed = {});
+                  std::span<const std::string> removed = {}, const Scene* earlier = nullptr);
 
 /// `scene`, built or changed in a program, with the defaults that derive from other keys filled in where they
 /// are unset. Throws SceneError if it could not have been loaded from a file.

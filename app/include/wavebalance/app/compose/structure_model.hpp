@@ -54,6 +54,9 @@ class ReductionCancelled : public std::runtime_error {
 /// stops it by ReductionCancelled.
 StructureModel make_model(const Scene& scene, const solvers::Observer& observer = {});
 
+/// Gives a model the gaps of a scene. Throws std::invalid_argument if there are not as many as contacts.
+void set_gaps(StructureModel& model, const Scene& scene);
+
 /// The number of contacts of a scene. O(contacts).
 int contact_count(const Scene& scene);
 /// Corner nodes of a blade's tip, each of which may touch. O(1).

@@ -82,8 +82,9 @@ class StudyRuns {
   std::int64_t size_ = 0;
 };
 
-/// The scene of a run. Throws SceneError.
-Scene scene_of_run(const Study& study, const StudyRuns& runs, std::int64_t run);
+/// The scene of a run, see parse_scene() for `earlier`. Throws SceneError.
+Scene scene_of_run(const Study& study, const StudyRuns& runs, std::int64_t run,
+                   const Scene* earlier = nullptr);
 
 /// Throws SceneError if the first run, or one that differs from it by the first or last value of a parameter,
 /// is no scene, so that nothing is computed of a study that cannot be meant. O(parameters) scenes.

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/study/last_structure.hpp"
 #include "wavebalance/app/study/study.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 
@@ -22,6 +23,10 @@ struct StudyRow {
 /// Solves a run. An error is a row, too: "refused" for a scene that is wrong or needs more memory than the
 /// machine has, "failed" for any other. After an observer has returned false the row has no meaning.
 StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run,
+                   const solvers::Observer& observer = {});
+/// The same with the structure of the last run if that of this one is the same, since a reduction takes
+/// longer than many a response. Equal digits.
+StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, LastStructure& last,
                    const solvers::Observer& observer = {});
 
 /// A row as JSON on one line without its end, with its run counted from 1.

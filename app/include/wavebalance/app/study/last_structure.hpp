@@ -1,0 +1,28 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// The structure of the last scene, which following ones take if theirs is the same: runs of a study often
+/// differ in frequency, gap, law or basis alone, and a reduction takes longer than a response. Each thread
+/// has one of its own.
+class LastStructure {
+ public:
+  /// The model of a scene, as make_model() makes it. The result lives until the next call.
+  const StructureModel& model_of(const Scene& scene, const solvers::Observer& observer);
+  /// A scene with the same files of matrices, which need not be read again; null at first.
+  const Scene* earlier() const { return part_ ? &*part_ : nullptr; }
+  /// How many structures were made.
+  int made() const { return made_; }
+
+ private:
+  std::optional<Scene> part_;  // what the model depends on
+  StructureModel model_;
+  int made_ = 0;
+};
+
+}  // namespace wavebalance::app

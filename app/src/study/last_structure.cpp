@@ -1,0 +1,43 @@
+#include "wavebalance/app/study/last_structure.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// The scene without what make_model() does not look at: time, frequency, and the numbers of the laws. Gaps
+/// are set for each scene.
+Scene structure_part(const Scene& scene) {
+  Scene part;
+  part.structure = scene.structure;
+  part.forcing = scene.forcing;
+  part.forcing.frequency = 0.0;
+  part.analysis.type = scene.analysis.type;
+  part.contact.law = scene.contact.law;
+  part.contact.mass = scene.contact.mass;
+  for (const ContactPair& pair : scene.contact.pairs) {
+    part.contact.pairs.emplace_back();
+    ContactPair& one = part.contact.pairs.back();
+    one.dofs = pair.dofs;
+    one.coefficients = pair.coefficients;
+    one.side = pair.side;
+    one.law = pair.law;
+  }
+  return part;
+}
+
+}  // namespace
+
+const StructureModel& LastStructure::model_of(const Scene& scene, const solvers::Observer& observer) {
+  Scene part = structure_part(scene);
+  if (part_ && part == *part_) {
+    set_gaps(model_, scene);
+    return model_;
+  }
+  part_.reset();
+  model_ = make_model(scene, observer);
+  model_.threads = 1;
+  part_ = std::move(part);
+  ++made_;
+  return model_;
+}
+
+}  // namespace wavebalance::app
