@@ -108,7 +108,11 @@ class BlockLanczos {
       const double change =
           along.norm() + (gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).norm();
       normalise(block, gram, root, least);
-      if (pass > 0 && change < 1e-8) break;
+      if (pass > 0 && change < 1e-8) {
+        // What was projected out is still in M Q, from which the next image follows.
+        if (along.norm() > 1e-14) momenta_ = symmetric_product(mass_, block);
+        break;
+      }
       least = 1e-10;
     }
     return root;

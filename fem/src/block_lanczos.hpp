@@ -20,7 +20,9 @@ struct LanczosLimits {
 /// are left out.
 struct LanczosResult {
   Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;  ///< n x values, orthonormal in the inner product of M
+  /// n x values, orthonormal in the inner product of M. It does not see rows without mass, which may hold
+  /// rounding; one more application of A^-1 M removes that, as eigenmodes() applies it.
+  Eigen::MatrixXd vectors;
   bool complete = false;
 };
 
