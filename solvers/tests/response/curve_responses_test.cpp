@@ -21,10 +21,10 @@ struct Hardening {
   double gap() const { return infinity; }
 };
 
-constexpr double curve_load = 0.3, damping = 0.05;
+constexpr double curve_load = 0.3, curve_damping = 0.05;
 
 CondensedProblem duffing() {
-  return {testing::fourier_pair(3, 16), testing::unit_oscillator(damping, curve_load),
+  return {testing::fourier_pair(3, 16), testing::unit_oscillator(curve_damping, curve_load),
           testing::cosine_load()};
 }
 
@@ -39,7 +39,7 @@ FrequencySweep traced(CondensedProblem& problem, const ContactLaws& laws, double
 // ((1 - w^2 + 3/4 A)^2 + (c w)^2) A - F^2 of the squared amplitude A.
 double closed_form(double squared, double frequency) {
   const double w = two_pi * frequency, k = 1.0 + 0.75 * squared - w * w;
-  return (k * k + damping * damping * w * w) * squared - curve_load * curve_load;
+  return (k * k + curve_damping * curve_damping * w * w) * squared - curve_load * curve_load;
 }
 
 // The amplitudes at a frequency, the largest first.
@@ -129,7 +129,7 @@ TEST(CurveResponses, AreNoneAtAFrequencyBesideTheCurve) {
 }
 
 TEST(CurveResponses, HoldTheForceOfARigidStop) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(damping, curve_load),
+  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(curve_damping, curve_load),
                            testing::cosine_load());
   const testing::LinearContact stop{.stiffness = 1e6, .start = 1.0};  // as stiff: the force form
   const FrequencySweep curve = traced(problem, stop, 0.1, 0.2);
