@@ -39,7 +39,9 @@ std::string blade_line(const Scene& scene) {
 
 std::string matrices_line(const Scene& scene) {
   const int modes = scene.structure.kept_modes;
-  const std::string size = count_text(structure_dofs(scene), "degree");
+  const auto condensed = static_cast<int>(structure_files(scene)->massless.size());
+  const std::string size = (condensed > 0 ? count_text(condensed, "row") + " without mass condensed, " : "") +
+                           count_text(structure_dofs(scene), "degree");
   if (modes < 0) return fmt::format("structure  matrices, {} of freedom\n", size);
   return fmt::format("structure  matrices, {} of freedom, reduced to {} ({})\n", size, reduced_size(scene),
                      count_text(modes, "mode"));

@@ -92,7 +92,7 @@ std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& p
   for (const ForcingTerm& term : forcing.terms) {
     switch (term.kind) {
       case LoadKind::force:
-        add_force(forces, {term.dofs.empty() ? places.force : signed_dofs(term.dofs, *places.files),
+        add_force(forces, {term.dofs.empty() ? places.force : forces_at_dofs(term.dofs, *places.files),
                            harmonics_of(term), 0});
         break;
       case LoadKind::base_acceleration:

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "compose/massless_rows.hpp"
 #include "compose/symmetric_part.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
@@ -62,35 +63,11 @@ std::string_view key_of(fem::StructureMatrix matrix) {
   return matrix == fem::StructureMatrix::damping ? damping_key : stiffness_key;
 }
 
-/// Rows from 1 without an entry other than zero, as rotations have none where mass is lumped.
-std::vector<int> rows_without_mass(const Eigen::SparseMatrix<double>& mass) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(mass.rows());
-  for (int column = 0; column < mass.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, column); entry; ++entry)
-      largest[entry.row()] = std::max(largest[entry.row()], std::abs(entry.value()));
-  std::vector<int> rows;
-  for (Eigen::Index row = 0; row < largest.size(); ++row)
-    if (largest[row] == 0.0) rows.push_back(static_cast<int>(row) + 1);
-  return rows;
-}
-
-/// What to do about rows without mass; empty where there are none.
-std::string advice_on(const std::vector<int>& rows) {
-  constexpr std::size_t shown = 5;
-  if (rows.empty()) return "";
-  return fmt::format(
-      ". Of its rows {} {} no mass: {}{}. Expected the matrices without them, with the stiffness K_aa - K_ab "
-      "K_bb^-1 K_ba of the rows a with mass, b those without, or a consistent mass matrix",
-      rows.size(), rows.size() == 1 ? "has" : "have",
-      fmt::join(std::span(rows).first(std::min(shown, rows.size())), ", "),
-      rows.size() > shown ? ", ..." : "");
-}
-
 /// Advice for a fault that a key of the scene would accept.
 std::string advice_on(const fem::StructureFault& fault, const fem::Matrices& matrices,
                       const MatricesStructure& structure) {
   const bool mass = fault.matrix() == fem::StructureMatrix::mass;
-  if (mass) return advice_on(rows_without_mass(matrices.mass));
+  if (mass) return advice_on_massless_rows(matrices.mass);
   if (!structure.unsymmetric && fault.reason().find("is not symmetric") == 0)
     return ", or say structure.unsymmetric = true if it is meant";
   const bool stiffness = fault.matrix() == fem::StructureMatrix::stiffness;
@@ -126,21 +103,6 @@ std::vector<int> moving_rows(const Scene& scene) {
   return rows;
 }
 
-/// The entries of `matrix` in these rows and columns.
-Eigen::SparseMatrix<double> part(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& rows,
-                                 const std::vector<int>& columns) {
-  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i) place[std::size_t(rows[i])] = static_cast<int>(i);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, columns[j]); entry; ++entry)
-      if (const int row = place[std::size_t(entry.row())]; row >= 0)
-        entries.emplace_back(row, static_cast<int>(j), entry.value());
-  Eigen::SparseMatrix<double> result(std::ssize(rows), std::ssize(columns));
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
 /// Takes the moving rows out of the unknowns.
 void hold_moving_rows(StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows();
@@ -157,8 +119,8 @@ void hold_moving_rows(StructureFiles& files) {
   for (const auto member : {&fem::Matrices::mass, &fem::Matrices::damping, &fem::Matrices::stiffness}) {
     Eigen::SparseMatrix<double>& matrix = files.matrices.*member;
     if (matrix.size() == 0) continue;
-    files.coupling.*member = part(matrix, files.rows, files.moving);
-    matrix = part(matrix, files.rows, files.rows);
+    files.coupling.*member = matrix_part(matrix, files.rows, files.moving);
+    matrix = matrix_part(matrix, files.rows, files.rows);
   }
 }
 
@@ -181,6 +143,7 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<i
   }
   if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
   hold_moving_rows(files);
+  condense_massless_rows(files);
   check_matrices(matrices, structure);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
   if (paths[3].empty()) return files;
@@ -192,7 +155,7 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<i
         fmt::format(
             "the vector in {} has {} entries; expected {}, one for each row of structure.stiffness in {}",
             paths[3], files.load.size(), size, paths[1]));
-  files.load = files.at_unknowns(files.load);
+  files.load = files.forces_at_unknowns(files.load);
   return files;
 }
 
@@ -211,6 +174,15 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
                            fmt::format("degree of freedom {} is there twice; expected each once", row));
     rows.push_back(row);
   }
+}
+
+/// None of the rows in contact may have been condensed.
+void check_mass(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
+  for (const int dof : dofs)
+    if (std::binary_search(files.massless.begin(), files.massless.end(), std::abs(dof) - 1))
+      throw StructureFault(
+          std::string(key),
+          fmt::format("degree of freedom {} has no mass and is condensed; expected one with mass", dof));
 }
 
 /// None of the rows may move with the base.
@@ -273,6 +245,11 @@ std::string StructureFiles::row_name(int row) const {
   return dof_map ? dof_map->name(row) : "row " + std::to_string(row + 1);
 }
 
+Eigen::VectorXd StructureFiles::forces_at_unknowns(const Eigen::VectorXd& forces) const {
+  if (massless.empty()) return forces(rows);
+  return forces(rows) + followers.transpose() * forces(massless);
+}
+
 std::vector<std::string> warnings_of(const StructureFiles& files) {
   if (!files.damping_adds_energy) return {};
   return {
@@ -296,9 +273,12 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows(), all = files.file_rows();
   check_dofs(scene.structure.matrices.contact_dofs, all, "structure.contact_dofs");
   check_unknown(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
+  check_mass(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
   check_pairs(scene.contact.pairs, all);
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     check_unknown(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
+    check_mass(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
+  }
   check_dofs(scene.forcing.load_dofs, all, "forcing.load_dofs");
   check_unknown(scene.forcing.load_dofs, files, "forcing.load_dofs");
   check_terms(scene, files);
@@ -318,19 +298,32 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {
   if (files.load.size() > 0) return files.load;
-  return signed_dofs(scene.forcing.load_dofs, files);
+  return forces_at_dofs(scene.forcing.load_dofs, files);
 }
 
-Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
+namespace {
+
+/// 1 or -1 at each of `dofs`, an entry per row of the files.
+Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const StructureFiles& files) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(files.file_rows());
   for (const int dof : dofs) values[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
-  return files.at_unknowns(values);
+  return values;
+}
+
+}  // namespace
+
+Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
+  return files.at_unknowns(signs_in_files(dofs, files));
+}
+
+Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
+  return files.forces_at_unknowns(signs_in_files(dofs, files));
 }
 
 std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
   Eigen::VectorXd load = unit_load(scene, files).cwiseAbs();
   for (const ForcingTerm& term : scene.forcing.terms)
-    if (term.kind == LoadKind::force) load += signed_dofs(term.dofs, files).cwiseAbs();
+    if (term.kind == LoadKind::force) load += forces_at_dofs(term.dofs, files).cwiseAbs();
   std::vector<int> rows;
   for (Eigen::Index row = 0; row < load.size(); ++row)
     if (load[row] != 0.0) rows.push_back(static_cast<int>(row));

@@ -18,6 +18,8 @@ namespace wavebalance::app {
 struct StructureFiles {
   std::array<std::string, 5> paths;  ///< files of mass, stiffness, damping, load and dof map; empty: none
   std::vector<int> moving;           ///< rows of the files, from 0, that a base displacement moves, ascending
+  std::vector<int> massless;         ///< rows of the files, from 0, without mass, which are condensed
+  Eigen::MatrixXd followers;         ///< massless x n: their displacements from those of the unknowns
   std::vector<int> rows;             ///< n, the other rows of the files: those of the unknowns
   fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
   fem::Matrices coupling;            ///< n x moving, the parts of M, C and K between unknowns and moving rows
@@ -29,9 +31,11 @@ struct StructureFiles {
 
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;
-  Eigen::Index file_rows() const { return std::ssize(rows) + std::ssize(moving); }
-  /// Of a vector with an entry per row of the files, those of the unknowns.
+  Eigen::Index file_rows() const { return std::ssize(rows) + std::ssize(moving) + std::ssize(massless); }
+  /// Of displacements with an entry per row of the files, those of the unknowns.
   Eigen::VectorXd at_unknowns(const Eigen::VectorXd& values) const { return values(rows); }
+  /// Of forces with an entry per row of the files, those on the unknowns; massless rows pass theirs on.
+  Eigen::VectorXd forces_at_unknowns(const Eigen::VectorXd& forces) const;
 };
 
 /// What is wrong with a structure that can nevertheless be solved, a sentence each.
@@ -65,6 +69,8 @@ Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
 
 /// 1 or -1 at each of `dofs`, from 1 with a sign, among n degrees of freedom.
 Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files);
+/// The same as forces, which rows without mass pass on.
+Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files);
 
 /// The directions of contact among n degrees of freedom, contacts x n: of contact_dofs or of the pairs.
 solvers::ContactDirections contact_directions(const Scene& scene, const StructureFiles& files);
