@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -78,6 +79,14 @@ CurvePoint nearest(ArcLength& path, CurvePoint before, CurvePoint after, double 
     (same_side ? before : after) = std::move(middle);
   }
   return distance(before) < distance(after) ? before : after;
+}
+
+/// On which side of `wanted` a point of the curve lies, -1 or 1; 0: there, to rounding.
+int side_of(const FrequencySweep& curve, std::size_t index, double wanted) {
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double apart = parameter_of(curve.points[index], curve.parameter) - wanted;
+  if (std::abs(apart) <= rounding * std::abs(wanted)) return 0;
+  return apart < 0.0 ? -1 : 1;
 }
 
 /// Whether the curve may reach `wanted` and turn back between the points i and i + 1, which lie on one
@@ -178,13 +187,16 @@ std::vector<PeriodicResponse> responses_at(CondensedProblem& problem, const Cont
   set_frequency_of(curve, problem);
   Crossings crossings(problem, laws, curve, value);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const CurvePoint here = solution_of(curve, i);
-    if (here.parameter == value) responses.push_back(crossings.at(curve.points[i]));
+    const int side = side_of(curve, i, value);
+    if (side == 0) responses.push_back(crossings.at(curve.points[i]));
     if (i + 1 == curve.points.size()) break;
-    const CurvePoint next = solution_of(curve, i + 1);
-    const double sides = (here.parameter - value) * (next.parameter - value);
-    if (sides < 0.0) responses.push_back(crossings.between(here, next));
-    if (sides <= 0.0 || !may_turn_at(curve, i, value)) continue;
+    const int sides = side * side_of(curve, i + 1, value);
+    if (sides == 0 || (sides > 0 && !may_turn_at(curve, i, value))) continue;
+    const CurvePoint here = solution_of(curve, i), next = solution_of(curve, i + 1);
+    if (sides < 0) {
+      responses.push_back(crossings.between(here, next));
+      continue;
+    }
     if (const auto turn = crossings.beyond(here, next)) {
       responses.push_back(crossings.between(here, *turn));
       responses.push_back(crossings.between(*turn, next));

@@ -98,6 +98,33 @@ TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
   EXPECT_EQ(problem.frequency(), frequency);
 }
 
+// As results in another unit leave them.
+TEST(CurveResponses, AreThoseOfTheEndsAndOfPointsOfACurveThatWasRounded) {
+  CondensedProblem problem = duffing();
+  problem.set_frequency(0.1);
+  FrequencySweepOptions options;
+  options.from = 0.1;
+  options.to = 2.0;
+  options.keep_unknowns = true;
+  const FrequencySweep curve = amplitude_sweep(problem, Hardening{}, options);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  ASSERT_TRUE(curve.turning_points.empty());  // each load is passed once
+  const std::vector<double> asked{curve.points.front().load_scale, curve.points[3].load_scale,
+                                  curve.points.back().load_scale};
+  int rounded = 0;
+  for (double unit = 0.05; unit < 1.0; unit += 0.05) {
+    FrequencySweep other = curve;
+    for (SweepPoint& point : other.points) point.load_scale = point.load_scale * unit * (1.0 / unit);
+    for (const double value : asked) {
+      const auto found = responses_at(problem, Hardening{}, other, value);
+      ASSERT_EQ(found.size(), 1u) << unit << ' ' << value;
+      EXPECT_TRUE(found.front().converged());
+    }
+    rounded += other.points.back().load_scale != curve.points.back().load_scale ? 1 : 0;
+  }
+  EXPECT_GT(rounded, 0);
+}
+
 TEST(CurveResponses, AreApartOnTheTwoSidesOfAFold) {
   CondensedProblem problem = duffing();
   const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);

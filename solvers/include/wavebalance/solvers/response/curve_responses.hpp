@@ -17,7 +17,8 @@ PeriodicResponse curve_response(CondensedProblem& problem, const ContactLaws& la
 /// it: one each time. A point of the curve is sought between the two neighbours, in planes perpendicular to
 /// the chord of those before, so that near a fold either side has its own, also where the curve turns between
 /// two of its points, and Newton's method solves for it at that value. Where that does not converge, the
-/// status says so. Empty where the curve does not pass it. The problem is left at another value in the
+/// status says so. A point of the curve that is at `value` to rounding is one of them. Empty where the curve
+/// does not pass it. The problem is left at another value in the
 /// displacement form. Throws std::invalid_argument for a curve without unknowns. About ten solutions each.
 std::vector<PeriodicResponse> responses_at(CondensedProblem& problem, const ContactLaws& laws,
                                            const FrequencySweep& curve, double value);
