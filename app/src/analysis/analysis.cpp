@@ -186,7 +186,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
-  append_motions(record, scene, model, motions);
+  append_motions(record, scene, model, sweep, motions);
   append_discretisation(record.summary, scene.time);
   record.summary.emplace_back("form", std::string(to_string(sweep.curve.form)));
   append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
@@ -262,7 +262,7 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
   const ReferenceLoad load = reference_load(scene.forcing).value();
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = of_amplitude(observer, std::abs(load.amplitude), load.unit);
-  options.keep_unknowns = scene.analysis.stability;
+  options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
   Sweep sweep;
   ComposedProblem composed = compose_problem(scene, model);
   sweep.curve = solvers::amplitude_sweep(composed.problem, composed.laws, options);

@@ -9,6 +9,7 @@
 #include "analysis/motion_files.hpp"
 #include "analysis/stability.hpp"
 #include "analysis/summary_parts.hpp"
+#include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -18,14 +19,15 @@
 namespace wavebalance::app {
 namespace {
 
-/// Measures responses of the curve of `sweep`, whose frequencies are those of the problem while it lives.
+/// Measures responses of the curve of `sweep`, whose frequencies and load scales are those of the problem
+/// while it lives.
 class MotionsOfCurve {
  public:
   MotionsOfCurve(const Scene& scene, const StructureModel& model, Sweep& sweep)
       : scene_(scene), model_(model), sweep_(sweep), composed_(compose_problem(scene, model)) {
-    scale(1.0 / sweep_.periods);
+    scale(1.0 / unit_);
   }
-  ~MotionsOfCurve() { scale(sweep_.periods); }
+  ~MotionsOfCurve() { scale(unit_); }
   MotionsOfCurve(const MotionsOfCurve&) = delete;
   MotionsOfCurve& operator=(const MotionsOfCurve&) = delete;
 
@@ -34,23 +36,23 @@ class MotionsOfCurve {
     const auto highest = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
       return a.max_displacement < b.max_displacement;
     });
-    return measured("peak", at(highest->frequency, highest->unknown));
+    return measured("peak", parameter_of(*highest, sweep_.curve.parameter), highest->unknown);
   }
 
   std::vector<CurveMotion> special() {
     std::vector<CurveMotion> motions;
     for (const auto& point : sweep_.stability.special_points)
-      motions.push_back(
-          measured(std::string(to_string(point.type)), at(point.unknown_parameter, point.unknown)));
+      motions.push_back(measured(std::string(to_string(point.type)), point.unknown_parameter, point.unknown));
     return motions;
   }
 
-  std::vector<CurveMotion> at_frequency(double frequency) {
+  /// At a frequency or amplitude of the load.
+  std::vector<CurveMotion> at_place(double place) {
+    const double value = place / unit_;
     std::vector<CurveMotion> motions;
-    for (const auto& one :
-         solvers::responses_at(composed_.problem, composed_.laws, sweep_.curve, frequency / sweep_.periods)) {
-      motions.push_back(measured("frequency", one));
-      motions.back().frequency = frequency;
+    for (const auto& one : solvers::responses_at(composed_.problem, composed_.laws, sweep_.curve, value)) {
+      hold(value);
+      motions.push_back(measured(over_amplitude_ ? "amplitude" : "frequency", place, one));
     }
     return motions;
   }
@@ -58,18 +60,35 @@ class MotionsOfCurve {
  private:
   void scale(double factor) {
     if (factor == 1.0) return;
-    scale_frequencies(sweep_.curve, factor);
-    scale_frequencies(sweep_.stability, factor);
+    if (over_amplitude_) {
+      scale_loads(sweep_.curve, factor);
+      scale_loads(sweep_.stability, factor);
+    } else {
+      scale_frequencies(sweep_.curve, factor);
+      scale_frequencies(sweep_.stability, factor);
+    }
   }
 
-  solvers::PeriodicResponse at(double frequency, const Eigen::VectorXd& unknown) {
-    return solvers::curve_response(composed_.problem, composed_.laws, sweep_.curve, frequency, unknown);
+  /// Puts the problem at a frequency or load scale, since responses_at() leaves it at any.
+  void hold(double value) {
+    solvers::CondensedProblem& problem = composed_.problem;
+    if (over_amplitude_)
+      problem.set_load_scale(value);
+    else if (problem.frequency() != value)
+      problem.set_frequency(value);
   }
 
-  CurveMotion measured(std::string at, const solvers::PeriodicResponse& response) {
+  CurveMotion measured(std::string at, double value, const Eigen::VectorXd& unknown) {
+    const auto response =
+        solvers::curve_response(composed_.problem, composed_.laws, sweep_.curve, value, unknown);
+    return measured(std::move(at), value * unit_, response);
+  }
+
+  /// Of a response at which the problem is held.
+  CurveMotion measured(std::string at, double place, const solvers::PeriodicResponse& response) {
     CurveMotion motion;
     motion.at = std::move(at);
-    motion.frequency = response.frequency * sweep_.periods;
+    motion.place = place;
     motion.converged = response.converged();
     motion.residual = response.residual;
     motion.contacts =
@@ -89,6 +108,8 @@ class MotionsOfCurve {
   const StructureModel& model_;
   Sweep& sweep_;
   ComposedProblem composed_;
+  const bool over_amplitude_ = sweep_.curve.parameter == solvers::SweepParameter::load_scale;
+  const double unit_ = sweep_unit(scene_);
 };
 
 void append_numbered(std::vector<CurveMotion>& all, std::vector<CurveMotion> motions,
@@ -104,7 +125,7 @@ std::vector<Cell> row_of(const CurveMotion& motion) {
   const solvers::Motion leading = motion.contacts.contact(motion.contact);
   Summary values;
   append_motion(values, leading);
-  std::vector<Cell> row{motion.name + ".csv", motion.at, motion.frequency};
+  std::vector<Cell> row{motion.name + ".csv", motion.at, motion.place};
   for (const auto& [name, value] : values) row.emplace_back(std::get<double>(value));
   row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
   row.emplace_back(motion.residual);
@@ -112,15 +133,16 @@ std::vector<Cell> row_of(const CurveMotion& motion) {
   return row;
 }
 
-std::string place_of(const CurveMotion& motion) {
-  if (motion.at == "frequency") return fmt::format("at {} Hz", cell_text(motion.frequency));
+std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
+  if (motion.at == axis.quantity) return fmt::format("at {} {}", cell_text(motion.place), axis.unit);
   std::string type = motion.at;
   std::replace(type.begin(), type.end(), '_', ' ');
-  return fmt::format("at the {}, {:.7g} Hz", type, motion.frequency);
+  return fmt::format("at the {}, {:.7g} {}", type, motion.place, axis.unit);
 }
 
-void append_files(Record& record, const StructureModel& model, const CurveMotion& motion) {
-  const std::string about = "motion of the curve " + place_of(motion);
+void append_files(Record& record, const StructureModel& model, const CurveMotion& motion,
+                  const std::string& place) {
+  const std::string about = "motion of the curve " + place;
   const bool several = motion.contacts.rows() > 1;
   record.files.push_back({motion.name + ".csv",
                           csv_text(response_table(motion.contacts.contact(motion.contact))),
@@ -152,30 +174,33 @@ std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel&
       motions.push_back(std::move(motion));
     }
   }
-  for (const double frequency : wanted.frequencies)
-    append_numbered(motions, curve.at_frequency(frequency), fmt::format("motion_{}Hz", cell_text(frequency)));
+  for (const double place : wanted.places)
+    append_numbered(motions, curve.at_place(place),
+                    fmt::format("motion_{}{}", cell_text(place), sweep_axis(sweep).suffix));
   return motions;
 }
 
-void append_motions(Record& record, const Scene& scene, const StructureModel& model,
+void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
                     const std::vector<CurveMotion>& motions) {
   if (scene.analysis.motion_at.empty()) return;
-  Table table({"file", "at", "frequency_Hz", "max_displacement_m", "min_displacement_m", "rms_displacement_m",
+  const SweepAxis axis = sweep_axis(sweep);
+  Table table({"file", "at", axis.column(), "max_displacement_m", "min_displacement_m", "rms_displacement_m",
                "max_contact_force_N", "contact_fraction", "unstable_multipliers", "residual", "converged"});
   for (const CurveMotion& motion : motions) {
     table.append_row(row_of(motion));
-    append_files(record, model, motion);
+    append_files(record, model, motion, place_of(motion, axis));
     if (!motion.converged)
-      record.warnings.push_back("The motion " + place_of(motion) + " was not solved for to the tolerance: " +
-                                motion.name + ".csv holds the last iterate.");
+      record.warnings.push_back("The motion " + place_of(motion, axis) +
+                                " was not solved for to the tolerance: " + motion.name +
+                                ".csv holds the last iterate.");
   }
-  for (const double frequency : scene.analysis.motion_at.frequencies)
+  for (const double place : scene.analysis.motion_at.places)
     if (std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
-          return motion.at == "frequency" && motion.frequency == frequency;
+          return motion.at == axis.quantity && motion.place == place;
         }))
       record.warnings.push_back(
-          fmt::format("analysis.motion_at: the curve does not reach {} Hz; no motion is written for it.",
-                      cell_text(frequency)));
+          fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
+                      cell_text(place), axis.unit));
   record.summary.emplace_back("motions", std::move(table));
 }
 

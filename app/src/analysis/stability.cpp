@@ -198,7 +198,7 @@ void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep
   options.output_points = scene.analysis.output_points;
   options.observer = of_load(observer, sweep.periods);
   const bool over_amplitude = sweep.curve.parameter == solvers::SweepParameter::load_scale;
-  const double unit = over_amplitude ? std::abs(reference_load(scene.forcing).value().amplitude) : 1.0;
+  const double unit = over_amplitude ? sweep_unit(scene) : 1.0;
   if (over_amplitude) {
     options.observer = of_amplitude(observer, unit, sweep.amplitude_unit);
     scale_loads(sweep.curve, 1.0 / unit);

@@ -5,16 +5,11 @@
 
 namespace wavebalance::app {
 
-namespace {
-
-/// What is 1 in the solver: a period of the problem, or the amplitude of the scene.
 double sweep_unit(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
     return std::abs(reference_load(scene.forcing).value().amplitude);
   return scene.analysis.subharmonic;
 }
-
-}  // namespace
 
 solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
@@ -55,6 +50,7 @@ void scale_loads(solvers::FrequencySweep& curve, double factor) {
 void scale_loads(solvers::CurveStability& stability, double factor) {
   for (auto& point : stability.special_points) {
     point.load_scale *= factor;
+    point.unknown_parameter *= factor;
     point.bracket *= factor;
   }
 }

@@ -120,12 +120,19 @@ void check_branches(const Document& document, const Scene& scene) {
 /// Motions of a sweep lie on its curve.
 void check_motions(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  const auto [low, high] = std::minmax(analysis.frequency_from, analysis.frequency_to);
-  for (const double frequency : analysis.motion_at.frequencies)
-    if (frequency < low || frequency > high)
+  const bool over_amplitude = analysis.type == AnalysisType::amplitude_sweep;
+  const auto [low, high] = over_amplitude ? std::minmax(analysis.amplitude_from, analysis.amplitude_to)
+                                          : std::minmax(analysis.frequency_from, analysis.frequency_to);
+  const auto load = reference_load(scene.forcing);
+  const std::string unit = !over_amplitude ? " Hz"
+                           : load          ? " " + std::string(load->unit)
+                                           : "",
+                    quantity = over_amplitude ? "an amplitude" : "a frequency";
+  for (const double place : analysis.motion_at.places)
+    if (place < low || place > high)
       fail_rule(document, {"analysis.motion_at"},
-                toml_text(frequency) + " Hz is outside the sweep; expected a frequency from " +
-                    toml_text(low) + " to " + toml_text(high) + " Hz");
+                toml_text(place) + unit + " is outside the sweep; expected " + quantity + " from " +
+                    toml_text(low) + " to " + toml_text(high) + unit);
   if (analysis.motion_at.special && !analysis.stability)
     fail_rule(document, {"analysis.motion_at", "analysis.stability"},
               "\"special\" not with analysis.stability = false, by which special points are found; expected "
@@ -310,7 +317,8 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
     check_sweep(document, scene);
-  if (type == AnalysisType::frequency_sweep) check_motions(document, scene);
+  if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
+    check_motions(document, scene);
   if (!mode) check_series(document, scene);
   if (!stepping && !mode) check_subharmonic(document, scene);
   if (type == AnalysisType::shooting) check_shooting(document, scene);

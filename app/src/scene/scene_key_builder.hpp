@@ -33,7 +33,7 @@ inline constexpr bool is_list_of<std::array<Number, Size>> = true;
 
 /// The entries of analysis.motion_at, and what they mean.
 inline std::vector<NumberOrText> entries_of(const MotionAt& at) {
-  std::vector<NumberOrText> entries(at.frequencies.begin(), at.frequencies.end());
+  std::vector<NumberOrText> entries(at.places.begin(), at.places.end());
   if (at.special) entries.insert(entries.begin(), "special");
   if (at.peak) entries.insert(entries.begin(), "peak");
   return entries;
@@ -41,12 +41,12 @@ inline std::vector<NumberOrText> entries_of(const MotionAt& at) {
 inline MotionAt motion_at(const std::vector<NumberOrText>& entries) {
   MotionAt at;
   for (const NumberOrText& entry : entries) {
-    const auto* frequency = std::get_if<double>(&entry);
-    const auto known = std::find(at.frequencies.begin(), at.frequencies.end(), frequency ? *frequency : 0.0);
-    if (frequency == nullptr)
+    const auto* place = std::get_if<double>(&entry);
+    const auto known = std::find(at.places.begin(), at.places.end(), place ? *place : 0.0);
+    if (place == nullptr)
       (std::get<std::string>(entry) == "peak" ? at.peak : at.special) = true;
-    else if (known == at.frequencies.end())
-      at.frequencies.push_back(*frequency);
+    else if (known == at.places.end())
+      at.places.push_back(*place);
   }
   return at;
 }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "support/chain_files.hpp"
+#include "support/curve_record.hpp"
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
-#include "support/stop_scene.hpp"
 #include "support/summary_value.hpp"
 #include "temporary_folder.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
@@ -24,45 +24,6 @@
 
 namespace wavebalance::app {
 namespace {
-
-Scene stop_with(const std::vector<std::string>& overrides) {
-  return parse_scene(stop_scene, "stop.toml", overrides);
-}
-
-/// A response at 0.18 Hz, not a sweep.
-Scene response_with(std::vector<std::string> overrides = {}) {
-  Scene scene = stop_with(overrides);
-  scene.analysis.type = AnalysisType::forced_response;
-  return scene;
-}
-
-const RecordFile* file_of(const Record& record, const std::string& name) {
-  const auto found = std::find_if(record.files.begin(), record.files.end(),
-                                  [&](const RecordFile& file) { return file.name == name; });
-  return found == record.files.end() ? nullptr : &*found;
-}
-
-/// A file of a record, read as any reader of CSV files does.
-Table table_of(const Record& record, const std::string& name) {
-  const TemporaryFolder folder;
-  const RecordFile* file = file_of(record, name);
-  if (file == nullptr) {
-    ADD_FAILURE() << "no file " << name;
-    return {};
-  }
-  return read_csv(folder.write(name, file->contents));
-}
-
-StartMotion start_of(const Record& record, const std::string& name) {
-  const TemporaryFolder folder;
-  const RecordFile* file = file_of(record, name);
-  return file == nullptr ? StartMotion{} : read_start_motion(folder.write(name, file->contents));
-}
-
-double largest(const Table& table) {
-  const auto u = table.numbers("displacement_m");
-  return u.empty() ? 0.0 : *std::max_element(u.begin(), u.end());
-}
 
 TEST(MotionAt, IsOneNameOneFrequencyOrAList) {
   const auto at = [](const std::string& value) {
@@ -94,14 +55,20 @@ TEST(MotionAt, RefusesWhatIsNoPointOfTheCurve) {
     EXPECT_NE(message.find("analysis.motion_at"), std::string::npos) << message;
     EXPECT_NE(message.find(part), std::string::npos) << message;
   };
-  refused("top", "\"peak\", \"special\" or a number in Hz, > 0, or a list of these");
+  refused("top", "\"peak\", \"special\" or a number in Hz or N, > 0, or a list of these");
   refused("[\"peak\", \"pek\"]", "\"pek\" is none of them");
   refused("[]", "or a list of these");
   refused("true", "or a list of these");
   refused("-1", "out of range");
   refused("0.3", "0.3 Hz is outside the sweep; expected a frequency from 0.13 to 0.25 Hz");
   refused("special", "analysis.stability = true", {"analysis.stability=false"});
-  refused("peak", "only with analysis.type = \"frequency_sweep\"", {"analysis.type=forced_response"});
+  refused("peak", "only with analysis.type = \"frequency_sweep\" or \"amplitude_sweep\"",
+          {"analysis.type=forced_response"});
+  EXPECT_NE(
+      message_of(over_amplitude(stop_scene), {"analysis.motion_at=0.6"})
+          .find(
+              "analysis.motion_at = 0.6: 0.6 N is outside the sweep; expected an amplitude from 0.05 to 0.5 N"),
+      std::string::npos);
 }
 
 TEST(CurveMotions, AreThoseOfThePeakTheFoldsAndTheFrequencies) {

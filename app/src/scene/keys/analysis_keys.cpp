@@ -105,8 +105,9 @@ SceneValue stability_by_default(const Scene& scene) {
 }
 
 SceneValue default_motion_points(const Scene& scene) {
-  const bool motion =
-      scene.analysis.type != AnalysisType::frequency_sweep || !scene.analysis.motion_at.empty();
+  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
+                     scene.analysis.type == AnalysisType::amplitude_sweep;
+  const bool motion = !sweep || !scene.analysis.motion_at.empty();
   return std::int64_t{scene.structure.type == StructureType::blade && motion ? 32 : 0};
 }
 
@@ -117,19 +118,21 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
   analysis(&Analysis::type, "type", "", "what is computed", optional);
   analysis(&Analysis::output_points, "output_points", "", "uniform points of one period in response.csv",
            within(2, 1 << 24), optional);
-  analysis(&Analysis::motion_at, "motion_at", "Hz",
-           "points of the curve whose motions are written to motion_peak.csv, motion_fold_1.csv, "
-           "motion_150Hz.csv and so on: that of the largest displacement, the special points, and those at "
-           "frequencies, solved for there, each time that the curve passes one; [\"peak\", 150.0] is an "
-           "example",
-           positive, optional, only_with(analysis_is({"frequency_sweep"})));
-  analysis(&Analysis::motion_points, "motion_points", "",
-           "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
-           "for ParaView, matrices to motion.mtx, a column an instant; of a sweep the motions of motion_at",
-           within(0, 9999),
-           derived("32 for a blade, 0 for matrices and where there is no motion", default_motion_points),
-           only_with(structure_is({"blade", "matrices"}) &&
-                     analysis_is({"forced_response", "frequency_sweep", "nonlinear_mode"})));
+  analysis(
+      &Analysis::motion_at, "motion_at", "Hz or N",
+      "points of the curve whose motions are written to motion_peak.csv, motion_fold_1.csv, "
+      "motion_150Hz.csv, motion_20N.csv and so on: that of the largest displacement, the special points, "
+      "and those at frequencies, of an amplitude sweep at amplitudes, solved for there, each time that "
+      "the curve passes one; [\"peak\", 150.0] is an example",
+      positive, optional, only_with(analysis_is({"frequency_sweep", "amplitude_sweep"})));
+  analysis(
+      &Analysis::motion_points, "motion_points", "",
+      "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
+      "for ParaView, matrices to motion.mtx, a column an instant; of a sweep the motions of motion_at",
+      within(0, 9999),
+      derived("32 for a blade, 0 for matrices and where there is no motion", default_motion_points),
+      only_with(structure_is({"blade", "matrices"}) &&
+                analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
   analysis(
       &Analysis::stability, "stability", "",
       "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "

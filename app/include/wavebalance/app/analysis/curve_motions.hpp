@@ -9,10 +9,10 @@ namespace wavebalance::app {
 
 /// The motion of one point of a sweep.
 struct CurveMotion {
-  std::string name;  ///< "motion_peak", "motion_fold_1", "motion_150Hz_2": its files without their ending
-  std::string at;    ///< "peak", the solvers::SpecialPointType, or "frequency"
-  double frequency = 0.0;       ///< Hz, of the load
-  bool converged = true;        ///< of one at a frequency asked for: whether Newton's method solved for it
+  std::string name;    ///< "motion_peak", "motion_fold_1", "motion_150Hz_2": its files without their ending
+  std::string at;      ///< "peak", the solvers::SpecialPointType, "frequency" or "amplitude"
+  double place = 0.0;  ///< of the load: its frequency (Hz), or its amplitude in an amplitude sweep
+  bool converged = true;        ///< of one at a place asked for: whether Newton's method solved for it
   double residual = 0.0;        ///< relative
   solvers::Motion contacts;     ///< of all contacts, analysis.output_points points
   int contact = 0;              ///< the leading one, see leading_contact()
@@ -21,14 +21,14 @@ struct CurveMotion {
 };
 
 /// The motions of analysis.motion_at: that of the point with the largest displacement, those of the special
-/// points in their order along the curve, and at each frequency those of all its points, in the same order
-/// and numbered if there are several. Those of the branches are left out. A frequency that the curve does not
-/// pass has none. `sweep` is one of the scene with motion_at. A response and its stability for each.
+/// points in their order along the curve, and at each frequency or amplitude those of all its points, in the
+/// same order and numbered if there are several. Those of the branches are left out. A place that the curve
+/// does not pass has none. `sweep` is one of the scene with motion_at. A response and its stability for each.
 std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep);
 
-/// The files of the motions, their table `motions` in the summary, and a warning for each frequency without
-/// one and each motion that was not solved for.
-void append_motions(Record& record, const Scene& scene, const StructureModel& model,
+/// The files of the motions of a sweep, their table `motions` in the summary, and a warning for each place
+/// without one and each motion that was not solved for.
+void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
                     const std::vector<CurveMotion>& motions);
 
 }  // namespace wavebalance::app

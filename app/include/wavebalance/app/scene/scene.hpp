@@ -245,11 +245,13 @@ struct Time {
 
 /// The points of a sweep whose motions are written, analysis.motion_at.
 struct MotionAt {
-  bool peak = false;                     ///< the point of the largest displacement
-  bool special = false;                  ///< the special points of the curve
-  std::vector<double> frequencies = {};  ///< Hz, > 0: each point at which the curve passes one of them
+  bool peak = false;     ///< the point of the largest displacement
+  bool special = false;  ///< the special points of the curve
+  /// > 0, frequencies (Hz) or amplitudes in the unit of reference_load(): each point at which the curve
+  /// passes one of them.
+  std::vector<double> places = {};
 
-  bool empty() const { return !peak && !special && frequencies.empty(); }
+  bool empty() const { return !peak && !special && places.empty(); }
   bool operator==(const MotionAt&) const = default;
 };
 
@@ -272,7 +274,7 @@ struct Analysis {
   double first_step = 0.0;    ///< Hz, or the unit of the amplitude: first step along the branch
   double largest_step = 0.0;  ///< the same: no step along the branch is larger
   int max_points = 20000;     ///< frequency_sweep: the branch is given up after so many points
-  MotionAt motion_at = {};    ///< frequency_sweep
+  MotionAt motion_at = {};    ///< frequency_sweep, amplitude_sweep
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
