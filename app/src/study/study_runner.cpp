@@ -59,7 +59,8 @@ class Distribution {
       take_messages();
       drop_silent();
       say_alive();
-      for (const StudyRow& row : local_.finished(remotes_.empty() ? 50ms : 1ms)) take(row);
+      for (const StudyRow& row : local_.finished(remotes_.empty() ? 50ms : look_interval(mean_seconds())))
+        take(row);
     }
     end_others();
     outcome.workers = local_.threads();
@@ -86,7 +87,9 @@ class Distribution {
         observer, {phase, 0, std::numeric_limits<double>::quiet_NaN(), {}, double(ended) / double(total_)});
   }
 
-  int ahead() const { return runs_ahead(ended_ == 0 ? 1.0 : seconds_ / static_cast<double>(ended_)); }
+  double mean_seconds() const { return ended_ == 0 ? 1.0 : seconds_ / static_cast<double>(ended_); }
+
+  int ahead() const { return runs_ahead(mean_seconds(), todo_.size() < 2 * (remotes_.size() + 1)); }
 
   /// The next run that has no row yet; -1 if there is none.
   std::int64_t next_run() {
@@ -192,13 +195,17 @@ void serve_study(const Study& study, const StudyRuns& runs, Messenger& messenger
   StudyWorkers workers(study, runs, std::max(1, options.threads));
   messenger.send(0, hello_letter + std::to_string(workers.threads()));
   auto told = Clock::now(), heard = told;
+  double last_seconds = 0.0;
   while (Clock::now() - heard < options.longest_silence) {
     while (const auto message = messenger.receive()) {
       heard = Clock::now();
       if (message->text.front() == end_letter) return;
       if (message->text.front() == solve_letter) workers.add(std::stoll(message->text.substr(1)));
     }
-    for (const StudyRow& row : workers.finished(1ms)) messenger.send(0, row_letter + json_line(row));
+    for (const StudyRow& row : workers.finished(look_interval(last_seconds))) {
+      last_seconds = row.seconds;
+      messenger.send(0, row_letter + json_line(row));
+    }
     if (Clock::now() - told < 1s) continue;
     told = Clock::now();
     messenger.send(0, std::string(1, alive_letter));

@@ -1,5 +1,6 @@
 #include "study/study_workers.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace wavebalance::app {
@@ -51,9 +52,14 @@ void StudyWorkers::work() {
   }
 }
 
-int runs_ahead(double mean_seconds) {
-  constexpr double short_run = 0.05;  // s, above which the wait for the next run is lost in its time
-  return mean_seconds < short_run ? 4 : 1;
+std::chrono::milliseconds look_interval(double mean_seconds) {
+  constexpr double shortest = 1.0, longest = 20.0;  // ms
+  return std::chrono::milliseconds(static_cast<int>(std::clamp(1e3 * mean_seconds, shortest, longest)));
+}
+
+int runs_ahead(double mean_seconds, bool few_left) {
+  constexpr double short_run = 0.05;  // s
+  return mean_seconds < short_run ? 4 : few_left ? 1 : 2;
 }
 
 }  // namespace wavebalance::app

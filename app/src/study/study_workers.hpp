@@ -44,8 +44,13 @@ class StudyWorkers {
   std::vector<std::jthread> threads_;
 };
 
-/// How many runs a worker thread is given before the first of them has ended: one, or several where runs are
-/// so short that it would wait for the next.
-int runs_ahead(double mean_seconds);
+/// How often the thread that hands out runs looks for messages of other processes: about once per run, so
+/// that looking costs next to nothing.
+std::chrono::milliseconds look_interval(double mean_seconds);
+
+/// How many runs a worker thread of another process is given before the first of them has ended, so that it
+/// does not wait for the next one: more where runs are as short as the interval between looks, and one where
+/// few are left, so that no run waits beside a free worker.
+int runs_ahead(double mean_seconds, bool few_left);
 
 }  // namespace wavebalance::app
