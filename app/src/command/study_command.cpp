@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -30,6 +34,15 @@ void say_outcome(const StudyArguments& arguments, const StudyRecord& record, con
     std::fprintf(stderr, "wavebalance: warning: %d of the processes fell silent; others solved their runs\n",
                  outcome.lost);
   if (outcome.stopped) std::fputs("wavebalance: interrupted; the same command goes on from here\n", stderr);
+}
+
+/// Each run frees what the next one allocates again. By default the memory goes back to the system in
+/// between, whose pages are then cleared anew: a tenth of the time of two threads.
+void keep_freed_memory() {
+#ifdef M_TRIM_THRESHOLD
+  ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  ::mallopt(M_TOP_PAD, 1 << 24);
+#endif
 }
 
 /// The part of the process that writes.
@@ -78,6 +91,7 @@ int solve_study(const StudyArguments& arguments) {
   if (arguments.threads < 0)
     throw std::invalid_argument(
         fmt::format("--threads {}: expected at least 1, or 0 for one per core", arguments.threads));
+  keep_freed_memory();
   const Study study = load_study(arguments.study);
   const StudyRuns runs(study);
   check_study(study, runs);
