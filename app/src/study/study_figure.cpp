@@ -103,6 +103,17 @@ struct MapAxis {
   std::string label;
 };
 
+/// At most six round numbers of a linear axis, so that long ones stand apart.
+std::vector<double> few_ticks(double lower, double upper) {
+  const double least = (upper - lower) / 5.0, decade = std::pow(10.0, std::floor(std::log10(least)));
+  double step = 10.0 * decade;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * decade >= least) step = factor * decade;
+  std::vector<double> ticks;
+  for (double i = std::ceil(lower / step); i * step <= upper; ++i) ticks.push_back(i * step);
+  return ticks;
+}
+
 /// A parameter with its unit.
 std::string labelled(const std::string& key) {
   const SceneKey* known = find_scene_key(key);
@@ -122,6 +133,7 @@ Axis axis_of_map(const MapAxis& axis) {
   result.label = axis.label;
   result.lower = axis.values.front() - half;
   result.upper = axis.values.back() + half;
+  result.ticks = few_ticks(*result.lower, *result.upper);
   return result;
 }
 
@@ -250,6 +262,7 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
     Panel& panel = figure.add_panel("Over " + plain(one.key));
     panel.x.label = labelled(one.key);
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
+    if (!panel.x.logarithmic) panel.x.ticks = few_ticks(one.distinct.front(), one.distinct.back());
     panel.y.label = shown_as(quantity).label;
     panel.legend = Legend::none;
     panel.add(std::move(series));

@@ -227,6 +227,9 @@ toml::table parse_study_toml(std::string_view text, const std::string& name) {
 
 void read_scene_of_study(StudyTable& table, Study& study, const std::string& scene_text) {
   const std::string scene = table.text("scene", "", "the path of a scene, relative to the study");
+  if (scene.empty() && table.find("structure") != nullptr)
+    table.fail("scene", nullptr,
+               "missing: this is a scene, and a study names one; `wavebalance init study` writes a study");
   if (scene.empty() && scene_text.empty())
     table.fail("scene", nullptr, "missing; expected the path of a scene, relative to the study");
   study.scene = scene.empty() ? std::filesystem::path(study.name)

@@ -177,4 +177,15 @@ TEST(StudyFile, NamesItsSceneRelativeToItself) {
   EXPECT_THROW(load_study(folder / "none.toml"), SceneError);
 }
 
+TEST(StudyFile, ASceneInItsPlaceIsNamedAsOne) {
+  const TemporaryFolder folder;
+  try {
+    load_study(folder.write("bar.toml", bar_scene));
+    ADD_FAILURE() << "a scene was read as a study";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("this is a scene, and a study names one"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
