@@ -138,10 +138,11 @@ class ResponseComparison {
 
 void check_scene_type(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep)
+  if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep &&
+      type != AnalysisType::amplitude_sweep)
     throw std::invalid_argument("analysis.type = \"" + name_of(type) +
-                                "\": pairs of bases are compared in a \"forced_response\" or a "
-                                "\"frequency_sweep\"");
+                                "\": pairs of bases are compared in a \"forced_response\", a "
+                                "\"frequency_sweep\" or an \"amplitude_sweep\"");
   if (scene.analysis.subharmonic != 1)
     throw std::invalid_argument("analysis.subharmonic = " + std::to_string(scene.analysis.subharmonic) +
                                 ": motions of one period of the load are compared; expected 1");

@@ -127,11 +127,11 @@ Figure error_over_functions(const Comparison& comparison) {
 
 Figure curves_figure(const SweepComparison& comparison) {
   Figure figure;
-  figure.title = "Frequency response, the most functions of each pair";
+  figure.title = "Responses over the " + comparison.quantity + ", the most functions of each pair";
   figure.panel_width = 900;
   figure.panel_height = 460;
   Panel& panel = figure.add_panel();
-  panel.x.label = "Frequency (Hz)";
+  panel.x.label = comparison.axis;
   panel.y.label = "Largest displacement (mm)";
   panel.legend = Legend::right_of_panel;
   std::set<std::string> drawn;
@@ -139,7 +139,7 @@ Figure curves_figure(const SweepComparison& comparison) {
     if (!curve->converged() || !drawn.insert(name_of(curve->pair)).second) continue;
     std::vector<double> millimetres = curve->displacement;
     for (double& value : millimetres) value *= 1e3;
-    panel.add(styled({label_of(curve->pair) + ", " + std::to_string(curve->functions), curve->frequency,
+    panel.add(styled({label_of(curve->pair) + ", " + std::to_string(curve->functions), curve->varied,
                       millimetres, SeriesStyle::line},
                      curve->pair));
   }

@@ -178,11 +178,11 @@ Table recommendations_table(const std::vector<Recommendation>& recommendations) 
 
 Table curves_table(const SweepComparison& comparison) {
   Table table({"trial", "weight", "functions", "points", "seconds", "curve_points", "max_displacement_m",
-               "frequency_at_max_displacement_Hz", "turning_points", "distance_from_finest", "status"});
+               comparison.peak_column, "turning_points", "distance_from_finest", "status"});
   for (const ComparedCurve& curve : comparison.curves)
     table.append_row({curve.pair.trial, curve.pair.weight, std::int64_t{curve.functions},
                       std::int64_t{curve.points}, curve.seconds,
-                      static_cast<std::int64_t>(curve.frequency.size()), curve.peak, curve.peak_frequency,
+                      static_cast<std::int64_t>(curve.varied.size()), curve.peak, curve.peak_at,
                       std::int64_t{curve.turning_points}, curve.distance, curve.status});
   return table;
 }
@@ -231,8 +231,9 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
   if (comparison.finest) {
     const ComparedCurve& finest = comparison.curves[*comparison.finest];
     record.text += fmt::format(
-        "The finest is {} with {} functions: its peak is {:.6g} m at {:.6g} Hz, and it turns {} times.\n",
-        label_of(finest.pair), finest.functions, finest.peak, finest.peak_frequency, finest.turning_points);
+        "The finest is {} with {} functions: its peak is {:.6g} m at {:.6g} {}, and it turns {} times.\n",
+        label_of(finest.pair), finest.functions, finest.peak, finest.peak_at, comparison.unit,
+        finest.turning_points);
     record.pictures.push_back(
         {"sweeps", curves_figure(comparison), "the finest curve of each pair, and distances over functions"});
   }
@@ -242,7 +243,7 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
                                        "seconds",
                                        "curve_points",
                                        "max_displacement_m",
-                                       "frequency_at_max_displacement_Hz",
+                                       comparison.peak_column,
                                        "turning_points",
                                        "distance_from_finest",
                                        "status"};
@@ -254,7 +255,8 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
 
 ComparisonRecord compare_bases(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer) {
-  if (scene.analysis.type == AnalysisType::frequency_sweep)
+  if (scene.analysis.type == AnalysisType::frequency_sweep ||
+      scene.analysis.type == AnalysisType::amplitude_sweep)
     return comparison_record(scene, compare_sweeps(scene, options, observer));
   return comparison_record(scene, compare_responses(scene, options, observer));
 }

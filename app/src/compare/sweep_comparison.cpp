@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/sweep_axis.hpp"
 #include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
@@ -26,8 +27,8 @@ using Point = std::complex<double>;
 
 std::vector<Point> scaled_curve(const ComparedCurve& curve, double interval, double height) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < curve.frequency.size(); ++i)
-    points.emplace_back(curve.frequency[i] / interval, curve.displacement[i] / height);
+  for (std::size_t i = 0; i < curve.varied.size(); ++i)
+    points.emplace_back(curve.varied[i] / interval, curve.displacement[i] / height);
   return points;
 }
 
@@ -64,11 +65,12 @@ ComparedCurve curve_of(const Scene& scene, const BasisPair& pair, const Sweep& s
   curve.seconds = seconds;
   curve.turning_points = static_cast<int>(sweep.curve.turning_points.size());
   for (const auto& point : sweep.curve.points) {
-    curve.frequency.push_back(point.frequency);
+    const double varied = solvers::parameter_of(point, sweep.curve.parameter);
+    curve.varied.push_back(varied);
     curve.displacement.push_back(point.max_displacement);
     if (point.max_displacement <= curve.peak) continue;  // the first is no less than NaN
     curve.peak = point.max_displacement;
-    curve.peak_frequency = point.frequency;
+    curve.peak_at = varied;
   }
   return curve;
 }
@@ -90,6 +92,7 @@ class CurveComparison {
   CurveComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
       : scene_(scene), model_(make_model(scene, observer)), options_(options), observer_(observer) {
     scene_.analysis.stability = scene_.analysis.branches = false;
+    name_axis();
     model_.threads = 1;  // so that the time of a curve is that of its thread
   }
 
@@ -108,6 +111,21 @@ class CurveComparison {
 
  private:
   static constexpr double longest_share = 0.4;  // of the budget: a single curve
+
+  bool over_amplitude() const { return scene_.analysis.type == AnalysisType::amplitude_sweep; }
+
+  void name_axis() {
+    Sweep sweep;
+    if (over_amplitude()) {
+      sweep.curve.parameter = solvers::SweepParameter::load_scale;
+      sweep.amplitude_unit = reference_load(scene_.forcing).value().unit;
+    }
+    const SweepAxis axis = sweep_axis(sweep);
+    found_.quantity = axis.quantity;
+    found_.unit = axis.unit;
+    found_.axis = axis.label();
+    found_.peak_column = axis.quantity + "_at_max_displacement_" + axis.suffix;
+  }
 
   double elapsed() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -176,8 +194,9 @@ class CurveComparison {
       return curve;
     };
     try {
-      const Sweep sweep =
-          frequency_sweep(scene, model_, [&](const solvers::Progress&) { return goes_on(phase); });
+      const auto observer = [&](const solvers::Progress&) { return goes_on(phase); };
+      const Sweep sweep = over_amplitude() ? amplitude_sweep(scene, model_, observer)
+                                           : frequency_sweep(scene, model_, observer);
       ComparedCurve curve = curve_of(scene, pair, sweep, processor_seconds() - start);
       if (curve.status == "interrupted" && !observer_.stopped()) curve.status = "out_of_time";
       return curve;
@@ -203,7 +222,9 @@ class CurveComparison {
     }
     if (!found_.finest) return;
     const ComparedCurve& finest = found_.curves[*found_.finest];
-    const double interval = std::abs(scene_.analysis.frequency_to - scene_.analysis.frequency_from);
+    const Analysis& analysis = scene_.analysis;
+    const double interval = over_amplitude() ? std::abs(analysis.amplitude_to - analysis.amplitude_from)
+                                             : std::abs(analysis.frequency_to - analysis.frequency_from);
     for (ComparedCurve& one : found_.curves)
       if (one.converged()) one.distance = curve_distance(one, finest, interval);
   }
@@ -227,7 +248,7 @@ class CurveComparison {
 }  // namespace
 
 double curve_distance(const ComparedCurve& a, const ComparedCurve& b, double interval) {
-  if (a.frequency.empty() || b.frequency.empty()) return SolvePoint::unknown;
+  if (a.varied.empty() || b.varied.empty()) return SolvePoint::unknown;
   double height = 0.0;
   for (const double value : b.displacement) height = std::max(height, std::abs(value));
   if (!(height > 0.0)) return SolvePoint::unknown;

@@ -109,11 +109,7 @@ TEST(CurveMotions, AtAFrequencyAreThoseOfShootingFromTheirState) {
   for (const char* name : {"motion_0.18Hz_1.csv", "motion_0.18Hz_2.csv", "motion_0.18Hz_3.csv"}) {
     const Table table = table_of(record, name);
     ASSERT_FALSE(table.empty());
-    solvers::ShootingOptions options;
-    options.settling_periods = 0;
-    options.initial_displacement = Eigen::VectorXd::Constant(1, table.numbers("displacement_m")[0]);
-    options.initial_velocity = Eigen::VectorXd::Constant(1, table.numbers("velocity_m_per_s")[0]);
-    const auto shot = solvers::shoot(model.structure, make_law(scene.contact), 0.18, options);
+    const auto shot = shot_from(scene, model, table);
     ASSERT_EQ(shot.status, solvers::ShootingStatus::converged) << name;
     const auto u = table.numbers("displacement_m"), force = table.numbers("contact_force_N");
     for (std::size_t l = 0; l < u.size(); ++l) {

@@ -9,6 +9,7 @@
 
 #include "support/bar_scene.hpp"
 #include "support/chain_files.hpp"
+#include "support/curve_record.hpp"
 #include "support/summary_value.hpp"
 #include "temporary_folder.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
@@ -275,8 +276,8 @@ TEST(SweepComparison, LaysCurvesOfSeveralPairsOverTheFinest) {
   EXPECT_GT(coarse.distance, 0.0);
   EXPECT_LT(coarse.distance, 0.1);
   EXPECT_NEAR(coarse.peak, finest.peak, 0.1 * finest.peak);
-  EXPECT_GE(finest.peak_frequency, 100.0);
-  EXPECT_LE(finest.peak_frequency, 160.0);
+  EXPECT_GE(finest.peak_at, 100.0);
+  EXPECT_LE(finest.peak_at, 160.0);
 }
 
 void expect_same_curve(const ComparedCurve& found, const ComparedCurve& expected) {
@@ -284,7 +285,7 @@ void expect_same_curve(const ComparedCurve& found, const ComparedCurve& expected
   EXPECT_EQ(found.functions, expected.functions);
   EXPECT_EQ(found.points, expected.points);
   EXPECT_EQ(found.status, expected.status);
-  EXPECT_EQ(found.frequency, expected.frequency);
+  EXPECT_EQ(found.varied, expected.varied);
   EXPECT_EQ(found.displacement, expected.displacement);
   EXPECT_EQ(found.turning_points, expected.turning_points);
   EXPECT_EQ(found.distance, expected.distance);
@@ -367,11 +368,33 @@ TEST(Comparison, OnTwoThreadsHasTheMotionsOfOneToTheLastDigit) {
   EXPECT_EQ(found.status(), "converged");
 }
 
+TEST(SweepComparison, OverTheAmplitudeFollowsTheCurveOfThatSweep) {
+  ComparisonOptions options = brief(20.0);
+  options.pairs = {{"fourier", "fourier"}};
+  options.largest_functions = 32;
+  const Scene scene = load_with({"time.functions=32", "time.quadrature_points=512"});
+  const SweepComparison found = compare_sweeps(scene, options);
+  ASSERT_TRUE(found.converged()) << found.status();
+  EXPECT_EQ(found.peak_column, "amplitude_at_max_displacement_N");
+  const ComparedCurve& finest = found.curves[*found.finest];
+  const Sweep alone = amplitude_sweep(load_with({"time.functions=31", "time.quadrature_points=512"}));
+  ASSERT_EQ(finest.varied.size(), alone.curve.points.size());
+  for (std::size_t i = 0; i < finest.varied.size(); ++i) {
+    EXPECT_EQ(finest.varied[i], alone.curve.points[i].load_scale);
+    EXPECT_EQ(finest.displacement[i], alone.curve.points[i].max_displacement);
+  }
+  EXPECT_EQ(finest.turning_points, 2);
+  EXPECT_GT(found.curves.front().distance, 0.0);
+  const ComparisonRecord record = comparison_record(scene, found);
+  EXPECT_TRUE(record.table.has_column("amplitude_at_max_displacement_N"));
+  EXPECT_NE(record.text.find(" N, and it turns 2 times"), std::string::npos) << record.text;
+}
+
 TEST(SweepComparison, MeasuresTheLargestDistanceBothWaysInUnitsOfTheWindow) {
   ComparedCurve a, b;
-  a.frequency = {0.0, 10.0};
+  a.varied = {0.0, 10.0};
   a.displacement = {1.0, 1.0};
-  b.frequency = {0.0, 5.0, 10.0};
+  b.varied = {0.0, 5.0, 10.0};
   b.displacement = {1.0, 2.0, 1.0};  // its height is 2
   EXPECT_NEAR(curve_distance(a, b, 10.0), 0.5, 1e-12);
   EXPECT_NEAR(curve_distance(b, b, 10.0), 0.0, 1e-12);

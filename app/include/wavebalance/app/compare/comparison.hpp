@@ -54,7 +54,7 @@ struct Comparison {
 
 /// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,
 /// the budget is not positive, the threads are negative, or the scene is none to be compared: forced
-/// responses and frequency sweeps over one period of the load are. O(pairs).
+/// responses, frequency and amplitude sweeps over one period of the load are. O(pairs).
 void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and

@@ -36,7 +36,7 @@ Table pairs_table(const Comparison& comparison);
 /// fourier_functions, fourier_seconds, fourier_time_ratio, basis_matters, stability, sentences, time_table.
 Table recommendations_table(const std::vector<Recommendation>& recommendations);
 /// trial, weight, functions, points, seconds, curve_points, max_displacement_m,
-/// frequency_at_max_displacement_Hz, turning_points, distance_from_finest, status.
+/// comparison.peak_column, turning_points, distance_from_finest, status.
 Table curves_table(const SweepComparison& comparison);
 
 /// Compares the scene's responses or sweeps, as its analysis says, and returns the record. Throws as

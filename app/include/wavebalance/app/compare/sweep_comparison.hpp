@@ -7,44 +7,49 @@
 
 namespace wavebalance::app {
 
-/// A frequency response curve in one pair and size.
+/// A curve of responses over the frequency or the amplitude of the load in one pair and size.
 struct ComparedCurve {
   BasisPair pair;
   int functions = 0, points = 0;  ///< M and N
   std::string
       status;  ///< of the sweep, "reached_end" where it was solved; "out_of_time" if the budget ended it
-  double seconds = SolvePoint::unknown;         ///< processor time of its thread, once
-  std::vector<double> frequency;                ///< Hz, along the curve
-  std::vector<double> displacement;             ///< m, the largest over the period and the contacts
-  int turning_points = 0;                       ///< at which the curve reverses in frequency
-  double peak = SolvePoint::unknown;            ///< m, the largest displacement
-  double peak_frequency = SolvePoint::unknown;  ///< Hz
+  double seconds = SolvePoint::unknown;   ///< processor time of its thread, once
+  std::vector<double> varied;             ///< frequency (Hz) or amplitude along the curve
+  std::vector<double> displacement;       ///< m, the largest over the period and the contacts
+  int turning_points = 0;                 ///< at which the curve reverses
+  double peak = SolvePoint::unknown;      ///< m, the largest displacement
+  double peak_at = SolvePoint::unknown;   ///< frequency (Hz) or amplitude there
   double distance = SolvePoint::unknown;  ///< from the finest curve, see curve_distance(); NaN without it
 
   bool converged() const { return status == "reached_end"; }
 };
 
-/// A frequency sweep in several pairs and sizes.
+/// A sweep in several pairs and sizes.
 struct SweepComparison {
   bool interrupted = false;
   std::vector<ComparedCurve> curves;     ///< by rising functions, all pairs of each
   std::optional<std::size_t> finest;     ///< the first of most functions that reached the end
   std::vector<PairResult> inadmissible;  ///< of common_pairs()
+  std::string quantity = "frequency";    ///< that varies, or "amplitude"
+  std::string unit = "Hz";               ///< of it; of an amplitude "N", "m" or "m/s^2"
+  std::string axis = "Frequency (Hz)";   ///< its label
+  /// Column of the place of the peak; of amplitudes "amplitude_at_max_displacement_N", _m or _m_per_s2.
+  std::string peak_column = "frequency_at_max_displacement_Hz";
   double wall_seconds = 0.0;
 
   bool converged() const { return finest.has_value() && !interrupted; }
   std::string status() const { return interrupted ? "interrupted" : finest ? "converged" : "no_curve"; }
 };
 
-/// Follows the scene's frequency response in each pair with 8, 16, ... functions, a pair of Fourier functions
+/// Follows the curve of the scene's sweep in each pair with 8, 16, ... functions, a pair of Fourier functions
 /// with one less, and the points per function of the scene, to largest_functions or 16384 or until the budget
 /// is used. Pairs are followed side by side, one in each thread; a curve and its digits do not depend on the
 /// others. The observer is called by one thread at a time. Throws as check_comparison().
 SweepComparison compare_sweeps(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer = {});
 
-/// Largest distance of a point of one curve from the other, both ways, in a plane where the interval of
-/// frequencies and the largest displacement of `b` have length one. NaN for an empty curve. O(points of a
+/// Largest distance of a point of one curve from the other, both ways, in a plane where the interval
+/// of the sweep and the largest displacement of `b` have length one. NaN for an empty curve. O(points of a
 /// times points of b).
 double curve_distance(const ComparedCurve& a, const ComparedCurve& b, double interval);
 
