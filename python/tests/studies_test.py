@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import multiprocessing
+import os
 import pickle
 
 import numpy as np
@@ -121,6 +122,17 @@ def test_matrices_in_memory_are_solved_here_and_refused_elsewhere():
     assert study.converged and study.table["max_displacement_m"][0] > 0
     with concurrent.futures.ThreadPoolExecutor(1) as executor, pytest.raises(ValueError, match="names of files"):
         wb.study(scene, {"forcing.frequency": [20.0]}, executor=executor)
+
+
+def test_workers_in_other_folders_find_the_files_of_a_scene(scenes, monkeypatch):
+    monkeypatch.chdir(scenes / "matrices")
+    frequencies = {"forcing.frequency": [70.0, 75.0]}
+    here = wb.study("strip_forced.toml", frequencies, {"time.functions": 15})
+    assert here.converged
+    with concurrent.futures.ProcessPoolExecutor(
+        1, mp_context=multiprocessing.get_context("spawn"), initializer=os.chdir, initargs=("/",)
+    ) as executor:
+        same(wb.study("strip_forced.toml", frequencies, {"time.functions": 15}, executor=executor), here)
 
 
 def test_a_wrong_study_names_the_key_and_what_is_allowed(bar, tmp_path):

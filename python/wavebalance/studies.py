@@ -145,7 +145,7 @@ def study(
     with scene_source(scene, overrides, unset) as source:
         if executor is not None and source.temporary:
             raise ValueError("scene holds matrices in memory, which workers of an executor cannot read; expected names of files")
-        plan = _plan(source, parameters, sampling, samples, seed, quantity)
+        plan = _plan(source, parameters, sampling, samples, seed, quantity, executor is None)
         plan.check()
         session = _core.StudySession(plan, "" if output is None else os.fspath(output))
         try:
@@ -161,6 +161,7 @@ def _plan(
     samples: int | None,
     seed: int | None,
     quantity: str | None,
+    here: bool,
 ) -> _core.StudyPlan:
     """The study as the command reads it from a file, and the text of its scene."""
     values = {"sampling": sampling, "samples": samples, "seed": seed, "quantity": quantity}
@@ -175,7 +176,9 @@ def _plan(
         else:
             raise TypeError(f"parameters[{key!r}] is of type {type(taken).__name__}; expected a list of values or an interval")
     text = source.text or Path(source.name).read_text(encoding="utf-8")
-    return _core.StudyPlan("\n".join(lines) + "\n", source.name, text)
+    # Files that the scene names are relative to it, and workers of executors may run in other folders.
+    name = source.name if here else os.path.abspath(source.name)
+    return _core.StudyPlan("\n".join(lines) + "\n", name, text)
 
 
 def _finished(

@@ -260,8 +260,9 @@ Study load_study(const std::filesystem::path& file) {
 }
 
 std::string study_identity(const Study& study) {
-  std::string text = fmt::format("{}\n{}\n{}\n{}\n", name_of(study.sampling), study.samples, study.seed,
-                                 std::filesystem::weakly_canonical(study.scene).string());
+  std::string text =
+      fmt::format("{}\n{}\n{}\n{}\n", name_of(study.sampling), study.samples, study.seed,
+                  std::filesystem::weakly_canonical(std::filesystem::absolute(study.scene)).string());
   for (const std::string& one : study.set) text += "set " + one + "\n";
   for (const std::string& one : study.unset) text += "unset " + one + "\n";
   for (const StudyParameter& one : study.parameters)
