@@ -140,4 +140,14 @@ std::string memory_text(double bytes) {
   return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} MB", bytes / 1e6);
 }
 
+void check_memory(const Scene& scene, double max_gigabytes) {
+  const double needed = estimate_cost(scene).bytes;
+  const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
+  if (needed <= limit) return;
+  const std::string there = max_gigabytes > 0.0 ? "--max-memory allows " : "there are ";
+  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " +
+                              there + memory_text(limit) +
+                              "; fewer functions, quadrature_points or output_points take less");
+}
+
 }  // namespace wavebalance::app

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -87,18 +86,13 @@ std::string pairs(const Summary& summary) {
 
 std::string curves(const ComparisonRecord& record, const Summary& summary) {
   if (table_of(summary, "curves") == nullptr) return "";
-  constexpr std::string_view at = "_at_max_displacement_";
-  std::string peak;
-  for (const std::string& name : record.table.columns())
-    if (name.find(at) != std::string::npos) peak = name;
-  const std::string unit = peak.substr(std::min(peak.size(), peak.find(at) + at.size()));
   return columns_html(record.table, {{"trial", "trial"},
                                      {"weight", "weight"},
                                      {"functions", "functions"},
                                      {"seconds", "time (s)"},
                                      {"curve_points", "points of the curve"},
                                      {"max_displacement_m", "peak (m)"},
-                                     {peak, "at (" + (unit == "m_per_s2" ? "m/s^2" : unit) + ")"},
+                                     {record.peak_column, "at (" + record.peak_unit + ")"},
                                      {"turning_points", "turns"},
                                      {"distance_from_finest", "distance from the finest"},
                                      {"status", "status"}});

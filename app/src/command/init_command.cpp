@@ -79,7 +79,8 @@ std::vector<ResultFile> starter_scene(const std::string& kind, const std::string
   const std::string name = stem + ".toml";
   if (kind == "bar") return {{name, bar_starter, ""}};
   if (kind == "blade") return {{name, blade_starter, ""}};
-  if (kind == "study") return {{name, with_stem(study_starter, stem), ""}, {stem + "_scene.toml", bar_starter, ""}};
+  if (kind == "study")
+    return {{name, with_stem(study_starter, stem), ""}, {stem + "_scene.toml", bar_starter, ""}};
   if (kind == "matrices") {
     const Cantilever beam = cantilever();
     return {{name, with_stem(matrices_starter, stem), ""},
@@ -108,9 +109,10 @@ int init_scene(const InitArguments& arguments) {
   }
   files.commit();
   const bool study = arguments.kind == "study";
-  return print("written: " + list + "\nnext:    " +
-               (study ? "wavebalance study " : "wavebalance check " + scene.string() + "\n         wavebalance run ") +
-               scene.string() + " --output " + scene.stem().string() + "\n");
+  return print(
+      "written: " + list + "\nnext:    " +
+      (study ? "wavebalance study " : "wavebalance check " + scene.string() + "\n         wavebalance run ") +
+      scene.string() + " --output " + scene.stem().string() + "\n");
 }
 
 }  // namespace wavebalance::app

@@ -70,7 +70,7 @@ void add_scene(CLI::App& command, RunArguments& arguments) {
   add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
 }
 
-void add_threads(CLI::App& command, RunArguments& arguments, const std::string& help) {
+void add_threads(CLI::App& command, int& threads, const std::string& help) {
   const auto check = [](const std::string& text) -> std::string {
     constexpr int most = 1024;
     int value = -1;
@@ -80,9 +80,7 @@ void add_threads(CLI::App& command, RunArguments& arguments, const std::string& 
     return "\"" + text + "\": expected a whole number from 0 to " + std::to_string(most) +
            "; 0: one per core";
   };
-  command.add_option("--threads", arguments.threads, help + "; one per core without it")
-      ->type_name("N")
-      ->check(CLI::Validator(check, ""));
+  command.add_option("--threads", threads, help)->type_name("N")->check(CLI::Validator(check, ""));
 }
 
 void add_compare(CLI::App& command, CompareArguments& arguments) {
@@ -95,7 +93,7 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
                   "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
-  add_threads(command, arguments.run, "pairs that are solved side by side");
+  add_threads(command, arguments.run.threads, "pairs that are solved side by side; one per core without it");
   command.add_flag("!--no-report", arguments.run.report, "write no report.html");
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
@@ -106,10 +104,8 @@ void add_study(CLI::App& command, StudyArguments& arguments) {
       .add_option("--output,-o", arguments.output,
                   "folder of the results, made if missing; a study that was begun there goes on")
       ->required();
-  command
-      .add_option("--threads", arguments.threads,
-                  "runs solved side by side; without it one per core, below mpirun one per process")
-      ->type_name("N");
+  add_threads(command, arguments.threads,
+              "runs that are solved side by side; without it one per core, below mpirun one per process");
   command.add_flag("!--no-report", arguments.report, "write no report.html");
   command.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
 }
@@ -197,7 +193,8 @@ int dispatch(int argc, char** argv) {
                  "refuse a scene that is expected to take more; without it, more than the machine has")
       ->type_name("GB")
       ->check(CLI::PositiveNumber);
-  add_threads(run, arguments, "harmonics that are condensed side by side, with the same digits");
+  add_threads(run, arguments.threads,
+              "harmonics that are condensed side by side, with the same digits; one per core without it");
   run.add_flag("!--no-report", arguments.report, "write no report.html");
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");

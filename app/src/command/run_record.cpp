@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "command/bar_motion.hpp"
-#include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
@@ -93,16 +92,6 @@ void write_run_files(OutputFiles& output, const RunFiles& files) {
   for (const ResultFile& file : files.files) output.add(file.name, file.contents);
   output.add("summary.json", files.summary);
   output.commit();
-}
-
-void check_memory(const Scene& scene, double max_gigabytes) {
-  const double needed = estimate_cost(scene).bytes;
-  const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
-  if (needed <= limit) return;
-  const std::string there = max_gigabytes > 0.0 ? "--max-memory allows " : "there are ";
-  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " +
-                              there + memory_text(limit) +
-                              "; fewer functions, quadrature_points or output_points take less");
 }
 
 }  // namespace wavebalance::app

@@ -28,8 +28,4 @@ std::string append_pictures(std::vector<ResultFile>& files, const std::vector<Re
 /// only if the others do. Throws IoError.
 void write_run_files(OutputFiles& output, const RunFiles& files);
 
-/// Throws std::invalid_argument if a scene is expected to take more memory than the machine has, or more than
-/// `max_gigabytes` where that is positive, before any is allocated.
-void check_memory(const Scene& scene, double max_gigabytes);
-
 }  // namespace wavebalance::app

@@ -88,9 +88,6 @@ int solve_study(const StudyArguments& arguments) {
   if (arguments.output.empty())
     throw std::invalid_argument(
         "--output is \"\"; expected the name of a folder, which is made if it is missing");
-  if (arguments.threads < 0)
-    throw std::invalid_argument(
-        fmt::format("--threads {}: expected at least 1, or 0 for one per core", arguments.threads));
   keep_freed_memory();
   const Study study = load_study(arguments.study);
   const StudyRuns runs(study);

@@ -85,27 +85,6 @@ std::string asked(const StudyArguments& arguments, const Study& study) {
          folded("The scene", code_html(study.scene_text));
 }
 
-}  // namespace
-
-std::string study_outcome(const StudyRecord& record) {
-  const Summary& summary = record.summary;
-  const auto value = [&](const char* wanted) {
-    for (const auto& [name, one] : summary)
-      if (const auto* count = std::get_if<std::int64_t>(&one); count != nullptr && name == wanted)
-        return *count;
-    return std::int64_t{0};
-  };
-  std::string text = fmt::format("{} of {} runs have ended, and {} of them converged.\n", value("runs_ended"),
-                                 value("runs"), value("runs_converged"));
-  const Table* statuses = table_of(summary, "statuses");
-  for (std::size_t i = 0; statuses != nullptr && i < statuses->rows(); ++i)
-    text +=
-        fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
-  return text;
-}
-
-namespace {
-
 std::string study_report(const StudyArguments& arguments, const Study& study, const StudyRecord& record,
                          const Summary& summary, const std::vector<ResultFile>& files) {
   PageParts page;
@@ -126,6 +105,23 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
 }
 
 }  // namespace
+
+std::string study_outcome(const StudyRecord& record) {
+  const Summary& summary = record.summary;
+  const auto value = [&](const char* wanted) {
+    for (const auto& [name, one] : summary)
+      if (const auto* count = std::get_if<std::int64_t>(&one); count != nullptr && name == wanted)
+        return *count;
+    return std::int64_t{0};
+  };
+  std::string text = fmt::format("{} of {} runs have ended, and {} of them converged.\n", value("runs_ended"),
+                                 value("runs"), value("runs_converged"));
+  const Table* statuses = table_of(summary, "statuses");
+  for (std::size_t i = 0; statuses != nullptr && i < statuses->rows(); ++i)
+    text +=
+        fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
+  return text;
+}
 
 RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record) {
   RunFiles run;

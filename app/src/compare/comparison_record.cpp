@@ -224,6 +224,8 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
   record.interrupted = comparison.interrupted;
   record.status = comparison.status();
   record.table = curves_table(comparison);
+  record.peak_column = comparison.peak_column;
+  record.peak_unit = comparison.unit;
   record.summary = heading(record, scene, comparison.wall_seconds);
   record.summary.emplace_back("curves", record.table);
   record.text =

@@ -4,20 +4,12 @@
 #include "compose/scene_rules.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/scene_reader.hpp"
-#include "wavebalance/app/files/output.hpp"
+#include "scene/toml_text.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
-
-std::string read_text(const std::filesystem::path& file) {
-  try {
-    return read_file(file, max_scene_bytes);
-  } catch (const IoError& error) {
-    throw SceneError({file.string(), 0, "", "", "", error.reason()});
-  }
-}
 
 Scene checked_scene(const Document& given, const Scene* earlier = nullptr) {
   const Document document = with_rows_for_names(given);
@@ -39,7 +31,7 @@ Scene parse_scene(std::string_view text, const std::string& name, std::span<cons
 
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
                  std::span<const std::string> removed) {
-  return parse_scene(read_text(file), file.string(), overrides, removed);
+  return parse_scene(read_toml(file, max_scene_bytes), file.string(), overrides, removed);
 }
 
 Scene complete_scene(const Scene& scene) { return checked_scene(document_of(scene, "scene")); }

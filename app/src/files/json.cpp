@@ -1,6 +1,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "files/json_line.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
 
@@ -24,21 +25,23 @@ nlohmann::ordered_json json_value(const Value& value) {
   return value;
 }
 
-}  // namespace
-
-std::string json_text(const Summary& summary) {
+/// Text that is no UTF-8 (a file's name) must not cost the record.
+std::string dumped(const Summary& summary, int indent) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
   for (const auto& [name, value] : summary)
     std::visit([&, &key = name](const auto& content) { object[key] = json_value(content); }, value);
-  // Text that is no UTF-8 (a file's name) must not cost the record.
-  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return object.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Summary read_summary(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return {};
-  const auto object = nlohmann::ordered_json::parse(read_file(file), nullptr, false);
-  if (!object.is_object()) throw IoError(file, "is no JSON object; expected the summary of a run");
+}  // namespace
+
+std::string json_text(const Summary& summary) { return dumped(summary, 2) + "\n"; }
+
+std::string json_line(const Summary& summary) { return dumped(summary, -1); }
+
+std::optional<Summary> parse_summary(std::string_view text) {
+  const auto object = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!object.is_object()) return std::nullopt;
   Summary summary;
   for (const auto& [name, value] : object.items()) {
     if (value.is_boolean())
@@ -53,6 +56,14 @@ Summary read_summary(const std::filesystem::path& file) {
       summary.emplace_back(name, value.get<std::string>());
   }
   return summary;
+}
+
+Summary read_summary(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return {};
+  std::optional<Summary> summary = parse_summary(read_file(file));
+  if (!summary) throw IoError(file, "is no JSON object; expected the summary of a run");
+  return *std::move(summary);
 }
 
 std::vector<std::string> files_of_record(const std::filesystem::path& summary) {

@@ -7,18 +7,12 @@
 
 #include "scene/spelling.hpp"
 #include "scene/toml_nesting.hpp"
+#include "scene/toml_text.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-constexpr std::size_t longest_found = 60;
-
-std::string shortened(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= longest_found ? text : text.substr(0, longest_found - 3) + "...";
-}
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
@@ -71,16 +65,6 @@ DocumentValue value_of(const toml::node& node) {
   return std::monostate{};
 }
 
-std::string found_text(const toml::node& node) {
-  if (node.is_integer()) return toml_text(node.as_integer()->get());
-  if (node.is_floating_point()) return toml_text(node.as_floating_point()->get());
-  if (node.is_string()) return shortened(toml_text(node.as_string()->get()));
-  if (node.is_table()) return "a table";
-  std::ostringstream text;
-  node.visit([&](const auto& concrete) { text << concrete; });
-  return shortened(text.str());
-}
-
 DocumentEntry entry_of(std::string section, std::string key, const toml::node& node) {
   return {std::move(section), std::move(key), value_of(node), found_text(node), line_of(node), ""};
 }
@@ -108,24 +92,6 @@ void add_section(Document& document, const std::string& name, const toml::table&
     // A dotted key has no line of its own for the table between.
     if (document.entries.back().line == 0)
       document.entries.back().line = static_cast<int>(key.source().begin.line);
-  }
-}
-
-constexpr int max_key_parts = 8;  // a scene's keys have two
-
-std::string long_key_text() {
-  return "a key has more than " + std::to_string(max_key_parts) +
-         " parts between dots; expected section.key or [section]";
-}
-
-toml::table parse_toml(std::string_view text, const std::string& name) {
-  if (const int line = line_of_long_key(text, max_key_parts); line > 0)
-    throw SceneError({name, line, "", "", "", long_key_text()});
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw SceneError({name, static_cast<int>(error.source().begin.line), "", "", "",
-                      "not valid TOML: " + std::string(error.description())});
   }
 }
 

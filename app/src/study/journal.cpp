@@ -6,11 +6,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "files/json_line.hpp"
 #include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {
@@ -19,10 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string header_of(const Study& study, const StudyRuns& runs) {
-  return nlohmann::ordered_json{{"wavebalance_study", std::string(version())},
-                                {"runs", runs.size()},
-                                {"identity", study_identity(study)}}
-      .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return json_line(Summary{{"wavebalance_study", std::string(version())},
+                           {"runs", runs.size()},
+                           {"identity", study_identity(study)}});
 }
 
 int open_locked(const fs::path& file) {
@@ -36,13 +36,14 @@ int open_locked(const fs::path& file) {
   throw IoError(file, reason);
 }
 
-std::string difference_text(const std::string& found, const std::string& expected) {
-  const auto one = nlohmann::json::parse(found, nullptr, false);
-  const auto other = nlohmann::json::parse(expected);
-  if (!one.is_object() || !one.contains("wavebalance_study")) return "is no journal of a study";
-  if (one["wavebalance_study"] != other["wavebalance_study"])
-    return "was written by version " + one["wavebalance_study"].dump() +
-           "; name another folder, or remove the file to begin anew";
+/// Why a journal that begins with this line is not that of the study.
+std::string difference_text(const std::string& found) {
+  const std::optional<Summary> header = parse_summary(found);
+  if (!header || header->empty() || header->front().first != "wavebalance_study")
+    return "is no journal of a study";
+  const auto* written = std::get_if<std::string>(&header->front().second);
+  if (written != nullptr && *written != version())
+    return "was written by version " + *written + "; name another folder, or remove the file to begin anew";
   return "belongs to another study or scene; name another folder, or remove the file to begin anew";
 }
 
@@ -78,7 +79,7 @@ void StudyJournal::read(const std::string& header, std::int64_t runs) {
        begin = end + 1, end = text.find('\n', begin)) {
     const std::string_view line = std::string_view(text).substr(begin, end - begin);
     if (++line_number == 1) {
-      if (line != header) throw IoError(file_, difference_text(std::string(line), header));
+      if (line != header) throw IoError(file_, difference_text(std::string(line)));
       continue;
     }
     try {

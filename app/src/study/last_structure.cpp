@@ -34,7 +34,7 @@ const StructureModel& LastStructure::model_of(const Scene& scene, const solvers:
   }
   part_.reset();
   model_ = make_model(scene, observer);
-  model_.threads = 1;
+  model_.threads = 1;  // other threads solve the next runs
   part_ = std::move(part);
   ++made_;
   return model_;

@@ -1,13 +1,11 @@
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "scene/spelling.hpp"
-#include "scene/toml_nesting.hpp"
-#include "wavebalance/app/files/output.hpp"
+#include "scene/toml_text.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study.hpp"
@@ -34,12 +32,6 @@ std::string text_of(const toml::node& node) {
   return text.str();
 }
 
-std::string shown_node(const toml::node& node) {
-  constexpr std::size_t longest = 60;
-  const std::string text = node.is_table() ? "a table" : text_of(node);
-  return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
-}
-
 /// The keys of one table of a study, each read once; what is left over is unknown.
 class StudyTable {
  public:
@@ -48,7 +40,7 @@ class StudyTable {
 
   [[noreturn]] void fail(const std::string& key, const toml::node* node, const std::string& allowed) const {
     throw SceneError({file_, node == nullptr ? line_of_node(table_) : line_of_node(*node), "", prefix_ + key,
-                      node == nullptr ? "" : shown_node(*node), allowed});
+                      node == nullptr ? "" : found_text(*node), allowed});
   }
 
   const toml::node* find(const std::string& key) {
@@ -205,26 +197,6 @@ void read_parameters(StudyTable& table, Study& study) {
   }
 }
 
-std::string read_study_file(const std::filesystem::path& file) {
-  try {
-    return read_file(file, max_study_bytes);
-  } catch (const IoError& error) {
-    throw SceneError({file.string(), 0, "", "", "", error.reason()});
-  }
-}
-
-toml::table parse_study_toml(std::string_view text, const std::string& name) {
-  constexpr int max_parts = 8;
-  if (const int line = line_of_long_key(text, max_parts); line > 0)
-    throw SceneError({name, line, "", "", "", fmt::format("a key has more than {} parts", max_parts)});
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw SceneError({name, static_cast<int>(error.source().begin.line), "", "", "",
-                      "not valid TOML: " + std::string(error.description())});
-  }
-}
-
 void read_scene_of_study(StudyTable& table, Study& study, const std::string& scene_text) {
   const std::string scene = table.text("scene", "", "the path of a scene, relative to the study");
   if (scene.empty() && table.find("structure") != nullptr)
@@ -234,13 +206,13 @@ void read_scene_of_study(StudyTable& table, Study& study, const std::string& sce
     table.fail("scene", nullptr, "missing; expected the path of a scene, relative to the study");
   study.scene = scene.empty() ? std::filesystem::path(study.name)
                               : std::filesystem::path(study.name).parent_path() / scene;
-  study.scene_text = scene.empty() ? scene_text : read_study_file(study.scene);
+  study.scene_text = scene.empty() ? scene_text : read_toml(study.scene, max_study_bytes);
 }
 
 }  // namespace
 
 Study parse_study(std::string_view text, const std::string& name, const std::string& scene_text) {
-  const toml::table root = parse_study_toml(text, name);
+  const toml::table root = parse_toml(text, name);
   StudyTable table(root, name, "");
   Study study;
   study.name = name;
@@ -256,7 +228,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::str
 }
 
 Study load_study(const std::filesystem::path& file) {
-  return parse_study(read_study_file(file), file.string());
+  return parse_study(read_toml(file, max_study_bytes), file.string());
 }
 
 std::string study_identity(const Study& study) {

@@ -4,14 +4,13 @@
 #include <array>
 #include <chrono>
 #include <exception>
-#include <limits>
 #include <new>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
+#include "files/json_line.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
@@ -35,30 +34,13 @@ Summary scalars_of(const Summary& summary) {
   return scalars;
 }
 
-void require_memory(const Scene& scene) {
-  const double needed = estimate_cost(scene).bytes, limit = available_memory();
-  if (needed > limit)
-    throw std::invalid_argument("it would take about " + memory_text(needed) + " of memory and there are " +
-                                memory_text(limit));
-}
-
-/// One thread per run: others solve the next ones.
 void solve_into(StudyRow& row, const Scene& scene, LastStructure& last, const solvers::Observer& observer) {
-  require_memory(scene);
-  const Record record =
-      analyse(scene, {.observer = observer, .threads = 1, .model = &last.model_of(scene, observer)});
+  check_memory(scene);
+  const Record record = analyse(scene, {.observer = observer, .model = &last.model_of(scene, observer)});
   row.status = record.status;
   row.converged = record.converged;
   row.values = scalars_of(record.summary);
   if (!record.warnings.empty()) row.message = record.warnings.front();
-}
-
-SummaryValue value_of_json(const nlohmann::ordered_json& value) {
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_number_integer()) return value.get<std::int64_t>();
-  if (value.is_number()) return value.get<double>();
-  if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
-  return value.get<std::string>();
 }
 
 }  // namespace
@@ -93,38 +75,36 @@ StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, 
 }
 
 std::string json_line(const StudyRow& row) {
-  nlohmann::ordered_json object{{"run", row.run + 1},
-                                {"status", row.status},
-                                {"converged", row.converged},
-                                {"seconds", row.seconds},
-                                {"message", row.message}};
-  nlohmann::ordered_json& values = object["values"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : row.values)
-    std::visit(
-        [&, &key = name](const auto& one) {
-          using Value = std::decay_t<decltype(one)>;
-          if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::int64_t> ||
-                        std::is_same_v<Value, bool> || std::is_same_v<Value, std::string>)
-            values[key] = one;
-        },
-        value);
-  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  Summary line{{"run", row.run + 1},
+               {"status", row.status},
+               {"converged", row.converged},
+               {"seconds", row.seconds},
+               {"message", row.message}};
+  line.insert(line.end(), row.values.begin(), row.values.end());
+  return json_line(line);
 }
 
 StudyRow parse_row(std::string_view line) {
+  const std::optional<Summary> found = parse_summary(line);
+  constexpr std::array<std::string_view, 5> members{"run", "status", "converged", "seconds", "message"};
+  const auto fits = [&] {
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if ((*found)[i].first != members[i]) return false;
+    return true;
+  };
+  if (!found || found->size() < members.size() || !fits())
+    throw std::invalid_argument("parse_row: no row of a study");
   StudyRow row;
   try {
-    const auto object = nlohmann::ordered_json::parse(line);
-    row.run = object.at("run").get<std::int64_t>() - 1;
-    row.status = object.at("status").get<std::string>();
-    row.converged = object.at("converged").get<bool>();
-    row.seconds = object.at("seconds").get<double>();
-    row.message = object.at("message").get<std::string>();
-    for (const auto& [name, value] : object.at("values").items())
-      row.values.emplace_back(name, value_of_json(value));
-  } catch (const nlohmann::ordered_json::exception& error) {
-    throw std::invalid_argument("parse_row: no row of a study: " + std::string(error.what()));
+    row.run = std::get<std::int64_t>((*found)[0].second) - 1;
+    row.status = std::get<std::string>((*found)[1].second);
+    row.converged = std::get<bool>((*found)[2].second);
+    row.seconds = std::get<double>((*found)[3].second);
+    row.message = std::get<std::string>((*found)[4].second);
+  } catch (const std::bad_variant_access&) {
+    throw std::invalid_argument("parse_row: no row of a study");
   }
+  row.values.assign(found->begin() + members.size(), found->end());
   return row;
 }
 

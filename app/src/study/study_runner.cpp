@@ -9,9 +9,9 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "study/study_workers.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -75,9 +75,8 @@ class Distribution {
 
  private:
   static int local_threads(const StudyOptions& options) {
-    if (options.threads > 0) return options.threads;
-    return options.messenger != nullptr ? 1
-                                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const bool one = options.messenger != nullptr && options.threads == 0;
+    return one ? 1 : solvers::thread_count(options.threads);
   }
 
   bool goes_on(const solvers::Observer& observer) const {
@@ -176,9 +175,7 @@ class Distribution {
 }  // namespace
 
 void StudyOptions::validate() const {
-  if (threads < 0)
-    throw std::invalid_argument(
-        fmt::format("StudyOptions: threads is {}; it must be at least 1, or 0 for one per core", threads));
+  solvers::thread_count(threads);
   if (longest_silence <= 1s)
     throw std::invalid_argument("StudyOptions: longest_silence must be more than a second");
 }

@@ -113,8 +113,9 @@ TEST(CommandLine, UnknownCommandIsNamedBesideThoseThereAre) {
   const TemporaryFolder folder;
   const Outcome outcome = run(folder, {"nonsense"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.errors,
-            "wavebalance: unknown command nonsense; there are run, check, compare, overlay, study, keys, init\n");
+  EXPECT_EQ(
+      outcome.errors,
+      "wavebalance: unknown command nonsense; there are run, check, compare, overlay, study, keys, init\n");
   EXPECT_NE(run(folder, {"chek"}).errors.find("did you mean check?"), std::string::npos);
   EXPECT_NE(run(folder, {"case.toml"}).errors.find("did you mean run case.toml?"), std::string::npos);
 }

@@ -88,7 +88,8 @@ TEST(CommandStudy, WrongStudiesAndOptionsAreTwoAndNothingIsWritten) {
       {small_study + "vallues = 3\n",
        {},
        "study.toml:11: parameters[2].vallues = 3: unknown key; did you mean values?"},
-      {small_study, {"--threads", "-1"}, "--threads -1: expected at least 1"},
+      {small_study, {"--threads", "-1"}, "--threads: \"-1\": expected a whole number from 0 to 1024"},
+      {small_study, {"--threads", "100000"}, "--threads: \"100000\": expected a whole number from 0 to 1024"},
       {small_study, {"--thread", "1"}, "did you mean --threads?"},
   };
   for (const Wrong& one : wrong) {

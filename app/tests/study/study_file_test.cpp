@@ -139,7 +139,7 @@ TEST(StudyFile, WrongKeysAndValuesNameLineKeyAndWhatIsAllowed) {
       {"[[parameters]]\nkey = \"contact.gap\"\nfrom = 0\nto = 2\ncount = 3\nspacing = \"logarithmic\"\n",
        "expected from and to of one sign"},
       {"[[parameters]]\nkey = \"contact.gap\"\nvalue = [1]\nvalues = [1]\n",
-       "study.toml:3: parameters[1].value = [1]: unknown key; did you mean values?"},
+       "study.toml:3: parameters[1].value = [ 1 ]: unknown key; did you mean values?"},
       {"[[parameters]]\nkey = \"contact.gap\"\nvalues = []\n", "expected a list of values of contact.gap"},
       {"sampling = \"sobol\"\n[[parameters]]\nkey = \"contact.gap\"\nfrom = 1\nto = 2\n", "samples: missing"},
       {"samples = 3\n[[parameters]]\nkey = \"contact.gap\"\nvalues = [1]\n", "samples = 3: has no meaning"},

@@ -39,4 +39,8 @@ double available_memory();
 /// "3.2 GB", "15 MB"
 std::string memory_text(double bytes);
 
+/// Throws std::invalid_argument if a scene is expected to take more memory than the machine has, or more than
+/// `max_gigabytes` where that is positive, before any is allocated.
+void check_memory(const Scene& scene, double max_gigabytes = 0.0);
+
 }  // namespace wavebalance::app

@@ -17,7 +17,8 @@ struct ComparisonRecord {
   std::string status;
   std::vector<std::string> warnings;  ///< also in the summary
   Summary summary;
-  Table table;  ///< comparison.csv: a row for each solve or curve
+  std::string peak_column, peak_unit;  ///< of sweeps: the table's column of where a peak is, and its unit
+  Table table;                         ///< comparison.csv: a row for each solve or curve
   std::vector<RecordPicture> pictures;
   std::string text;      ///< what a terminal shows: reference, sentences and [time] tables
   std::string markdown;  ///< the same with the table of pairs
