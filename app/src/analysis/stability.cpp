@@ -105,13 +105,31 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
       places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit));
 }
 
+/// Whether a curve with this end can turn `count` times: an even number where it leaves the interval in the
+/// direction in which it began, an odd one where it leaves it at its beginning.
+bool can_turn(solvers::SweepStatus status, std::size_t count) {
+  if (status == solvers::SweepStatus::reached_end) return count % 2 == 0;
+  if (status == solvers::SweepStatus::returned) return count % 2 == 1;
+  return true;
+}
+
 void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   const std::string suffix = sweep_axis(sweep).suffix;
   const std::vector<double> of_samples = places_of(sweep.curve);
   const std::vector<double> folds = folds_of(sweep.stability, sweep.curve.parameter);
-  record.summary.emplace_back("turning_points_" + suffix, known ? folds : of_samples);
+  const std::vector<double>& listed = known ? folds : of_samples;
+  record.summary.emplace_back("turning_points_" + suffix, listed);
+  const bool differ = known && folds.size() != of_samples.size();
+  if (differ) record.summary.emplace_back("turning_points_of_samples_" + suffix, of_samples);
+  if (!can_turn(sweep.curve.status, listed.size())) {
+    record.warnings.push_back(fmt::format(
+        "turning_points_{} lists {} point{}, but a curve with this end turns an {} number of times: a fold is missing "
+        "from the list, or a point of it is none.{}",
+        suffix, listed.size(), listed.size() == 1 ? "" : "s", listed.size() % 2 == 0 ? "odd" : "even",
+        differ ? " All turns of the samples are in turning_points_of_samples_" + suffix + "." : ""));
+    return;
+  }
   if (!known || folds.size() >= of_samples.size()) return;
-  record.summary.emplace_back("turning_points_of_samples_" + suffix, of_samples);
   record.warnings.push_back(fmt::format(
       "The curve turns {} times, but the motion has {} fold{}: the other turns are an error of the "
       "quadrature points.",

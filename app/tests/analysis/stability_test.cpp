@@ -82,6 +82,19 @@ TEST(RecordOfASweep, ListsItsSpecialPointsAndTheStabilityOfEachPoint) {
   EXPECT_EQ(record.figure.panels.front().series.size(), 6u);
 }
 
+// With 256 points the lower fold, 0.002 Hz beside a grazing, is not among the folds found.
+TEST(RecordOfASweep, WarnsWhereItsTurningPointsCannotBeAll) {
+  const Record record = analyse(fourier_scene("case2_sweep", {"time.quadrature_points=256"}));
+  ASSERT_EQ(record.status, "reached_end");
+  const auto turns = value_of<std::vector<double>>(record.summary, "turning_points_Hz");
+  const bool warned = std::any_of(record.warnings.begin(), record.warnings.end(), [](const auto& text) {
+    return text.find("a curve with this end turns an even number of times") != std::string::npos;
+  });
+  EXPECT_EQ(warned, turns.size() % 2 == 1) << turns.size();
+  for (const std::string& text : record.warnings)
+    EXPECT_EQ(text.find("the other turns are an error"), std::string::npos) << text;
+}
+
 TEST(RecordOfASweep, WithoutStabilityHasTheTurningPointsOfTheSamples) {
   const Record record = analyse(fourier_scene("case2_sweep", {"analysis.stability=false"}));
   EXPECT_FALSE(holds(record.summary, "special_points"));
