@@ -44,7 +44,8 @@ inline solvers::AnyTimeBasis basis(Family family, int functions) {
   return wavelet(family, functions);
 }
 
-/// How the pair's inner products are taken, with connection coefficients where two wavelets meet exactly.
+/// How the pair's inner products are taken, with connection coefficients where two wavelets meet exactly. The
+/// Nyquist coefficient is kept, as the papers and the assembled system do.
 inline solvers::TimePairOptions options(
     const Pair& pair, int functions, int points, solvers::InnerProducts products,
     solvers::Formulation formulation = solvers::Formulation::distributional) {
@@ -52,6 +53,7 @@ inline solvers::TimePairOptions options(
   result.formulation = formulation;
   result.inner_products = products;
   result.quadrature_points = points;
+  result.nyquist = solvers::NyquistCoefficient::keep;
   if (pair.trial != Family::fourier && pair.weight != Family::fourier)
     result.exact_column = [pair, functions](int derivative) {
       return wavelets::periodic_inner_products(wavelet(pair.trial, functions),

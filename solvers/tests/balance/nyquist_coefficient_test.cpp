@@ -37,6 +37,14 @@ TEST(NyquistCoefficient, OfAnOddNumberIsNone) {
   EXPECT_EQ(dropped.solved_size(), kept.spectrum_size());
 }
 
+TEST(NyquistCoefficient, IsDroppedUnlessKeptExplicitly) {
+  const spectral::FourierBasis basis(8);
+  EXPECT_TRUE(TimePair(basis, basis, {}).drops_nyquist());
+  TimePairOptions kept;
+  kept.nyquist = NyquistCoefficient::keep;
+  EXPECT_FALSE(TimePair(basis, basis, kept).drops_nyquist());
+}
+
 TEST(NyquistCoefficient, DroppedFromFourierLeavesTheFunctionsOfTheOddNumberBelow) {
   const LinearStructure structure = chain();
   for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {

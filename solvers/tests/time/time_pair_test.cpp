@@ -173,6 +173,7 @@ TEST(TimePair, SaysWhichSizesDoNotFit) {
 
 TEST(TimePair, ExactProductsOfTwoWaveletsAreAskedOfTheCaller) {
   TimePairOptions options;
+  options.nyquist = NyquistCoefficient::keep;
   options.inner_products = InnerProducts::exact;
   options.quadrature_points = 32;
   const auto make = [&] { TimePair(CubicBasis{8}, CubicBasis{8}, options); };

@@ -52,7 +52,8 @@ struct TimePairOptions {
   /// column a_d[m] = <p_i, d^d q_j / dt^d>, m = i - j mod M, of the circulant A_d for d = 0, 1, 2. With a
   /// band-limited basis on either side the pair sums its Fourier series itself and this is not called.
   std::function<Eigen::VectorXd(int derivative)> exact_column = {};
-  NyquistCoefficient nyquist = NyquistCoefficient::keep;
+  /// Whether an even number of functions keeps its coefficient without damping, as the papers do.
+  NyquistCoefficient nyquist = NyquistCoefficient::drop;
 };
 
 /// Whether the duality pairing of the bases exists: the Sobolev exponents satisfy s_p + s_q > 2, and with
