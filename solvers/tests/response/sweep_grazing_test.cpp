@@ -85,6 +85,43 @@ TEST(FrequencySweep, OfEveryGrazingEventIsTheSameUpAndDown) {
   }
 }
 
+// Stops on both sides at different gaps.
+struct TwoGaps {
+  double stiffness = 3.0, below = 0.6, above = 1.0;
+  double force(double u) const {
+    return u > above ? stiffness * (u - above) : u < -below ? stiffness * (u + below) : 0.0;
+  }
+  double tangent(double u) const { return u >= above || u < -below ? stiffness : 0.0; }
+  double potential(double u) const {
+    const double into = u > above ? u - above : u < -below ? u + below : 0.0;
+    return 0.5 * stiffness * into * into;
+  }
+  double gap() const { return above; }
+  std::vector<double> kinks() const { return {-below, above}; }
+  bool unilateral() const { return false; }
+};
+
+// Where several samples reach different kinks within one step, the first of them ends the piece.
+TEST(FrequencySweep, PassesEveryKinkOfStopsOnBothSidesWithShortAndLongSteps) {
+  const auto turns = [](double max_step) {
+    CondensedProblem problem(testing::fourier_pair(15, 32), testing::unit_oscillator(0.04, 0.1),
+                             testing::cosine_load());
+    FrequencySweepOptions options;
+    options.from = 0.1;
+    options.to = 0.35;
+    options.arc_length.grazing_events = GrazingEvents::all;
+    options.arc_length.max_step = max_step;
+    options.arc_length.initial_step = std::min(options.arc_length.initial_step, max_step);
+    options.smallest_return = 1e-12;
+    const FrequencySweep sweep = frequency_sweep(problem, TwoGaps{}, options);
+    EXPECT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+    return turning_frequencies(sweep);
+  };
+  const std::vector<double> fine = turns(0.002);
+  EXPECT_GT(fine.size(), 4u);
+  for (const double step : {0.02, 0.1, 0.4}) expect_near(turns(step), fine, 1e-8);
+}
+
 // All responses at a frequency, without following anything: each set of neighbouring samples in contact, and
 // none, gives a linear system, whose solution is a response if it presses there and nowhere else.
 int count_responses(CondensedProblem& problem, double frequency, const testing::LinearContact& law) {
