@@ -162,7 +162,7 @@ TEST(PaperPairs, EnergyNormOfDaubechies6IsThatOfAnIndependentComputation) {
     const double exact = solvers::energy_norm(scene.structure(), scene.law(), reference(scene).structure);
     Solved solved = solve(table_2[2], scene, listed.functions);
     ASSERT_TRUE(solved.response.converged());
-    const auto motion = solvers::structure_motion(solved.problem, solved.response.contact_force, 1024);
+    const auto motion = solvers::structure_motion(solved.problem, solved.response, 1024);
     EXPECT_NEAR(solvers::energy_norm(scene.structure(), scene.law(), motion) / exact, listed.ratio,
                 listed.tolerance)
         << "case " << listed.case_number << ", M " << listed.functions;

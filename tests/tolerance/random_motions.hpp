@@ -82,7 +82,7 @@ struct RandomMotion {
 inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion,
                                                       solvers::RefinementResult& found, int points) {
   const auto field =
-      solvers::structure_motion(*found.problem, found.response.contact_force, 4 * found.problem->points());
+      solvers::structure_motion(*found.problem, found.response, 4 * found.problem->points());
   solvers::ShootingOptions options;
   options.output_points = points;
   options.settling_periods = 0;

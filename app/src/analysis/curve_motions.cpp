@@ -96,8 +96,7 @@ class MotionsOfCurve {
     motion.contact = leading_contact(motion.contacts, model_.gaps);
     if (scene_.analysis.motion_points > 0)
       motion.structure =
-          solvers::structure_motion(composed_.problem, response.contact_force, scene_.analysis.motion_points)
-              .displacement;
+          solvers::structure_motion(composed_.problem, response, scene_.analysis.motion_points).displacement;
     motion.stability.status.clear();
     if (scene_.analysis.stability && motion.converged)
       motion.stability = response_stability(composed_.problem, composed_.laws, response, model_.structure);

@@ -37,7 +37,7 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
   result.contacts = solvers::contact_motion(problem, found, laws, scene.analysis.output_points);
   result.contact = leading_contact(result.contacts, model.gaps);
   if (options.structure_points > 0)
-    result.structure = solvers::structure_motion(problem, found.held_force, options.structure_points);
+    result.structure = solvers::structure_motion(problem, found, options.structure_points);
   if (options.stability && found.converged())
     result.stability = response_stability(problem, laws, found, model.structure);
 }

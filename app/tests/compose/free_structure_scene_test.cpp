@@ -2,6 +2,8 @@
 // damping.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "support/chain_files.hpp"
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
@@ -10,15 +12,16 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
+#include "wavebalance/fem/matrix_market.hpp"
 
 namespace {
 
 using namespace wavebalance::app;
 namespace solvers = wavebalance::solvers;
 
-Scene free_rod(const std::vector<std::string>& overrides = {}) {
+Scene free_rod(const std::vector<std::string>& overrides = {}, const std::vector<std::string>& removed = {}) {
   return load_scene(std::filesystem::path(WAVEBALANCE_SCENES) / "matrices" / "free_rod" / "free_rod.toml",
-                    overrides);
+                    overrides, removed);
 }
 
 TEST(FreeRodScene, MovesBetweenItsStopsAsTimeSteppingSays) {
@@ -36,6 +39,27 @@ TEST(FreeRodScene, IsDescribedAndSolvedByTheCommand) {
   const std::string text = describe_scene(free_rod());
   EXPECT_NE(text.find("free to move"), std::string::npos) << text;
   EXPECT_TRUE(analyse(free_rod()).converged);
+}
+
+TEST(FreeRodScene, MovesInASweepAsInTheForcedResponse) {
+  constexpr double driven = 60.0;
+  const std::string at = std::to_string(driven);
+  const Record response = analyse(free_rod({"forcing.frequency=" + at, "analysis.motion_points=8"}));
+  const Record curve =
+      analyse(free_rod({"analysis.type=frequency_sweep", "analysis.frequency_from=58",
+                        "analysis.frequency_to=62", "analysis.motion_at=" + at, "analysis.motion_points=8"},
+                       {"forcing.frequency"}));
+  const auto motion = [](const Record& record, const std::string& name) {
+    for (const RecordFile& file : record.files) {
+      std::istringstream text(file.contents);
+      if (file.name == name) return Eigen::MatrixXd(wavebalance::fem::read_matrix_market(text, name));
+    }
+    ADD_FAILURE() << name << " is not written";
+    return Eigen::MatrixXd();
+  };
+  const Eigen::MatrixXd expected = motion(response, "motion.mtx"), found = motion(curve, "motion_60Hz.mtx");
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm());
 }
 
 TEST(FreeRodScene, ReducedToItsModesMovesLikeTheWholeOne) {

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -28,6 +32,19 @@ double working_stiffness(const AnyContactLaw& law, const Eigen::VectorXd& free, 
 
 Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
   return problem.contact_free_response().segment(contact * problem.points(), problem.points());
+}
+
+// A rigid obstacle and a contact with mass are satisfied by a continuum of motions.
+void require_massless_rigid_contacts(const LinearStructure& structure, const ContactLaws& laws) {
+  const std::vector<int> rigid = laws.rigid(structure.contacts());
+  if (contacts_are_massless(structure, rigid)) return;
+  std::string names;
+  for (const int c : rigid) names += (names.empty() ? "" : ", ") + std::to_string(c);
+  throw std::invalid_argument(
+      "contact_regularization: a rigid law needs contacts without mass, but contacts with mass have one (rigid: " +
+      names +
+      "). A continuum of motions satisfies both without a law of impact; expected rows of zeros in the mass at "
+      "these contacts, the mass redistributed, or a stiff linear law");
 }
 
 }  // namespace
@@ -58,6 +75,7 @@ Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const Co
         "contact_regularization: a law acts below its gap without being monotone, or depends on the velocity; it "
         "is solved in the displacement form, and not beside a rigid law");
   }
+  if (rigid) require_massless_rigid_contacts(problem.structure(), laws);
   const Eigen::VectorXd compliance = problem.contact_compliance();
   bool needed = form == ContactForm::force || rigid;
   for (int c = 0; c < problem.contacts() && !needed && laws.unilateral(); ++c)

@@ -34,6 +34,13 @@ bool ContactLaws::have_finite_force() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return !law.is_rigid(); });
 }
 
+std::vector<int> ContactLaws::rigid(int contacts) const {
+  std::vector<int> found;
+  for (int c = 0; c < contacts; ++c)
+    if ((*this)[c].is_rigid()) found.push_back(c);
+  return found;
+}
+
 bool ContactLaws::unilateral() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.unilateral(); });
 }

@@ -155,7 +155,7 @@ class Crossings {
     response.condition = result.condition;
     response.residual_history = result.residual_history;
     if (response.converged()) response.strategy = Strategy::newton;
-    response.rounding_error = problem_.rounding_error(response.contact_force);
+    response.rounding_error = problem_.rounding_error(response.held_force);
     return response;
   }
 

@@ -1,6 +1,8 @@
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 
@@ -18,9 +20,13 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
   return motion;
 }
 
-Motion structure_motion(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points) {
+Motion structure_motion(CondensedProblem& problem, const PeriodicResponse& response, int points) {
+  if (problem.frequency() != response.frequency)
+    throw std::invalid_argument("structure_motion: the response is at " + std::to_string(response.frequency) +
+                                " Hz, but the problem at " + std::to_string(problem.frequency()) +
+                                " Hz; call set_frequency first");
   MotionEvaluator evaluate(problem.pair().trial(), points);
-  return evaluate(problem.full_coefficients(contact_force).transpose(), problem.frequency());
+  return evaluate(problem.full_coefficients(response.held_force).transpose(), problem.frequency());
 }
 
 Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,

@@ -1,17 +1,22 @@
 // The force form: the resolvents of laws, and responses to rigid and stiff laws with them.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "constants.hpp"
 #include "support/oscillator.hpp"
+#include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/structure/contact_mass.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -78,19 +83,8 @@ TEST(ContactLaw, IsUnilateralUnlessItActsBelowItsGap) {
   EXPECT_FALSE(AnyContactLaw(testing::ExponentialLaw{}).is_rigid());
 }
 
-// The bar of JL14 whose tip has no mass: the neighbour takes it.
-LinearStructure massless_tip(LinearStructure bar) {
-  const Eigen::Index tip = bar.size() - 1;
-  Eigen::MatrixXd mass(bar.mass);
-  mass(tip - 1, tip - 1) += mass(tip, tip) + 2.0 * mass(tip, tip - 1);
-  mass.row(tip).setZero();
-  mass.col(tip).setZero();
-  bar.mass = mass.sparseView();
-  return bar;
-}
-
 CondensedProblem bar_problem(const testing::Jl14Case& one, TimePair pair) {
-  CondensedProblem problem(std::move(pair), massless_tip(one.structure()), testing::cosine_load());
+  CondensedProblem problem(std::move(pair), testing::massless_tip(one.structure()), testing::cosine_load());
   problem.set_frequency(one.frequency_hz);
   return problem;
 }
@@ -173,8 +167,8 @@ TEST(RigidContact, IsTheLimitOfStiffSprings) {
 
 // Turning points by an independent computation: 1331.0 and 1314.839 Hz.
 TEST(RigidContact, IsSweptThroughBothTurningPoints) {
-  CondensedProblem problem(testing::fourier_pair(127, 512), massless_tip(testing::jl14_case_2.structure()),
-                           testing::cosine_load());
+  CondensedProblem problem(testing::fourier_pair(127, 512),
+                           testing::massless_tip(testing::jl14_case_2.structure()), testing::cosine_load());
   FrequencySweepOptions options;
   options.from = 1100.0;
   options.to = 1700.0;
@@ -190,8 +184,8 @@ TEST(RigidContact, IsSweptThroughBothTurningPoints) {
 
 // With 30 times the stiffness at low harmonics Newton's method converges over short steps only: 454 points.
 TEST(RigidContact, IsSweptWithManyFunctionsInFewPoints) {
-  CondensedProblem problem(testing::fourier_pair(511, 2048), massless_tip(testing::jl14_case_2.structure()),
-                           testing::cosine_load());
+  CondensedProblem problem(testing::fourier_pair(511, 2048),
+                           testing::massless_tip(testing::jl14_case_2.structure()), testing::cosine_load());
   problem.set_frequency(1275.0);
   EXPECT_LT(2.0 * problem.brief_compliance()[0], problem.contact_compliance()[0] / 30.0);
   FrequencySweepOptions options;
@@ -203,6 +197,60 @@ TEST(RigidContact, IsSweptWithManyFunctionsInFewPoints) {
   ASSERT_EQ(sweep.turning_points.size(), 2u);
   EXPECT_NEAR(sweep.turning_points[0].frequency, 1331.0, 0.2);
   EXPECT_NEAR(sweep.turning_points[1].frequency, 1314.839, 0.02);
+}
+
+// Three masses in a row; S selects or combines their displacements.
+LinearStructure row_of_masses(const Eigen::Vector3d& masses, const Eigen::MatrixXd& directions) {
+  LinearStructure row;
+  row.mass = Eigen::MatrixXd(masses.asDiagonal()).sparseView();
+  row.stiffness = Eigen::MatrixXd(Eigen::Matrix3d{{2, -1, 0}, {-1, 2, -1}, {0, -1, 1}}).sparseView();
+  row.damping = 0.1 * row.stiffness;
+  row.load = Eigen::Vector3d(1.0, 0.0, 0.0);
+  row.contact_directions = directions.sparseView();
+  return row;
+}
+
+std::string refusal_of_rigid(const LinearStructure& structure, const ContactLaws& laws) {
+  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
+  problem.set_frequency(0.1);
+  return testing::refusal([&] { forced_response(problem, laws, {}); });
+}
+
+TEST(RigidContact, IsRefusedAtContactsWithMass) {
+  const Eigen::RowVector3d last(0, 0, 1);
+  const std::string refusal = refusal_of_rigid(row_of_masses({1, 1, 1}, last), Rigid{0.1});
+  EXPECT_NE(refusal.find("rigid: 0"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("without a law of impact"), std::string::npos) << refusal;
+  EXPECT_EQ(refusal_of_rigid(row_of_masses({1, 1, 0}, last), Rigid{0.1}), "nothing was thrown");
+  // Elastic stops beside it may have mass.
+  const Eigen::MatrixXd two{{1, 0, 0}, {0, 0, 1}};
+  const std::vector<AnyContactLaw> mixed{testing::LinearContact{10.0, 0.1}, Rigid{0.1}};
+  EXPECT_EQ(refusal_of_rigid(row_of_masses({1, 1, 0}, two), mixed), "nothing was thrown");
+  EXPECT_NE(refusal_of_rigid(row_of_masses({0, 1, 1}, two), mixed).find("rigid: 1"), std::string::npos);
+}
+
+TEST(RigidContact, HasNoMassWhereTheDirectionsReachWhatMovesWithoutIt) {
+  const auto massless = [](const Eigen::Vector3d& masses, const Eigen::MatrixXd& directions) {
+    const LinearStructure structure = row_of_masses(masses, directions);
+    std::vector<int> all(std::size_t(directions.rows()));
+    std::iota(all.begin(), all.end(), 0);
+    return contacts_are_massless(structure, all);
+  };
+  const Eigen::RowVector3d last(0, 0, 1), relative(0, -1, 1);
+  EXPECT_TRUE(massless({1, 1, 0}, relative));  // the last one may stop at once
+  EXPECT_FALSE(massless({0, 1, 1}, relative));
+  EXPECT_TRUE(massless({1, 1, 0}, Eigen::MatrixXd{{0, 0, 1}, {0, 0, -1}}));   // both sides
+  EXPECT_FALSE(massless({1, 1, 0}, Eigen::MatrixXd{{0, 0, 1}, {0, -1, 1}}));  // both closed stop the middle
+  EXPECT_TRUE(massless({1, 0, 0}, Eigen::MatrixXd{{0, 0, 1}, {0, -1, 1}}));
+  // In turned coordinates no row of the mass is zero.
+  LinearStructure turned = row_of_masses({1, 1, 0}, last);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  turned.mass = Eigen::MatrixXd(turn.transpose() * turned.mass * turn).sparseView();
+  turned.contact_directions = Eigen::MatrixXd(last * turn).sparseView();
+  EXPECT_TRUE(contacts_are_massless(turned, {0}));
+  turned.contact_directions = Eigen::MatrixXd(Eigen::RowVector3d(1, 0, 0) * turn).sparseView();
+  EXPECT_FALSE(contacts_are_massless(turned, {0}));
 }
 
 TEST(ContactForm, RefusesWhatItCannotSolve) {

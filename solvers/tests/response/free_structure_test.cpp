@@ -10,6 +10,7 @@
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -164,6 +165,33 @@ TEST(FreeStructure, OfTwoBodiesThatTouchEachOtherMovesAsTimeSteppingSays) {
   expect_time_stepping(two_masses(1.0, 2.5), AnyContactLaw(LinearContact{4.0, 0.2}), 1.3, true);
 }
 
+// The whole structure's motion has the contacts where the response has them.
+TEST(FreeStructure, MovesInAResponseOfACurveAsItsContactsDo) {
+  const LinearStructure rod = free_rod(5, 1.0);
+  const ContactLaws stop = AnyContactLaw(LinearContact{5.0, 0.2});
+  CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(31, 128));
+  FrequencySweepOptions options;
+  options.from = 0.75 / two_pi;
+  options.to = 0.85 / two_pi;
+  options.keep_unknowns = true;
+  const FrequencySweep curve = frequency_sweep(problem, stop, options);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  const auto responses = responses_at(problem, stop, curve, 0.8 / two_pi);
+  ASSERT_EQ(responses.size(), 1u);
+  const PeriodicResponse& response = responses.front();
+  problem.set_frequency(response.frequency);
+  EXPECT_GT(response.contact_force.maxCoeff(), 0.1);
+  EXPECT_GT((response.held_force - response.contact_force).norm(), 1e-3 * response.contact_force.norm());
+  EXPECT_EQ(response.rounding_error, problem.rounding_error(response.held_force));
+  const Eigen::MatrixXd at_contacts =
+      rod.contact_directions * structure_motion(problem, response, 128).displacement;
+  const Motion contacts = contact_motion(problem, response, stop, 128);
+  EXPECT_LE((at_contacts - contacts.displacement).norm(), 1e-9 * at_contacts.norm());
+  problem.set_frequency(0.1);
+  EXPECT_NE(testing::refusal([&] { structure_motion(problem, response, 128); }).find("set_frequency"),
+            std::string::npos);
+}
+
 TEST(FreeStructure, KeepsAZeroMeanWhereNothingTouches) {
   const LinearStructure rod = free_rod(5, 1.0);
   CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(15, 64));
@@ -177,7 +205,7 @@ TEST(FreeStructure, KeepsAZeroMeanWhereNothingTouches) {
   const LinearStructure two = two_masses(1.0, 2.5);
   CondensedProblem pair = problem_of(two, 1.3, testing::fourier_pair(63, 256));
   const PeriodicResponse response = forced_response(pair, AnyContactLaw(LinearContact{4.0, 0.2}), {});
-  const Motion motion = structure_motion(pair, response.held_force, 256);
+  const Motion motion = structure_motion(pair, response, 256);
   const Eigen::Vector2d position = motion.displacement.rowwise().mean();
   EXPECT_NEAR(position[0] + 3.0 * position[1], 0.0, 1e-10);
   EXPECT_LT(
@@ -327,7 +355,7 @@ TEST(FreeStructure, IsHeldByARigidStopAtAContactWithoutMass) {
   ASSERT_TRUE(response.converged()) << to_string(response.status);
   EXPECT_LT((response.displacement.array() - 0.25).abs().maxCoeff(), 1e-9);
   EXPECT_NEAR(mean(response.contact_force), 1.5, 1e-9);
-  const Motion motion = structure_motion(problem, response.held_force, 128);
+  const Motion motion = structure_motion(problem, response, 128);
   for (int l = 0; l < 128; ++l) {
     const Complex amplitude = 0.5 / Complex(2.0 - 0.36, 0.2 * 0.6);
     EXPECT_NEAR(motion.displacement(0, l),

@@ -47,8 +47,14 @@ TEST(StabilityStatus, OfRigidContactWithMassIsNoFiniteStiffness) {
 }
 
 TEST(StabilityStatus, OfRigidObstacleThatIsNotReachedIsKnown) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(0.1, 0.8),
-                           testing::cosine_load());
+  // A tip without mass hangs on the oscillator by a damped spring.
+  LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
+  structure.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 0.0).asDiagonal()).sparseView();
+  structure.stiffness = Eigen::MatrixXd(Eigen::Matrix2d{{2.0, -1.0}, {-1.0, 1.0}}).sparseView();
+  structure.damping = 0.1 * structure.stiffness;
+  structure.load = Eigen::Vector2d(0.8, 0.0);
+  structure.contact_directions = contact_rows({1}, 2);
+  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
   problem.set_frequency(0.05);
   const ContactLaws rigid = testing::Rigid{100.0};
   const auto found = unstable_multipliers(problem, rigid, forced_response(problem, rigid, {}));

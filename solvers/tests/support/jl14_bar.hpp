@@ -37,6 +37,15 @@ inline LinearStructure jl14_bar(int elements, double beta) {
   return bar;
 }
 
+/// The same bar whose tip has no mass: its neighbour takes it.
+inline LinearStructure massless_tip(LinearStructure bar) {
+  const int tip = bar.size() - 1;
+  bar.mass.coeffRef(tip - 1, tip - 1) += bar.mass.coeff(tip, tip) + 2.0 * bar.mass.coeff(tip, tip - 1);
+  for (const auto& [row, column] : {std::pair{tip, tip}, {tip, tip - 1}, {tip - 1, tip}})
+    bar.mass.coeffRef(row, column) = 0.0;
+  return bar;
+}
+
 /// f_c = max(a_c (exp(alpha (u - g_0)) - 1), 0) [JL14, eq. (5)].
 struct ExponentialLaw {
   double constant = 1e8;   ///< a_c, N

@@ -35,6 +35,8 @@ class ContactLaws {
 
   /// Whether no law is rigid: one whose force beyond the gap is infinite.
   bool have_finite_force() const;
+  /// Those of `contacts` contacts whose law is rigid.
+  std::vector<int> rigid(int contacts) const;
   /// Whether all laws are unilateral.
   bool unilateral() const;
   /// Whether the force form may solve for all of them.

@@ -39,8 +39,8 @@ struct PeriodicResponse {
   double rounding_error = 0.0;
   Eigen::VectorXd displacement;   ///< m, samples() values, contact-major
   Eigen::VectorXd contact_force;  ///< N, samples() values
-  /// CondensedProblem::held_force(), N, samples() values: that of structure_motion(). contact_force of a
-  /// structure that is held.
+  /// CondensedProblem::held_force(), N, samples() values: the force that the condensed equations see. Equal
+  /// to contact_force unless the structure is free to move.
   Eigen::VectorXd held_force;
   Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
   /// 1 / epsilon of each contact (m/N) in the force form; empty in the displacement form.

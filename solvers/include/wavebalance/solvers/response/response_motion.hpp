@@ -15,10 +15,10 @@ namespace wavebalance::solvers {
 Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& response,
                       const ContactLaws& laws, int points);
 
-/// The motion of all n degrees of freedom, without forces, under contact force samples (samples() values, N)
-/// of a solved problem; of a free structure PeriodicResponse::held_force. Throws SingularSystem. O(n (M +
-/// points log points)).
-Motion structure_motion(CondensedProblem& problem, const Eigen::VectorXd& contact_force, int points);
+/// The motion of all n degrees of freedom, without forces, in a response of `problem`, whose load scale
+/// must be that of the response. Throws std::invalid_argument where the problem is at another frequency, and
+/// SingularSystem. O(n (M + points log points)).
+Motion structure_motion(CondensedProblem& problem, const PeriodicResponse& response, int points);
 
 /// E = u'^T M u' / 2 + u^T K u / 2 + the potentials of all contacts, J, at each point [JL14, eq. (35)], of a
 /// motion of all n degrees of freedom.
