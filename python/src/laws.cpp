@@ -19,6 +19,7 @@
 #include "wavebalance/contact/polynomial_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/contact/table_law.hpp"
+#include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::python {
 
@@ -128,6 +129,16 @@ solvers::ContactLaws laws_of(const py::object& laws) {
     list.push_back(one.cast<const Law&>());
   }
   return list;
+}
+
+solvers::ContactLaws laws_of(const py::object& laws, const solvers::LinearStructure& structure) {
+  solvers::ContactLaws all = laws_of(laws);
+  all.require(structure.contacts());
+  if (!contacts_are_massless(structure, all.rigid(structure.contacts())))
+    throw std::invalid_argument(
+        "laws: a rigid obstacle needs contacts without mass; expected Structure(..., "
+        "contact_mass=\"redistribute\"), or a stiff Penalty");
+  return all;
 }
 
 void add_laws(py::module_& module) {

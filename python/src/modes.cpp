@@ -10,6 +10,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "laws.hpp"
+#include "problem.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
@@ -96,9 +97,8 @@ Backbone elastic_backbone(const solvers::ModalModel& model, const solvers::TimeP
   return result;
 }
 
-Backbone backbone(const solvers::LinearStructure& structure, const py::object& laws,
-                  const solvers::TimePair& pair, const std::vector<double>& gaps,
-                  const BackboneArguments& of) {
+Backbone backbone(const Structure& structure, const py::object& laws, const solvers::TimePair& pair,
+                  const std::vector<double>& gaps, const BackboneArguments& of) {
   const solvers::ContactLaws all = laws_of(laws);
   all.require(structure.contacts());
   return unlocked([&](const solvers::Observer& observer) {

@@ -13,6 +13,7 @@
 #include "unlocked.hpp"
 #include "wavebalance/app/compare/basis_pair.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/massless_contacts.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/solvers/structure/rigid_modes.hpp"
 
@@ -20,7 +21,6 @@ namespace wavebalance::python {
 
 namespace py = pybind11;
 using Sparse = Eigen::SparseMatrix<double>;
-using Structure = solvers::LinearStructure;
 
 namespace {
 
@@ -37,9 +37,24 @@ void check(const Structure& structure, bool unsymmetric, bool free) {
   }
 }
 
+/// Replaces the structure by its modes and contacts without mass, as scenes with contact.mass =
+/// "redistribute".
+void redistribute_mass(Structure& structure) {
+  if (!structure.rigid_modes.isZero(0.0))
+    throw std::invalid_argument(
+        "contact_mass is \"redistribute\"; a structure that is free to move keeps its mass");
+  app::StructureModel model;
+  model.structure = structure;
+  model.unknowns = structure.size();
+  app::make_contacts_massless(model, structure.size() - structure.contacts());
+  static_cast<solvers::LinearStructure&>(structure) = std::move(model.structure);
+  structure.recovery = std::move(model.recovery);
+}
+
 std::shared_ptr<Structure> make_structure(Sparse mass, Sparse damping, Sparse stiffness, Eigen::VectorXd load,
                                           const Sparse& contacts, const std::vector<Force>& forces,
-                                          double loss_factor, bool unsymmetric, bool free) {
+                                          double loss_factor, bool unsymmetric, bool free,
+                                          bool redistribute) {
   auto structure = std::make_shared<Structure>();
   structure->mass = std::move(mass);
   structure->damping = std::move(damping);
@@ -52,6 +67,7 @@ std::shared_ptr<Structure> make_structure(Sparse mass, Sparse damping, Sparse st
   unlocked([&](const solvers::Observer&) {
     check(*structure, unsymmetric, free);
     if (free) structure->rigid_modes = solvers::find_rigid_modes(structure->mass, structure->stiffness);
+    if (redistribute) redistribute_mass(*structure);
     return true;
   });
   return structure;
@@ -123,7 +139,8 @@ void add_pair(py::module_& module) {
 std::shared_ptr<Problem> make_problem(const Structure& structure, const solvers::TimePair& pair,
                                       const Eigen::VectorXcd& harmonics, int threads) {
   return unlocked([&](const solvers::Observer&) {
-    auto problem = std::make_shared<Problem>(solvers::CondensedProblem(pair, structure, harmonics));
+    auto problem =
+        std::make_shared<Problem>(solvers::CondensedProblem(pair, structure, harmonics), structure.recovery);
     problem->condensed().set_threads(threads);
     return problem;
   });

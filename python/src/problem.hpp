@@ -10,11 +10,18 @@
 
 namespace wavebalance::python {
 
+/// A structure as it is solved, and the way back to the degrees of freedom that Python gave.
+struct Structure : solvers::LinearStructure {
+  /// Displacements of the given degrees of freedom from those that are solved for; 0 x 0: they are equal.
+  Eigen::MatrixXd recovery = {};
+};
+
 /// A structure with its pair of bases, condensed on the contacts. Threads of Python may share it. Whoever
 /// works with it holds `alone`, without the lock of the interpreter.
 class Problem {
  public:
-  explicit Problem(solvers::CondensedProblem problem) : condensed_(std::move(problem)) {}
+  Problem(solvers::CondensedProblem problem, Eigen::MatrixXd recovery)
+      : condensed_(std::move(problem)), recovery_(std::move(recovery)) {}
 
   std::mutex alone;
 
@@ -32,6 +39,10 @@ class Problem {
     }
     return condensed_;
   }
+  /// Rows of the given degrees of freedom from those of the structure that is solved.
+  Eigen::MatrixXd recovered(const Eigen::MatrixXd& rows) const {
+    return recovery_.size() > 0 ? Eigen::MatrixXd(recovery_ * rows) : rows;
+  }
   /// Made on first use. Throws std::invalid_argument where no modes are found.
   const solvers::ContactDynamics& dynamics() {
     if (!dynamics_) dynamics_.emplace(condensed_.structure());
@@ -40,6 +51,7 @@ class Problem {
 
  private:
   solvers::CondensedProblem condensed_;
+  Eigen::MatrixXd recovery_;                                     // as of Structure
   double frequency_ = std::numeric_limits<double>::quiet_NaN();  // at which it is condensed
   std::optional<solvers::ContactDynamics> dynamics_ = {};
 };

@@ -45,6 +45,7 @@ solvers::PeriodicResponse singular_response(int samples, double frequency) {
   response.residual = std::numeric_limits<double>::quiet_NaN();
   response.displacement = Eigen::VectorXd::Constant(samples, response.residual);
   response.contact_force = response.displacement;
+  response.held_force = response.displacement;
   return response;
 }
 
@@ -76,7 +77,7 @@ Eigen::VectorXd samples_of(const py::array_t<double, py::array::c_style | py::ar
 Response respond(const std::shared_ptr<Problem>& problem, const py::object& laws, double frequency,
                  const py::object& guess, bool stay_near_guess, const std::string& form, double tolerance,
                  int max_iterations) {
-  solvers::ContactLaws all = laws_of(laws);
+  solvers::ContactLaws all = laws_of(laws, problem->condensed().structure());
   solvers::ForcedResponseOptions options;
   options.form = form_of(form);
   options.stay_near_guess = stay_near_guess;
@@ -106,8 +107,10 @@ solvers::Motion structure_motion(const Response& response, int points) {
   return unlocked([&](const solvers::Observer&) {
     const std::lock_guard alone(response.problem->alone);
     solvers::CondensedProblem& problem = response.problem->at(response.found.frequency, response.load_scale);
-    const auto& held = response.found.held_force;
-    return solvers::structure_motion(problem, held.size() > 0 ? held : response.found.contact_force, points);
+    solvers::Motion motion = solvers::structure_motion(problem, response.found, points);
+    motion.displacement = response.problem->recovered(motion.displacement);
+    motion.velocity = response.problem->recovered(motion.velocity);
+    return motion;
   });
 }
 

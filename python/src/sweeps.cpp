@@ -77,7 +77,7 @@ void add_curve_stability(Curve& one, const Steps& steps, const solvers::Observer
 /// Of an amplitude sweep `frequency` is that of all points; NaN for a frequency sweep.
 std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::object& laws,
                              double frequency, double from, double to, const Steps& steps) {
-  auto one = std::make_shared<Curve>(Curve{problem, laws_of(laws), {}, {}});
+  auto one = std::make_shared<Curve>(Curve{problem, laws_of(laws, problem->condensed().structure()), {}, {}});
   solvers::FrequencySweepOptions options = options_of(from, to, steps);
   return unlocked([&](const solvers::Observer& observer) {
     const std::lock_guard alone(problem->alone);

@@ -147,14 +147,40 @@ LAWS = [
 def test_a_response_has_the_digits_of_the_scene_of_the_same_structure(law):
     matrix = np.array([[5.0, -2.0], [-2.0, 2.0]])
     contacts = np.array([[0.0, 1.0]]) if law.is_rigid else np.array([[1.0, -1.0], [0.0, 1.0]])
-    structure = wb.Structure(np.diag([1.0, 0.5]), 1e-2 * matrix, matrix, [0.0, 1.0], contacts)
+    mass = "redistribute" if law.is_rigid else "keep"
+    structure = wb.Structure(np.diag([1.0, 0.5]), 1e-2 * matrix, matrix, [0.0, 1.0], contacts, contact_mass=mass)
     record = wb.run(structure.scene(law, frequency=0.1))
-    if law.is_rigid:  # A scene gives the mass of its contact to the rest.
-        assert record.converged and record.summary["max_penetration_m"] < 0.01
-        return
     motion = wb.forced_response(structure, law, 0.1).motion(1024)
     assert record.converged
     assert record.summary["max_displacement_m"] == motion.displacement.max()
+
+
+def test_a_rigid_obstacle_needs_contacts_without_mass():
+    mass, damping, stiffness, load = chain(3)
+    for solve in (
+        lambda of: wb.forced_response(of, wb.Rigid(1e-4), 10.0),
+        lambda of: wb.frequency_sweep(of, wb.Rigid(1e-4), 10.0, 11.0),
+        lambda of: wb.amplitude_sweep(of, wb.Rigid(1e-4), 10.0, 0.5, 1.0),
+    ):
+        with pytest.raises(ValueError, match='contact_mass="redistribute"'):
+            solve(wb.Structure(mass, damping, stiffness, load, contacts=[2]))
+    with pytest.raises(ValueError, match='contact_mass is .moved.; expected "keep" or "redistribute"'):
+        wb.Structure(mass, damping, stiffness, load, contacts=[2], contact_mass="moved")
+
+
+def test_a_rigid_obstacle_at_a_redistributed_mass_is_met_and_the_structure_is_recovered():
+    mass, damping, stiffness, load = chain(3)
+    structure = wb.Structure(mass, damping, stiffness, load, contacts=[2], contact_mass="redistribute")
+    response = wb.forced_response(structure, wb.Rigid(1e-4), 10.0)
+    assert response.converged and response.contact_force.max() > 0.1
+    assert response.displacement.max() <= 1.02e-4  # 63 functions let it through by a hundredth of the gap
+    everywhere = response.structure_motion(256)
+    assert everywhere.displacement.shape == (3, 256)
+    size = np.abs(everywhere.displacement).max()
+    np.testing.assert_allclose(everywhere.displacement[2], response.motion(256).displacement[0], atol=1e-9 * size)
+    # The period mean is that of the static structure under the mean contact force.
+    mean = np.linalg.solve(stiffness.toarray(), -response.contact_force.mean() * np.array([0.0, 0.0, 1.0]))
+    np.testing.assert_allclose(everywhere.displacement.mean(axis=1), mean, atol=1e-9 * size)
 
 
 def test_the_curve_of_a_hardening_spring_folds_and_is_unstable_between_its_folds():

@@ -129,6 +129,7 @@ class Structure:
         loss_factor: float,
         unsymmetric: bool,
         free: bool,
+        redistribute: bool,
     ) -> None: ...
     @property
     def size(self) -> int: ...

@@ -101,8 +101,8 @@ class Exponential(Law):
 class Rigid(Law):
     """A rigid obstacle at a gap: u <= g, f >= 0, f (u - g) = 0.
 
-    It needs contacts without mass: with mass and without a law of impact a continuum of motions satisfies it.
-    Parameter: `gap` g, m.
+    It needs a ``Structure(..., contact_mass="redistribute")``, whose contacts have no mass: with mass and without a law of
+    impact a continuum of motions satisfies it, and solving raises ValueError. Parameter: `gap` g, m.
     """
 
     def __init__(self, gap: float = 0.0) -> None:

@@ -43,6 +43,9 @@ class Structure(_core.Structure):
         Whether C and K may be unsymmetric, as gyroscopic and circulatory ones are.
     free:
         Whether the structure is free to move and held by its contacts alone.
+    contact_mass:
+        "keep", or "redistribute" for contacts without mass, which rigid obstacles need: the structure is replaced by its
+        lowest n - C modes beside contacts that deflect by the flexibility of the others. O(n^3).
 
     Attributes
     ----------
@@ -53,7 +56,7 @@ class Structure(_core.Structure):
     load: numpy.ndarray
         n values, N.
     size, contacts: int
-        n and C.
+        The number of degrees of freedom that are solved for, n, and C.
 
     Raises
     ------
@@ -74,18 +77,30 @@ class Structure(_core.Structure):
         loss_factor: float = 0.0,
         unsymmetric: bool = False,
         free: bool = False,
+        contact_mass: str = "keep",
     ) -> None:
         self.M, self.K = as_csc(M, "M"), as_csc(K, "K")
         self.C = scipy.sparse.csc_matrix(self.K.shape) if C is None else as_csc(C, "C")
         self.load = _vector(load, "load")
         self.S = _directions(contacts, len(self.load))
-        self.unsymmetric, self.loss_factor = unsymmetric, loss_factor
+        self.unsymmetric, self.loss_factor, self.contact_mass = unsymmetric, loss_factor, contact_mass
+        if contact_mass not in ("keep", "redistribute"):
+            raise ValueError(f'contact_mass is {contact_mass!r}; expected "keep" or "redistribute"')
         self._forces = [(_vector(shape, "shape of a force"), np.ravel(np.asarray(h, complex)), 0) for shape, h in forces]
         if static_load is not None:
             self._forces.append((_vector(static_load, "static_load"), np.ones(1, complex), 0))
         self._problem: tuple[_core.Pair, Any] | None = None
         super().__init__(
-            self.M, self.C, self.K, self.load, as_csc(self.S, "contacts"), self._forces, loss_factor, unsymmetric, free
+            self.M,
+            self.C,
+            self.K,
+            self.load,
+            as_csc(self.S, "contacts"),
+            self._forces,
+            loss_factor,
+            unsymmetric,
+            free,
+            contact_mass == "redistribute",
         )
 
     def scene(
@@ -121,6 +136,8 @@ class Structure(_core.Structure):
         if frequency is not None:
             forcing["frequency"] = float(frequency)
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
+        if self.contact_mass != "keep":
+            result["contact"]["mass"] = self.contact_mass
         result["time"] = (default_pair() if pair is None else pair).scene_keys()
         if analysis:
             result["analysis"] = analysis

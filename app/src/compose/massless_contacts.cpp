@@ -1,4 +1,4 @@
-#include "compose/massless_contacts.hpp"
+#include "wavebalance/app/compose/massless_contacts.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

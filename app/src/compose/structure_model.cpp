@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "compose/loads.hpp"
-#include "compose/massless_contacts.hpp"
+#include "wavebalance/app/compose/massless_contacts.hpp"
 #include "compose/structure_files.hpp"
 #include "compose/symmetric_part.hpp"
 #include "wavebalance/fem/bar.hpp"
