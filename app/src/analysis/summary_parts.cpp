@@ -109,8 +109,9 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
                                             [](const auto& one) { return is_damped(one.law); });
   if (!damped) return;
   const solvers::Motion& motion = response.contacts;
-  const double power =
-      motion.empty() ? missing : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
+  const double power = !response.moves || motion.empty()
+                           ? missing
+                           : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
   summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
 }
 

@@ -51,8 +51,9 @@ std::string solution_sentence(const Summary& summary) {
   if (converged != nullptr && *converged) return "The scene was solved" + ending;
   if (text(summary, "status") == "unbalanced")
     return "No periodic motion exists: the structure is free to move, and no contact force balances its static load.";
+  const bool shown = std::isfinite(number(summary, "max_displacement_m")) || number(summary, "points") > 0.0;
   return "The scene was not solved (" + spaced(text(summary, "status")) + ")" + ending +
-         " What follows is not a solution.";
+         (shown ? " What follows is not a solution." : " There is no motion to show.");
 }
 
 /// How far a displacement passes the gap; empty where there is none.

@@ -14,10 +14,12 @@ namespace {
 
 using solvers::PeriodicForce;
 
+constexpr std::size_t max_samples_bytes = std::size_t{1} << 28;
+
 std::vector<double> samples_in(const std::string& file) {
   std::vector<double> samples;
   try {
-    const Table table = read_csv(file);
+    const Table table = read_csv(file, max_samples_bytes);
     samples = table.numbers(table.columns().back());
   } catch (const std::exception& error) {
     throw SamplesFault(error.what());

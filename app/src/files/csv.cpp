@@ -53,7 +53,8 @@ Cell parsed_cell(const std::string& text, bool was_quoted) {
 
 class CsvReader {
  public:
-  explicit CsvReader(const std::filesystem::path& file) : file_(file), stream_(read_file(file)) {}
+  CsvReader(const std::filesystem::path& file, std::size_t max_bytes)
+      : file_(file), stream_(read_file(file, max_bytes)) {}
 
   Table read() {
     Fields fields;
@@ -122,6 +123,8 @@ std::string csv_text(const Table& table) {
 
 void write_csv(const std::filesystem::path& file, const Table& table) { write_file(file, csv_text(table)); }
 
-Table read_csv(const std::filesystem::path& file) { return CsvReader(file).read(); }
+Table read_csv(const std::filesystem::path& file, std::size_t max_bytes) {
+  return CsvReader(file, max_bytes).read();
+}
 
 }  // namespace wavebalance::app

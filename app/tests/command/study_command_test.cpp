@@ -101,6 +101,23 @@ TEST(CommandStudy, WrongStudiesAndOptionsAreTwoAndNothingIsWritten) {
   }
 }
 
+TEST(CommandStudy, ItsSceneAndFilesThatNoRecordListsAreNotReplaced) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", bar_scene);
+  const std::string text = "scene = \"scene.toml\"\n" + small_study.substr(19);
+  const std::string file = folder.write("study.toml", text);
+  const Outcome own = run(folder, {"study", file, "--output", folder.path()});
+  EXPECT_EQ(own.exit_code, 2);
+  EXPECT_NE(own.errors.find("scene.toml: is read by this command"), std::string::npos) << own.errors;
+  EXPECT_FALSE(fs::exists(folder / "study.journal"));
+  fs::create_directory(folder / "out");
+  folder.write("out/study.csv", "measured\n");
+  const Outcome foreign = run(folder, {"study", file, "--output", folder / "out"});
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_NE(foreign.errors.find("study.csv: would be replaced"), std::string::npos) << foreign.errors;
+  EXPECT_EQ(read_file(folder / "out" / "study.csv"), "measured\n");
+}
+
 TEST(CommandStudy, AnotherStudyInTheSameFolderIsRefusedAndTheFirstStays) {
   const TemporaryFolder folder;
   ASSERT_EQ(study(folder, small_study).exit_code, 0);
