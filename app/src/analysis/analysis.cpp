@@ -108,6 +108,9 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back("strategy", response.strategy);
+  warn_of_scene(record, scene);
+  if (response.moves && scene.contact.law != ContactLawType::none && !response.contacts.force.any())
+    warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
   append_period(record, response.periods, response.motion_periods);
   if (response.periods > 1)
     record.summary.emplace_back("change_after_one_period",
@@ -190,6 +193,10 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
     record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   record.summary.emplace_back("points", std::int64_t{points});
+  warn_of_scene(record, scene);
+  if (points > 0 && scene.contact.law != ContactLawType::none &&
+      largest(sweep.curve, &solvers::SweepPoint::contact_fraction) == 0.0)
+    warn_of_open_contacts(record, highest, model.gaps.minCoeff());
   append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);

@@ -8,6 +8,7 @@
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 
@@ -64,6 +65,25 @@ void add_contacts(Record& record, const solvers::Motion& contacts, int leading) 
   if (contacts.rows() < 2) return;
   record.summary.emplace_back("leading_contact", std::int64_t{leading + 1});
   record.contacts = contacts_table(contacts);
+}
+
+void warn_of_scene(Record& record, const Scene& scene) {
+  if (scene.forcing.amplitude == 0.0 && scene.forcing.terms.empty() &&
+      scene.analysis.type != AnalysisType::amplitude_sweep)
+    record.warnings.emplace_back("No load acts: forcing.amplitude is 0, and there are no [[forcing.terms]].");
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
+    const ContactPair& pair = scene.contact.pairs[i];
+    if (pair.side == ObstacleSide::both && has_gap(pair.law) && pair.gap < 0.0)
+      record.warnings.push_back(fmt::format(
+          "{}.gap is {:.4g} m with side = \"both\": both obstacles press on the structure at rest.",
+          pair_section(i), pair.gap));
+  }
+}
+
+void warn_of_open_contacts(Record& record, double displacement, double gap) {
+  record.warnings.push_back(
+      fmt::format("No contact closes: the largest displacement is {:.4g} mm where the gap is {:.4g} mm.",
+                  1e3 * displacement, 1e3 * gap));
 }
 
 void append_motion(Summary& summary, const solvers::Motion& leading) {

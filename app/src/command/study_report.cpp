@@ -119,8 +119,9 @@ std::string study_outcome(const StudyRecord& record) {
                                  value("runs"), value("runs_converged"));
   const Table* statuses = table_of(summary, "statuses");
   for (std::size_t i = 0; statuses != nullptr && i < statuses->rows(); ++i)
-    text +=
-        fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
+    if (cell_text(statuses->at(i, "status")) != "converged")
+      text +=
+          fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
   return text;
 }
 

@@ -64,7 +64,8 @@ class CsvReader {
     Table table(names);
     while (next(fields)) {
       if (fields.size() != names.size())
-        fail(std::to_string(fields.size()) + " cells; expected " + std::to_string(names.size()));
+        fail(std::to_string(fields.size()) + " cells; expected " + std::to_string(names.size()) +
+             ", as in the first line (a comma separates cells; decimals take a point)");
       std::vector<Cell> row;
       for (const auto& [text, was_quoted] : fields) row.push_back(parsed_cell(text, was_quoted));
       table.append_row(std::move(row));

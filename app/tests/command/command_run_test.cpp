@@ -56,7 +56,8 @@ TEST(CommandRun, WarnsOfAConditionPast1e12AlsoWhenQuiet) {
   const Outcome outcome =
       run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "contact.gap=1e15", "--set",
                    "structure.stiffness_damping=0", "--set", near_resonance});
-  EXPECT_EQ(outcome.errors.find("wavebalance: warning: the condition estimate "), 0u) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("wavebalance: warning: the condition estimate "), std::string::npos)
+      << outcome.errors;
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"the condition estimate "), std::string::npos);
 }
 

@@ -73,6 +73,8 @@ TEST(CommandStudy, ARunThatDoesNotConvergeIsThreeAndThePageNamesTheCommandThatRe
       study(folder, "scene = \"bar.toml\"\n[[parameters]]\nkey = \"time.functions\"\nvalues = [15, 0, 31]\n");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("refused               1"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("\nconverged"), std::string::npos)
+      << outcome.output;  // the line before says it
   const std::string page = read_file(folder / "out" / "report.html");
   EXPECT_NE(page.find("--set time.functions=0 --output run2"), std::string::npos);
 }
