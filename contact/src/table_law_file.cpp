@@ -1,10 +1,12 @@
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "wavebalance/contact/table_law.hpp"
 
@@ -12,6 +14,7 @@ namespace wavebalance::contact {
 namespace {
 
 constexpr std::size_t most_rows = 100'000;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 24;  // 160 for each row
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r";
@@ -30,12 +33,26 @@ double number(std::string_view text) {
   return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Refuses devices and pipes before they are opened, since one may have no end and the other no writer.
+std::ifstream open_table(const std::filesystem::path& file) {
+  std::error_code failure;
+  const auto status = std::filesystem::status(file, failure);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw std::runtime_error(file.string() + ": cannot be read: it is not a regular file");
+  const std::uintmax_t size = std::filesystem::file_size(file, failure);
+  std::ifstream stream(file);
+  if (failure || !stream)
+    throw std::runtime_error(file.string() +
+                             ": cannot be read; expected a CSV file of displacement and force");
+  if (size > most_bytes)
+    throw std::runtime_error(file.string() + ": cannot be read: it has " + std::to_string(size) +
+                             " bytes; expected at most " + std::to_string(most_bytes));
+  return stream;
+}
+
 class TableFile {
  public:
-  explicit TableFile(const std::filesystem::path& file) : name_(file.string()), stream_(file) {
-    if (!stream_ || std::filesystem::is_directory(file))
-      throw std::runtime_error(name_ + ": cannot be read; expected a CSV file of displacement and force");
-  }
+  explicit TableFile(const std::filesystem::path& file) : name_(file.string()), stream_(open_table(file)) {}
 
   TableLaw read() {
     for (std::string text; std::getline(stream_, text);) {

@@ -1,8 +1,10 @@
 #include "wavebalance/contact/table_law.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -90,6 +92,25 @@ TEST(TableLaw, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_THROW(read_table_law("/nonexistent/table.csv"), std::runtime_error);
   EXPECT_THROW(TableLaw({0.0, 0.0}, {1.0, 2.0}), std::invalid_argument);
   EXPECT_THROW(TableLaw({0.0, 1.0}, {1.0}), std::invalid_argument);
+}
+
+TEST(TableLaw, RefusesDevicesPipesFoldersAndFilesThatAreTooLarge) {
+  const TemporaryFolder folder;
+  const auto reason = [](const std::filesystem::path& file) -> std::string {
+    try {
+      read_table_law(file);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what()).substr(file.string().size());
+    }
+    return "nothing thrown";
+  };
+  EXPECT_EQ(reason("/dev/null"), ": cannot be read: it is not a regular file");
+  EXPECT_EQ(reason(folder.path()), ": cannot be read: it is not a regular file");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(reason(folder / "pipe"), ": cannot be read: it is not a regular file");
+  const auto large = folder.write("large.csv", "0,0\n1,1\n");
+  std::filesystem::resize_file(large, (1u << 24) + 1);  // a hole, which takes no room
+  EXPECT_EQ(reason(large), ": cannot be read: it has 16777217 bytes; expected at most 16777216");
 }
 
 }  // namespace

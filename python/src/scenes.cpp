@@ -33,6 +33,10 @@ struct Run {
   app::Record record;
 };
 
+app::InputFiles inputs_of(const app::RunArguments& arguments, const app::Scene& scene) {
+  return app::inputs_of(arguments.scene, scene, arguments.start_from);
+}
+
 /// The folder is tried before the solution, so that nothing is computed that cannot be written.
 Run run_scene(const SceneSource& source, const std::string& output, const std::string& start_from,
               int threads, const solvers::Observer& observer) {
@@ -47,10 +51,12 @@ Run run_scene(const SceneSource& source, const std::string& output, const std::s
   const app::StartMotion start = start_from.empty() ? app::StartMotion{} : app::read_start_motion(start_from);
   app::require_start_fits(start, run.scene);
   std::optional<app::OutputFiles> files;
+  if (!output.empty()) app::check_run_output(run.arguments, run.scene);
   if (!output.empty()) files.emplace(output);
   run.record = app::analyse(run.scene, {.start = start, .observer = observer, .threads = threads});
   if (files && !run.record.interrupted)
-    app::write_run_files(*files, app::run_files(run.arguments, run.scene, run.record));
+    app::write_run_files(*files, app::run_files(run.arguments, run.scene, run.record),
+                         inputs_of(run.arguments, run.scene));
   return run;
 }
 
@@ -58,7 +64,8 @@ void write(const Run& run, const std::string& output) {
   app::RunArguments arguments = run.arguments;
   arguments.output = output;
   app::OutputFiles files(output);
-  app::write_run_files(files, app::run_files(arguments, run.scene, run.record));
+  app::write_run_files(files, app::run_files(arguments, run.scene, run.record),
+                       inputs_of(arguments, run.scene));
 }
 
 std::string picture(const app::Figure& figure) {

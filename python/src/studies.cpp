@@ -55,9 +55,11 @@ class StudySession {
   StudySession(std::shared_ptr<const StudyPlan> plan, std::string output)
       : plan_(std::move(plan)), output_(std::move(output)) {
     if (output_.empty()) return;
+    app::check_study_output(arguments(output_), inputs(output_));
     files_.emplace(output_);
     journal_.emplace(output_, plan_->study(), plan_->runs());
     rows_ = journal_->take_rows();
+    unreadable_lines_ = journal_->unreadable_lines();
   }
 
   std::vector<std::int64_t> missing() const { return app::missing_runs(rows_, plan_->runs().size()); }
@@ -77,8 +79,11 @@ class StudySession {
 
   app::StudyRecord finish(double wall_seconds) {
     if (wall_seconds > 0.0) outcome_.wall_seconds = wall_seconds;
-    app::StudyRecord record = app::study_record(plan_->study(), plan_->runs(), rows_, outcome_);
-    if (files_) app::write_run_files(*files_, app::study_files(arguments(output_), plan_->study(), record));
+    app::StudyRecord record =
+        app::study_record(plan_->study(), plan_->runs(), rows_, outcome_, unreadable_lines_);
+    if (files_)
+      app::write_run_files(*files_, app::study_files(arguments(output_), plan_->study(), record),
+                           inputs(output_));
     return record;
   }
 
@@ -97,10 +102,14 @@ class StudySession {
 
   void write(const app::StudyRecord& record, const std::string& output) const {
     app::OutputFiles files(output);
-    app::write_run_files(files, app::study_files(arguments(output), plan_->study(), record));
+    app::write_run_files(files, app::study_files(arguments(output), plan_->study(), record), inputs(output));
   }
 
  private:
+  app::InputFiles inputs(const std::string& output) const {
+    return app::inputs_of(arguments(output), plan_->study(), plan_->runs());
+  }
+
   void keep(const app::StudyRow& row) {
     if (journal_) journal_->append(row);
     rows_.push_back(row);
@@ -111,6 +120,7 @@ class StudySession {
   std::optional<app::OutputFiles> files_;
   std::optional<app::StudyJournal> journal_;
   std::vector<app::StudyRow> rows_;
+  std::int64_t unreadable_lines_ = 0;
   app::StudyOutcome outcome_;
 };
 

@@ -82,6 +82,54 @@ def test_what_a_function_of_python_raises_reaches_the_caller():
         wb.forced_response(oscillator(), broken, 0.2)
 
 
+def test_a_function_of_python_that_returns_nan_is_named_with_its_displacement():
+    with pytest.raises(ValueError, match=r"the law of contact 1 returned nan as its force at u = \S+ m; it must return a number"):
+        wb.forced_response(oscillator(), lambda u: 5.0 * u if u < 0.1 else float("nan"), 0.2)
+
+
+def test_complex_parts_of_a_structure_are_refused_and_say_what_to_write_instead():
+    def structure(**given):
+        parts = {"M": [[1.0]], "C": [[0.1]], "K": [[1.0]], "load": [1.0], "contacts": [0]}
+        return wb.Structure(**{**parts, **given})
+
+    phase = np.exp(0.3j)
+    with pytest.raises(ValueError, match=r"^load holds complex numbers; .*forces=\[\(shape, \[0, F"):
+        structure(load=[100.0 * phase])
+    with pytest.raises(ValueError, match="^K holds complex numbers; .*loss_factor"):
+        structure(K=[[1.0 + 0.02j]])
+    with pytest.raises(ValueError, match="^C holds complex numbers; .*loss_factor"):
+        structure(C=scipy.sparse.csc_matrix([[0.1 + 0.02j]]))
+    for name in ("M", "contacts"):
+        with pytest.raises(ValueError, match=f"^{name} holds complex numbers; expected real ones$"):
+            structure(**{name: [[1j]]})
+    with pytest.raises(ValueError, match="^static_load holds complex numbers"):
+        structure(static_load=[1j])
+    assert structure(K=np.array([[1.0 + 0.0j]])).K[0, 0] == 1.0
+
+
+def test_arguments_of_another_type_are_named_with_what_is_expected():
+    structure, law = oscillator(), wb.Penalty(5.0, 0.5)
+    with pytest.raises(TypeError, match="^frequency is an array of 2 numbers; expected one number in Hz; frequency_sweep"):
+        wb.forced_response(structure, law, np.array([0.2, 0.3]))
+    with pytest.raises(TypeError, match="^frequency is '0.2'; expected one number in Hz"):
+        wb.forced_response(structure, law, "0.2")
+    with pytest.raises(TypeError, match="^frequency_to is '0.3'; expected one number in Hz"):
+        wb.frequency_sweep(structure, law, 0.2, "0.3")
+    with pytest.raises(TypeError, match="^functions is 'foo'; expected a whole number, as in Pair"):
+        wb.Pair("fourier", "foo", 63)
+    with pytest.raises(TypeError, match="^points is 64.5; expected a whole number"):
+        wb.Pair("fourier", 15, 64.5)
+    assert wb.forced_response(structure, law, np.float64(0.2), wb.Pair("fourier", np.int64(15), 64)).converged
+
+
+def test_the_phase_of_a_load_is_that_of_a_force_with_a_complex_amplitude():
+    phase = 0.7
+    turned = wb.Structure([[1.0]], [[0.1]], [[1.0]], [0.0], contacts=[0], forces=[([1.0], [0.0, np.exp(1j * phase)])])
+    plain, shifted = (wb.forced_response(one, wb.NoContact(), 0.2).structure_motion(64) for one in (oscillator(), turned))
+    spectra = [np.fft.rfft(one.displacement[0])[1] for one in (plain, shifted)]
+    np.testing.assert_allclose(spectra[1], spectra[0] * np.exp(1j * phase), rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     "law",
     [

@@ -92,6 +92,26 @@ def test_a_value_that_no_scene_has_is_refused_with_its_key(bar):
         wavebalance.run(bar)
 
 
+def test_a_dictionary_in_place_of_a_value_is_refused_with_the_key_to_write(bar):
+    with pytest.raises(TypeError, match=r"dictionary is no value of a scene; expected keys with dots, as in .'contact.gap'"):
+        wavebalance.run(bar, {"contact": {"gap": 2e-3}})
+
+
+def test_a_file_that_no_record_lists_and_the_scene_are_not_replaced(bar, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(as_toml(bar))
+    with pytest.raises(OSError, match="scene.toml: is read by this command"):
+        wavebalance.run(scene, output=tmp_path)
+    assert scene.read_text() == as_toml(bar)
+    record = wavebalance.run(bar, output=tmp_path / "out")
+    record.write(tmp_path / "out")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "response.csv").write_text("measured")
+    with pytest.raises(OSError, match="response.csv: would be replaced"):
+        record.write(tmp_path / "other")
+    assert (tmp_path / "other" / "response.csv").read_text() == "measured"
+
+
 def test_not_to_converge_is_a_status(bar):
     bar["analysis"] = {"type": "time_stepping", "max_periods": 1}
     del bar["time"]

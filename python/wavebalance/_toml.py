@@ -22,6 +22,8 @@ def toml_value(value: Any) -> str:
         return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(toml_value(one) for one in value) + "]"
+    if isinstance(value, Mapping):
+        raise TypeError("a dictionary is no value of a scene; expected keys with dots, as in {'contact.gap': 2e-3}")
     raise TypeError(f"{type(value).__name__} is no value of a scene; expected a number, a text or a list of them")
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _plots
+from ._matrices import as_number
 from .laws import LawLike, as_laws
 from .structure import Pair, Structure, default_pair
 
@@ -261,12 +262,14 @@ def forced_response(
     Raises
     ------
     ValueError
-        For a frequency, laws or a guess that do not fit.
+        For a frequency, laws or a guess that do not fit; and for a law that returns nan, with the displacement, where no
+        response was found.
     """
+    hertz = as_number(frequency, "frequency", "one number in Hz; frequency_sweep takes an interval")
     problem = as_problem(structure, pair)
     start = guess._core if isinstance(guess, Response) else guess
     return Response(
-        _core.forced_response(problem, as_laws(laws), frequency, start, stay_near_guess, form, tolerance, max_iterations)
+        _core.forced_response(problem, as_laws(laws), hertz, start, stay_near_guess, form, tolerance, max_iterations)
     )
 
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 import scipy.sparse
 
 from . import _core
-from ._matrices import as_csc
+from ._matrices import as_count, as_csc, as_real
 from .laws import Law, LawLike, as_laws
 
 __all__ = ["Pair", "Structure"]
@@ -29,7 +29,7 @@ class Structure(_core.Structure):
         Mass (kg), damping (N s/m) and stiffness (N/m), n × n, SciPy sparse or anything that converts to it, clamped rows and
         columns removed. ``C=None`` is none.
     load:
-        Amplitude of the cosine load, N, n values.
+        Amplitude of the cosine load, N, n real values; a load with a phase is one of `forces`.
     contacts:
         The directions of contact S, C × n: contact c has the displacement ``S[c] @ u``, positive towards its obstacle. Or a
         list of degrees of freedom, from 0.
@@ -202,7 +202,8 @@ class Pair(_core.Pair):
         sample_offset: float = 0.0,
     ) -> None:
         self.name = name if ":" in name else f"{name}:{name}"
-        count = _points(functions) if points is None else points
+        functions = as_count(functions, "functions", "a whole number, as in Pair('haar:fourier', 64), with both bases in the name")
+        count = _points(functions) if points is None else as_count(points, "points", "a whole number of points of the period")
         super().__init__(name, functions, count, formulation, inner_products, nyquist, sample_offset)
         trial, weight = self.name.split(":")
         self._keys = {
@@ -239,6 +240,7 @@ def _points(functions: int) -> int:
 
 
 def _vector(values: Any, name: str) -> npt.NDArray[np.float64]:
+    values = as_real(values, name)
     try:
         dense = values.toarray() if scipy.sparse.issparse(values) else values
         vector = np.array(dense, dtype=float)

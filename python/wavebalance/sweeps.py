@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _plots
+from ._matrices import as_number
 from .laws import LawLike, as_laws
 from .responses import ProblemLike, Response, as_problem
 from .structure import Pair
@@ -131,8 +132,10 @@ def frequency_sweep(
         For frequencies that are not positive, finite and different, and laws that do not fit.
     """
     steps = _core.Steps(first_step or 0.0, largest_step or 0.0, max_points, output_points, stability, form)
+    begin = as_number(frequency_from, "frequency_from", "one number in Hz")
+    end = as_number(frequency_to, "frequency_to", "one number in Hz")
     problem = as_problem(structure, pair)
-    return Sweep(_core.sweep(problem, as_laws(laws), float("nan"), frequency_from, frequency_to, steps))
+    return Sweep(_core.sweep(problem, as_laws(laws), float("nan"), begin, end, steps))
 
 
 def amplitude_sweep(

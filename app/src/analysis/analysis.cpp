@@ -85,6 +85,15 @@ void warn_of_unbalanced_load(Record& record, const StructureModel& model) {
       unbalanced ? "Since " : "Where "));
 }
 
+void append_rigid(Summary& summary, const Response& response) {
+  if (!response.rigid) return;
+  const RigidContact& rigid = *response.rigid;
+  const bool moves = response.moves;
+  summary.emplace_back("max_penetration_m", moves ? std::max(0.0, rigid.max_penetration) : missing);
+  summary.emplace_back("min_contact_force_N", moves ? rigid.min_force : missing);
+  summary.emplace_back("complementarity", moves ? rigid.product : missing);
+}
+
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
   Record record;
   record.warnings = model.warnings;
@@ -93,28 +102,29 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   warn_of_unbalanced_load(record, model);
   record.summary = solution_entries(response.converged, response.status, response.residual,
                                     response.iterations, response.unknowns, response.wall_seconds);
-  append_motion(record.summary, response.leading());
+  append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
   append_dissipation(record.summary, scene, response);
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
   record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back("strategy", response.strategy);
+  warn_of_scene(record, scene);
+  if (response.moves && scene.contact.law != ContactLawType::none && !response.contacts.force.any())
+    warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
   append_period(record, response.periods, response.motion_periods);
-  if (response.periods > 1) record.summary.emplace_back("change_after_one_period", response.change_after_one);
+  if (response.periods > 1)
+    record.summary.emplace_back("change_after_one_period",
+                                response.moves ? response.change_after_one : missing);
   append_attractor(record, response.periods, response);
   if (!response.form.empty()) record.summary.emplace_back("form", response.form);
-  if (response.rigid) {
-    record.summary.emplace_back("max_penetration_m", std::max(0.0, response.rigid->max_penetration));
-    record.summary.emplace_back("min_contact_force_N", response.rigid->min_force);
-    record.summary.emplace_back("complementarity", response.rigid->product);
-  }
+  append_rigid(record.summary, response);
   if (response.stability) append_stability(record, *response.stability);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (scene.analysis.type == AnalysisType::forced_response)
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
-  if (response.contacts.empty()) return record;
+  if (!response.moves || response.contacts.empty()) return record;
   record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);
   add_contacts(record, response.contacts, response.contact);
@@ -183,6 +193,10 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
     record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   record.summary.emplace_back("points", std::int64_t{points});
+  warn_of_scene(record, scene);
+  if (points > 0 && scene.contact.law != ContactLawType::none &&
+      largest(sweep.curve, &solvers::SweepPoint::contact_fraction) == 0.0)
+    warn_of_open_contacts(record, highest, model.gaps.minCoeff());
   append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);

@@ -59,10 +59,20 @@ std::string structure_line(const Scene& scene) {
   return bar_line(scene.structure);
 }
 
+/// How many directions have an obstacle on either side; empty without any.
+std::string sides_text(const Scene& scene) {
+  const auto& pairs = scene.contact.pairs;
+  const auto both = std::count_if(pairs.begin(), pairs.end(),
+                                  [](const auto& one) { return one.side == ObstacleSide::both; });
+  if (both == 0) return "";
+  return ", two each of the " + count_text(both, "direction") + " with obstacles on both sides";
+}
+
 std::string contact_place(const Scene& scene) {
   const StructureType type = scene.structure.type;
   if (type == StructureType::bar) return "at the tip";
-  if (!scene.contact.pairs.empty()) return "at " + count_text(contact_count(scene), "contact");
+  if (!scene.contact.pairs.empty())
+    return "at " + count_text(contact_count(scene), "contact") + sides_text(scene);
   const std::string count = count_text(contact_count(scene), "degree") + " of freedom";
   return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
 }

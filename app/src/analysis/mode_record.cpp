@@ -160,7 +160,7 @@ Record motion_record(const ModeStudy& study) {
   response.contacts = study.contact_motion(point, scene.analysis.output_points);
   response.contact = leading_contact(response.contacts, study.model().gaps);
   response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const bool moves = !response.contacts.empty();
+  const bool moves = point.accepted() && !response.contacts.empty();
   Record record;
   record.converged = response.converged = point.accepted();
   record.status = to_string(point.status);
@@ -172,7 +172,7 @@ Record motion_record(const ModeStudy& study) {
   }
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
                                     point.iterations, study.unknowns(), response.wall_seconds);
-  append_motion(record.summary, response.leading());
+  append_motion(record.summary, moves ? response.leading() : solvers::Motion{});
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
   record.summary.emplace_back("frequency_Hz", moves ? ratio * study.linear_frequency() : missing);
@@ -251,7 +251,7 @@ Record published_record(const ModeStudy& study) {
   const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
   record.summary = solution_entries(record.converged, record.status, measures.gradient, measures.iterations,
                                     unknowns, response.wall_seconds);
-  append_motion(record.summary, response.leading());
+  append_motion(record.summary, last.accepted() ? response.leading() : solvers::Motion{});
   append_published(record.summary, study, branch, measures.equation);
   if (energy == 0.0) {
     draw_branch(record, study, branch);

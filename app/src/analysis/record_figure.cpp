@@ -197,7 +197,7 @@ Figure response_figure(const Scene& scene, const Response& response) {
 Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
   Figure figure;
   figure.title = method_title(scene) + ", " + frequency_text(frequency);
-  if (!response.converged) figure.title += " (NOT CONVERGED: last iterate)";
+  if (!response.converged) figure.title += " (NOT CONVERGED)";
   figure.panel_height = 240;
   figure.panel_width = 600;
   add_motion(figure, "Displacement", "m", response.displacement(), response);

@@ -66,7 +66,9 @@ void solve_refined(const Scene& scene, const StructureModel& model, const Respon
 
 /// A converged response without accurate digits is none.
 void require_digits(Response& result) {
-  if (!result.converged || !(result.rounding_error > largest_rounding_error)) return;
+  if (!result.moves || !(result.rounding_error > largest_rounding_error)) return;
+  result.moves = false;
+  if (!result.converged) return;
   result.converged = false;
   result.status = inaccurate_status(result.rounding_error);
 }
@@ -137,7 +139,7 @@ ResponseStability stability_of_shot(const solvers::ShootingResult& found) {
 
 void note_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model) {
-  result.converged = found.converged();
+  result.converged = result.moves = found.converged();
   result.status = to_string(found.status);
   result.residual = found.residual;
   result.iterations = found.iterations;
@@ -197,7 +199,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
       solve_law(scene, model, composed, options, result);
     }
   } catch (const solvers::SingularSystem& error) {
-    result.converged = false;  // also when only the field of the whole structure cannot be had
+    result.converged = result.moves = false;  // also when only the whole structure's field cannot be had
     result.status = std::string("singular: ") + error.what();
     result.residual = std::numeric_limits<double>::quiet_NaN();
     result.condition = std::numeric_limits<double>::infinity();
@@ -232,6 +234,8 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   result.attractor_periods = found.attractor_periods;
   result.unknowns = 2 * model.size();
   result.contacts = std::move(found.contacts);
+  result.moves = result.contacts.displacement.allFinite() && result.contacts.force.allFinite() &&
+                 found.status != solvers::TimeSteppingStatus::step_failure;
   result.contact = leading_contact(result.contacts, model.gaps);
   result.structure = std::move(found.structure);
   return result;
@@ -246,7 +250,7 @@ Response shooting_response(const Scene& scene, const StructureModel& model, cons
   const solvers::ShootingResult found = shot(scene, model, options);
   Response result;
   result.wall_seconds = seconds_since(start);
-  result.converged = found.status == solvers::ShootingStatus::converged;
+  result.converged = result.moves = found.status == solvers::ShootingStatus::converged;
   result.status = to_string(found.status);
   result.residual = found.residual;
   result.iterations = found.iterations;

@@ -8,6 +8,7 @@
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 
@@ -66,6 +67,25 @@ void add_contacts(Record& record, const solvers::Motion& contacts, int leading) 
   record.contacts = contacts_table(contacts);
 }
 
+void warn_of_scene(Record& record, const Scene& scene) {
+  if (scene.forcing.amplitude == 0.0 && scene.forcing.terms.empty() &&
+      scene.analysis.type != AnalysisType::amplitude_sweep)
+    record.warnings.emplace_back("No load acts: forcing.amplitude is 0, and there are no [[forcing.terms]].");
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
+    const ContactPair& pair = scene.contact.pairs[i];
+    if (pair.side == ObstacleSide::both && has_gap(pair.law) && pair.gap < 0.0)
+      record.warnings.push_back(fmt::format(
+          "{}.gap is {:.4g} m with side = \"both\": both obstacles press on the structure at rest.",
+          pair_section(i), pair.gap));
+  }
+}
+
+void warn_of_open_contacts(Record& record, double displacement, double gap) {
+  record.warnings.push_back(
+      fmt::format("No contact closes: the largest displacement is {:.4g} mm where the gap is {:.4g} mm.",
+                  1e3 * displacement, 1e3 * gap));
+}
+
 void append_motion(Summary& summary, const solvers::Motion& leading) {
   const bool empty = leading.empty();
   const Eigen::MatrixXd& u = leading.displacement;
@@ -109,8 +129,9 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
                                             [](const auto& one) { return is_damped(one.law); });
   if (!damped) return;
   const solvers::Motion& motion = response.contacts;
-  const double power =
-      motion.empty() ? missing : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
+  const double power = !response.moves || motion.empty()
+                           ? missing
+                           : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
   summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
 }
 

@@ -36,6 +36,13 @@ void append_attractor(Record& record, int periods, const Response& response);
 /// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response);
 
+/// Sentences about loads and gaps that were probably meant otherwise: no load at all, and a gap below zero
+/// with obstacles on both sides.
+void warn_of_scene(Record& record, const Scene& scene);
+/// The same about contacts of which none closes: the largest displacement (m) and the gap (m) of the contact
+/// that comes nearest to it.
+void warn_of_open_contacts(Record& record, double displacement, double gap);
+
 /// The fields of the motion of the leading contact; missing values of an empty one.
 void append_motion(Summary& summary, const solvers::Motion& leading);
 

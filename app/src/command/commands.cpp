@@ -109,6 +109,7 @@ int run_scene(const RunArguments& arguments) {
   require_start_fits(start, scene);
   const std::string advice = slow_stepping_advice(scene);
   if (!advice.empty() && !arguments.quiet) std::fprintf(stderr, "wavebalance: %s\n", advice.c_str());
+  check_run_output(arguments, scene);
   OutputFiles files(arguments.output);
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep ||
                        scene.analysis.type == AnalysisType::amplitude_sweep);
@@ -118,7 +119,7 @@ int run_scene(const RunArguments& arguments) {
   if (!results.no_picture.empty())
     std::fprintf(stderr, "wavebalance: no picture: %s\n", results.no_picture.c_str());
   guard.defer();
-  write_run_files(files, results);
+  write_run_files(files, results, inputs_of(arguments.scene, scene, arguments.start_from));
   report(arguments, scene, record, results.files);
   if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

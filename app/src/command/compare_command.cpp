@@ -15,6 +15,7 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::app {
@@ -40,6 +41,16 @@ std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& rec
   const std::string no_picture = append_pictures(files, record.pictures, report);
   if (!no_picture.empty()) std::fprintf(stderr, "wavebalance: no picture: %s\n", no_picture.c_str());
   return files;
+}
+
+/// Whether a comparison may write a file of this name.
+bool may_write(const std::string& name, bool report) {
+  if (name == "report.html") return report;
+  for (const char* one : {"summary.json", "scene.toml", "comparison.csv", "comparison.md"})
+    if (name == one) return true;
+  for (const char* stem : {"error_over_time", "error_over_functions", "sweeps"})
+    if (name == std::string(stem) + ".svg" || name == std::string(stem) + ".figure.js") return true;
+  return false;
 }
 
 Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord& record,
@@ -99,6 +110,10 @@ int compare_scene(const CompareArguments& arguments) {
   const ComparisonOptions options = options_of(arguments);
   const Scene scene = given_scene(arguments.run);
   check_comparison(scene, options);
+  const InputFiles inputs = inputs_of(arguments.run.scene, scene);
+  require_replaceable(
+      arguments.run.output, [&](const std::string& name) { return may_write(name, arguments.run.report); },
+      inputs);
   OutputFiles output(arguments.run.output);
   InterruptGuard guard(true);
   const ComparisonRecord record = compare_until_signal(scene, options, guard, arguments.run.quiet);
@@ -108,7 +123,7 @@ int compare_scene(const CompareArguments& arguments) {
   if (arguments.run.report)
     files.front().contents = comparison_report(arguments, scene, record, summary, files);
   guard.defer();
-  write_run_files(output, {files, json_text(summary), ""});
+  write_run_files(output, {files, json_text(summary), ""}, inputs);
   say(arguments, record, files);
   if (record.interrupted) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

@@ -98,14 +98,16 @@ KeyFilter filter_of(const std::string& filter, const std::vector<SceneKey>& keys
 
 std::string selected_keys_text(const std::vector<std::string>& filters) {
   const std::vector<SceneKey> keys = all_keys();
-  std::vector<KeyFilter> selections;
-  for (const std::string& filter : filters) selections.push_back(filter_of(filter, keys));
+  std::vector<KeyFilter> parts, choices;  // any of the parts, and what all choices leave
+  for (const std::string& filter : filters)
+    (filter.find('=') == std::string::npos ? parts : choices).push_back(filter_of(filter, keys));
   std::string text = describe_scene_keys([&](const SceneKey& key) {
-    return std::all_of(selections.begin(), selections.end(),
-                       [&](const KeyFilter& selected) { return selected(key); });
+    const auto selects = [&](const KeyFilter& selected) { return selected(key); };
+    return (parts.empty() || std::any_of(parts.begin(), parts.end(), selects)) &&
+           std::all_of(choices.begin(), choices.end(), selects);
   });
   if (text.empty())
-    throw std::invalid_argument("keys " + joined(filters) + ": no key is selected by all of these");
+    throw std::invalid_argument("keys " + joined(filters) + ": such a scene has none of these");
   return text;
 }
 

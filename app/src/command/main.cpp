@@ -132,7 +132,7 @@ void add_keys(CLI::App& command, std::vector<std::string>& filters, bool& names)
   command.add_option(
       "FILTER", filters,
       "a section (contact), a key (contact.gap) or a choice (structure.type=matrices), which leaves "
-      "out what such a scene may not hold; of several all hold");
+      "out what such a scene may not hold; several sections and keys are all listed");
   command.add_flag("--names", names, "the names alone, each with the texts that it may be");
 }
 
@@ -167,14 +167,16 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, int ar
   std::vector<std::string> options;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
-  std::string nearest;
+  std::string nearest, misspelt;
   for (int i = 1; i < argc; ++i)
     if (const std::string word = argv[i];
         word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
-      nearest = closest(word, options);
+      misspelt = word, nearest = closest(word, options);
   const std::string name = parsed.empty() ? "wavebalance" : "wavebalance " + command.get_name();
-  return std::string(error.what()) + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + "; `" +
-         name + " --help` says what it takes";
+  const std::string what = nearest.empty()
+                               ? std::string(error.what())
+                               : "there is no option " + misspelt + " (did you mean " + nearest + "?)";
+  return what + "; `" + name + " --help` says what it takes";
 }
 
 int dispatch(int argc, char** argv) {

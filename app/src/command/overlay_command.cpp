@@ -9,6 +9,7 @@
 #include "command/overlay.hpp"
 #include "command/run_report.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
@@ -89,6 +90,9 @@ int overlay_results(const OverlayArguments& arguments) {
   check(arguments);
   const OverlayQuantity quantity = overlay_quantity(arguments.quantity);
   const Overlay overlay = read_overlay(arguments.folders, quantity);
+  require_replaceable(
+      arguments.output,
+      [](const std::string& name) { return name == "summary.json" || name.starts_with("overlay."); }, {});
   OutputFiles output(arguments.output);
   const std::vector<ResultFile> files = files_of(arguments, overlay, quantity);
   output.replace(files_of_record(output.directory() / "summary.json"));

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "command/bar_motion.hpp"
+#include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
@@ -45,6 +47,21 @@ RunFiles result_files(const Scene& scene, const Record& record, bool report) {
     files.push_back({"response.motion.js", bar_motion_script(scene, record, "response"),
                      "the moving bar of report.html"});
   return run;
+}
+
+/// Whether a run of the scene may write a file of this name.
+bool may_write(const Scene& scene, bool report, const std::string& name) {
+  if (name == "summary.json" || name == "scene.toml") return true;
+  if (name == report_name) return report;
+  const AnalysisType type = scene.analysis.type;
+  const bool sweep = type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
+  const bool curve = sweep || (type == AnalysisType::nonlinear_mode && scene.analysis.energy_ratio == 0.0);
+  const std::string stem = sweep ? "sweep" : curve ? "backbone" : "response";
+  for (const char* end : {".csv", ".svg", ".figure.js", ".motion.js"})
+    if (name == stem + end) return true;
+  if (name == "contacts.csv") return !curve;
+  const bool motions = scene.analysis.motion_points > 0 || !scene.analysis.motion_at.empty();
+  return motions && (name.starts_with("motion.") || name.starts_with("motion_"));
 }
 
 /// The record's summary, with its scene and the list of its files.
@@ -87,7 +104,30 @@ std::string append_pictures(std::vector<ResultFile>& files, const std::vector<Re
   return "";
 }
 
-void write_run_files(OutputFiles& output, const RunFiles& files) {
+InputFiles inputs_of(const std::filesystem::path& file, const Scene& scene,
+                     const std::filesystem::path& start) {
+  InputFiles inputs{file};
+  for (const std::string& named : input_files(scene)) inputs.emplace_back(named);
+  if (start.empty()) return inputs;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(start, ignored)) inputs.push_back(start);
+  for (const char* name : {"summary.json", "response.csv", "contacts.csv"})
+    inputs.push_back((std::filesystem::is_directory(start, ignored) ? start : start.parent_path()) / name);
+  return inputs;
+}
+
+void check_run_output(const RunArguments& arguments, const Scene& scene) {
+  require_replaceable(
+      arguments.output, [&](const std::string& name) { return may_write(scene, arguments.report, name); },
+      inputs_of(arguments.scene, scene, arguments.start_from));
+}
+
+void write_run_files(OutputFiles& output, const RunFiles& files, const InputFiles& inputs) {
+  const auto writes = [&](const std::string& name) {
+    return name == "summary.json" || std::any_of(files.files.begin(), files.files.end(),
+                                                 [&](const auto& file) { return file.name == name; });
+  };
+  require_replaceable(output.directory(), writes, inputs);
   output.replace(files_of_record(output.directory() / "summary.json"));
   for (const ResultFile& file : files.files) output.add(file.name, file.contents);
   output.add("summary.json", files.summary);

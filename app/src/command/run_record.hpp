@@ -24,8 +24,18 @@ RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Reco
 std::string append_pictures(std::vector<ResultFile>& files, const std::vector<RecordPicture>& pictures,
                             bool curves);
 
+/// The files that a command reads, none of which it replaces.
+using InputFiles = std::vector<std::filesystem::path>;
+
+/// The scene's file, those that it names, and a start; `start` may be a folder of results.
+InputFiles inputs_of(const std::filesystem::path& file, const Scene& scene,
+                     const std::filesystem::path& start = {});
+
+/// require_replaceable() for the files that a run of the scene may write, before it is solved.
+void check_run_output(const RunArguments& arguments, const Scene& scene);
+
 /// Writes all files at once, in place of those of an earlier record. The summary is last, so that it exists
-/// only if the others do. Throws IoError.
-void write_run_files(OutputFiles& output, const RunFiles& files);
+/// only if the others do. Throws IoError, also where require_replaceable() does.
+void write_run_files(OutputFiles& output, const RunFiles& files, const InputFiles& inputs);
 
 }  // namespace wavebalance::app

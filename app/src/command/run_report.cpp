@@ -91,7 +91,8 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", paragraph(outcome_sentences(summary, one_gap(scene.contact))) +
-                                        picture(files, heading) + motion(files) +
+                                        (record.figure.panels.empty() ? "" : picture(files, heading)) +
+                                        motion(files) +
                                         folded_table(summary, "motions", "Motions at points of the curve")) +
       section_html("Stability", paragraph(stability_sentences(summary, record.sweep)) +
                                     folded_table(summary, "special_points", "Special points")) +

@@ -51,8 +51,9 @@ std::string solution_sentence(const Summary& summary) {
   if (converged != nullptr && *converged) return "The scene was solved" + ending;
   if (text(summary, "status") == "unbalanced")
     return "No periodic motion exists: the structure is free to move, and no contact force balances its static load.";
+  const bool shown = std::isfinite(number(summary, "max_displacement_m")) || number(summary, "points") > 0.0;
   return "The scene was not solved (" + spaced(text(summary, "status")) + ")" + ending +
-         " What follows is not a solution.";
+         (shown ? " What follows is not a solution." : " There is no motion to show.");
 }
 
 /// How far a displacement passes the gap; empty where there is none.
@@ -120,6 +121,14 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
   sentences.push_back(fmt::format("Its frequency rises to {:.4g} times the linear one of {}.",
                                   number(summary, "largest_frequency_ratio"),
                                   quantity(number(summary, "linear_frequency_Hz"), "Hz")));
+  if (number(summary, "points_tongue") > 0.0)
+    sentences.emplace_back(
+        "A tongue is a part of the curve on an internal resonance, where another mode moves along with this one.");
+  if (std::isfinite(number(summary, "virial_residual")))
+    sentences.push_back(fmt::format(
+        "The virial residual, at most {:.2g}, is the relative error of a balance of energies that exact motions "
+        "satisfy.",
+        number(summary, "virial_residual")));
 }
 
 /// One sentence for each status of stability that a record can have.
@@ -165,7 +174,9 @@ std::string type_in_words(const std::string& type) {
       {"neimark_sacker", "Neimark-Sacker points, where quasi-periodic motions begin"},
       {"grazing", "Grazing points, where an interval of contact appears, vanishes, splits or joins another"},
       {"branch", "Branch points, where another curve begins"},
-      {"krein_collision", "Krein collisions, where two pairs of multipliers leave the unit circle"}};
+      {"krein_collision",
+       "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it, so that a small "
+       "disturbance begins to oscillate and grow"}};
   const auto found = known.find(type);
   return found == known.end() ? spaced(type) : found->second;
 }
@@ -185,29 +196,51 @@ void append_special_points(std::vector<std::string>& sentences, const Summary& s
     sentences.push_back(fmt::format("{}: {}.", type, fmt::join(where, ", ")));
 }
 
-/// The first and last frequency or amplitude of each run of unstable points along a curve, "1337.7 to 1315
-/// Hz".
+/// Frequencies or amplitudes of the special points at which multipliers pass the unit circle.
+std::vector<double> changes_of_stability(const Summary& summary, const std::string& column) {
+  std::vector<double> places;
+  const auto* points = find<Table>(summary, "special_points");
+  for (std::size_t i = 0; points != nullptr && i < points->rows(); ++i)
+    if (const auto* place = std::get_if<double>(&points->at(i, column));
+        place != nullptr && cell_text(points->at(i, "type")) != "grazing")
+      places.push_back(*place);
+  return places;
+}
+
+/// Where stability changes between a stable and an unstable point: the special point between them, or the
+/// unstable one where there is none.
+double end_of_part(const std::vector<double>& changes, double stable, double unstable) {
+  const auto [low, high] = std::minmax(stable, unstable);
+  const auto between =
+      std::find_if(changes.begin(), changes.end(), [&](double at) { return low <= at && at <= high; });
+  return between == changes.end() ? unstable : *between;
+}
+
+/// The first and last frequency or amplitude of each unstable part of a curve, "1337.7 to 1315 Hz".
 std::vector<std::string> unstable_parts(const std::vector<double>& place, const std::vector<double>& unstable,
-                                        const std::string& unit) {
+                                        const std::vector<double>& changes, const std::string& unit) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < unstable.size(); ++i) {
     if (!(unstable[i] > 0.0)) continue;
     const std::size_t first = i;
     while (i + 1 < unstable.size() && unstable[i + 1] > 0.0) ++i;
-    parts.push_back(first == i ? fmt::format("{:.6g} {}", place[i], unit)
-                               : fmt::format("{:.6g} to {:.6g} {}", place[first], place[i], unit));
+    const double begin = first == 0 ? place[0] : end_of_part(changes, place[first - 1], place[first]),
+                 end = i + 1 == place.size() ? place[i] : end_of_part(changes, place[i + 1], place[i]);
+    parts.push_back(begin == end ? fmt::format("{:.6g} {}", end, unit)
+                                 : fmt::format("{:.6g} to {:.6g} {}", begin, end, unit));
   }
   return parts;
 }
 
-void append_unstable_parts(std::vector<std::string>& sentences, const Table& curve) {
+void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& curve) {
   const auto [column, unit] = swept_column(curve);
   if (!curve.has_column("unstable") || column.empty() || curve.has_column("branch")) return;
   const std::vector<double> unstable = curve.numbers("unstable");
   const auto missing =
       std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
   if (missing == static_cast<std::ptrdiff_t>(unstable.size())) return;
-  const auto parts = unstable_parts(curve.numbers(column), unstable, unit);
+  const auto parts =
+      unstable_parts(curve.numbers(column), unstable, changes_of_stability(summary, column), unit);
   sentences.push_back(
       parts.empty() ? "No motion whose stability is known is unstable."
                     : fmt::format("Along the curve motions are unstable at {}.", fmt::join(parts, ", ")));
@@ -254,7 +287,7 @@ std::vector<std::string> stability_sentences(const Summary& summary, const Table
   if (std::isfinite(real))
     sentences.push_back(
         fmt::format("The leading multiplier has the absolute value {:.4g}.", std::hypot(real, imaginary)));
-  append_unstable_parts(sentences, curve);
+  append_unstable_parts(sentences, summary, curve);
   append_special_points(sentences, summary);
   return sentences;
 }

@@ -36,6 +36,11 @@ void say_outcome(const StudyArguments& arguments, const StudyRecord& record, con
   if (outcome.stopped) std::fputs("wavebalance: interrupted; the same command goes on from here\n", stderr);
 }
 
+std::string unreadable_text(std::int64_t lines) {
+  return fmt::format("{} line{} of {} cannot be read; runs without a row are solved again", lines,
+                     lines == 1 ? "" : "s", StudyJournal::file_name);
+}
+
 /// Each run frees what the next one allocates again. By default the memory goes back to the system in
 /// between, whose pages are then cleared anew: a tenth of the time of two threads.
 void keep_freed_memory() {
@@ -48,6 +53,8 @@ void keep_freed_memory() {
 /// The part of the process that writes.
 int lead_study(const StudyArguments& arguments, const Study& study, const StudyRuns& runs,
                Messenger* messenger) {
+  const InputFiles inputs = inputs_of(arguments, study, runs);
+  check_study_output(arguments, inputs);
   OutputFiles output(arguments.output);
   StudyJournal journal(arguments.output, study, runs);
   std::vector<StudyRow> rows = journal.take_rows();
@@ -55,6 +62,8 @@ int lead_study(const StudyArguments& arguments, const Study& study, const StudyR
   if (!rows.empty() && !arguments.quiet)
     std::fprintf(stderr, "wavebalance: %zu of %lld runs are there already\n", rows.size(),
                  static_cast<long long>(runs.size()));
+  if (journal.unreadable_lines() > 0)
+    std::fprintf(stderr, "wavebalance: warning: %s\n", unreadable_text(journal.unreadable_lines()).c_str());
   InterruptGuard guard(true);
   ProgressBar bar;
   StudyOptions options;
@@ -71,12 +80,12 @@ int lead_study(const StudyArguments& arguments, const Study& study, const StudyR
         return guard.signal() == 0;
       });
   bar.finish();
-  const StudyRecord record = study_record(study, runs, std::move(rows), outcome);
+  const StudyRecord record = study_record(study, runs, std::move(rows), outcome, journal.unreadable_lines());
   guard.defer();
   const RunFiles files = study_files(arguments, study, record);
   if (!files.no_picture.empty())
     std::fprintf(stderr, "wavebalance: no picture: %s\n", files.no_picture.c_str());
-  write_run_files(output, files);
+  write_run_files(output, files, inputs);
   say_outcome(arguments, record, outcome);
   if (outcome.stopped) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;

@@ -9,6 +9,7 @@
 #include "command/report_parts.hpp"
 #include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/page/html.hpp"
 
 namespace wavebalance::app {
@@ -118,9 +119,27 @@ std::string study_outcome(const StudyRecord& record) {
                                  value("runs"), value("runs_converged"));
   const Table* statuses = table_of(summary, "statuses");
   for (std::size_t i = 0; statuses != nullptr && i < statuses->rows(); ++i)
-    text +=
-        fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
+    if (cell_text(statuses->at(i, "status")) != "converged")
+      text +=
+          fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
   return text;
+}
+
+InputFiles inputs_of(const StudyArguments& arguments, const Study& study, const StudyRuns& runs) {
+  InputFiles inputs = inputs_of(study.scene, scene_of_run(study, runs, 0));
+  inputs.push_back(arguments.study);
+  return inputs;
+}
+
+void check_study_output(const StudyArguments& arguments, const InputFiles& inputs) {
+  const auto writes = [&](const std::string& name) {
+    if (name == "report.html") return arguments.report;
+    for (const char* one :
+         {"summary.json", "scene.toml", "study.csv", "study.npz", "study.svg", "study.figure.js"})
+      if (name == one) return true;
+    return false;
+  };
+  require_replaceable(arguments.output, writes, inputs);
 }
 
 RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record) {

@@ -13,6 +13,12 @@ namespace wavebalance::app {
 /// left out.
 RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record);
 
+/// The files that a study reads: its own, the scene, and those that the first run names.
+InputFiles inputs_of(const StudyArguments& arguments, const Study& study, const StudyRuns& runs);
+
+/// require_replaceable() for the files of a study, before anything is solved.
+void check_study_output(const StudyArguments& arguments, const InputFiles& inputs);
+
 /// The same outcome in a few lines for a terminal.
 std::string study_outcome(const StudyRecord& record);
 

@@ -130,6 +130,9 @@ std::string inadmissible_text(const std::vector<PairResult>& pairs) {
   return text.empty() ? text : "\nNot admissible:\n\n" + text;
 }
 
+const std::string no_time_text =
+    "\nNo time was left to compare pairs with it, so that nothing is recommended. A larger --budget helps.\n";
+
 const std::string title = "# Which basis for this scene?\n\n";
 
 }  // namespace
@@ -196,7 +199,9 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   record.summary = heading(record, scene, comparison.wall_seconds);
   add_reference(record.summary, comparison.reference);
   record.summary.emplace_back("solves", static_cast<std::int64_t>(comparison.points.size()));
-  record.summary.emplace_back("recommendations", recommendations_table(comparison.recommendations));
+  record.summary.emplace_back("recommendations",
+                              recommendations_table(comparison.points.empty() ? std::vector<Recommendation>()
+                                                                              : comparison.recommendations));
   record.summary.emplace_back("pairs", pairs_table(comparison));
   record.summary.emplace_back("front", front_table(comparison));
   record.summary.emplace_back("warnings", record.warnings);
@@ -208,9 +213,12 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
                                "errors over functions, the best number of points of each"});
   }
   const std::string opening = reference_sentence(comparison.reference) + "\n" + counted(comparison) + "\n";
-  record.text = opening + recommendations_text(comparison.recommendations, false);
-  record.markdown = title + opening + recommendations_text(comparison.recommendations, true) +
-                    "\n## Pairs\n\n" +
+  const bool compared = !comparison.points.empty();
+  const auto advice = [&](bool markdown) {
+    return compared ? recommendations_text(comparison.recommendations, markdown) : no_time_text;
+  };
+  record.text = opening + advice(false);
+  record.markdown = title + opening + advice(true) + "\n## Pairs\n\n" +
                     markdown_table({"trial", "weight", "solves", "converged", "largest_functions",
                                     "smallest_error", "order", "force_order", "failures"},
                                    pairs_table(comparison).where("admissible", "true")) +

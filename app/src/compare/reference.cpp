@@ -56,9 +56,9 @@ class ReferenceSearch {
       : scene_(scene),
         model_(model),
         seconds_(seconds),
-        observer_([this, &observer](const solvers::Progress&) {
+        observer_([this, &observer](const solvers::Progress& progress) {
           interrupted_ = interrupted_ || !goes_on(observer, {"reference"});
-          return !interrupted_ && elapsed() < allowed_;
+          return !interrupted_ && elapsed() < allowed_ && next_level_fits(progress);
         }) {
     scene_.analysis.output_points = points;
     scene_.time.sample_offset = 0.0;  // the levels of a refinement share their points at the left ends
@@ -80,6 +80,16 @@ class ReferenceSearch {
 
  private:
   double elapsed() const { return std::chrono::duration<double>(SteadyClock::now() - start_).count(); }
+
+  /// After a level of a refinement: whether the next one is expected to end within the time allowed. A level
+  /// cannot be stopped while its Newton matrix is factorized. The first motion is sought in any case.
+  bool next_level_fits(const solvers::Progress& progress) {
+    if (progress.phase != "refinement" || !guide_) return true;
+    const double now = elapsed(), seconds = now - std::exchange(level_began_, now);
+    const double growth = seconds / std::exchange(level_seconds_, std::max(seconds, 1e-9));
+    const bool is_last = progress.value <= tolerance_;
+    return is_last || now + std::clamp(growth, least_growth, largest_growth) * seconds < allowed_;
+  }
 
   static Reference missing_reference(const std::string& status) {
     Reference without;
@@ -104,7 +114,7 @@ class ReferenceSearch {
 
   /// Those of the coarsest balance, after all others have had their time.
   void count_multipliers(Reference& reference) {
-    const double seconds = std::exchange(seconds_, std::numeric_limits<double>::infinity());
+    const double seconds = std::exchange(seconds_, elapsed() + 0.5 * seconds_);
     if (const auto coarse = balance(1e-2, true); coarse && coarse->stability)
       reference.stability = *coarse->stability;
     seconds_ = seconds;
@@ -137,6 +147,9 @@ class ReferenceSearch {
   /// The balance with Fourier functions to a tolerance, within the time allowed.
   std::optional<Response> balance(double tolerance, bool with_stability) {
     allowed_ = seconds_;
+    tolerance_ = tolerance;
+    level_began_ = elapsed();
+    level_seconds_ = std::numeric_limits<double>::infinity();  // the first level takes next to no time
     Scene refined = discretised(scene_, {"fourier", "fourier"}, 0, 0);
     refined.time.tolerance = tolerance;
     ResponseOptions options;
@@ -164,7 +177,7 @@ class ReferenceSearch {
       options.initial_displacement = guide_->structure.displacement.col(0);
       options.initial_velocity = guide_->structure.velocity.col(0);
     }
-    allowed_ = elapsed() + seconds_;
+    allowed_ = seconds_;
     return solvers::shoot(model_.structure, make_law(scene_.contact), scene_.forcing.frequency, options);
   }
 
@@ -218,6 +231,7 @@ class ReferenceSearch {
     return reference;
   }
 
+  static constexpr double least_growth = 2.0, largest_growth = 8.0;  // of the times of two levels
   static constexpr int largest_dense = 400;  // degrees of freedom: shooting takes seconds beyond
   static constexpr int largest_flow = 64;    // matrix exponentials and products of twice as many rows
 
@@ -225,6 +239,7 @@ class ReferenceSearch {
   const StructureModel& model_;
   double seconds_;
   double allowed_ = 0.0;
+  double tolerance_ = 0.0, level_began_ = 0.0, level_seconds_ = 0.0;  // of the refinement under way
   bool interrupted_ = false;
   SteadyClock::time_point start_ = SteadyClock::now();
   solvers::Observer observer_;

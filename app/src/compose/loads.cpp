@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <complex>
+#include <cstdlib>
 #include <numbers>
 
 #include "wavebalance/app/files/output.hpp"
@@ -14,10 +15,23 @@ namespace {
 
 using solvers::PeriodicForce;
 
+constexpr std::size_t max_samples_bytes = std::size_t{1} << 28;
+
+/// Refuses a file whose first row are numbers, which would otherwise be lost.
+void require_names(const Table& table, const std::string& file) {
+  for (const std::string& name : table.columns()) {
+    char* end = nullptr;
+    std::strtod(name.c_str(), &end);
+    if (end == name.c_str() || *end != '\0') return;
+  }
+  throw SamplesFault(file + ": line 1: holds numbers; expected the names of the columns");
+}
+
 std::vector<double> samples_in(const std::string& file) {
   std::vector<double> samples;
   try {
-    const Table table = read_csv(file);
+    const Table table = read_csv(file, max_samples_bytes);
+    require_names(table, file);
     samples = table.numbers(table.columns().back());
   } catch (const std::exception& error) {
     throw SamplesFault(error.what());

@@ -169,9 +169,16 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
           std::string(key),
           fmt::format("there is no degree of freedom {}; expected 1..{}, or one of them with a minus sign",
                       dof, size));
-    if (std::find(rows.begin(), rows.end(), row) != rows.end())
-      throw StructureFault(std::string(key),
-                           fmt::format("degree of freedom {} is there twice; expected each once", row));
+    if (std::find(rows.begin(), rows.end(), row) != rows.end()) {
+      const bool both = std::find(dofs.begin(), dofs.end(), -dof) != dofs.end();
+      throw StructureFault(
+          std::string(key),
+          fmt::format("degree of freedom {} is there twice; expected each once{}", row,
+                      both ? fmt::format("; [[contact.pairs]] with dofs = [{}] and side = \"both\" has an "
+                                         "obstacle on either side",
+                                         row)
+                           : ""));
+    }
     rows.push_back(row);
   }
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "compose/scene_rules.hpp"
 #include "compose/structure_files.hpp"
@@ -106,7 +107,15 @@ void check_gaps(const Document& document, const Scene& scene) {
                   " of freedom in contact");
 }
 
+/// One file is not two matrices.
+void check_same_file(const Document& document, const MatricesStructure& matrices) {
+  std::error_code ignored;
+  if (!matrices.mass.empty() && std::filesystem::equivalent(matrices.mass, matrices.stiffness, ignored))
+    fail_rule(document, {"structure.stiffness"}, "is the file of structure.mass, too; expected another one");
+}
+
 void check_files(const Document& document, Scene& scene) {
+  check_same_file(document, scene.structure.matrices);
   try {
     const auto files = structure_files(scene);
     scene.structure.matrices.files.contents = files;

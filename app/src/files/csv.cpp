@@ -53,7 +53,8 @@ Cell parsed_cell(const std::string& text, bool was_quoted) {
 
 class CsvReader {
  public:
-  explicit CsvReader(const std::filesystem::path& file) : file_(file), stream_(read_file(file)) {}
+  CsvReader(const std::filesystem::path& file, std::size_t max_bytes)
+      : file_(file), stream_(read_file(file, max_bytes)) {}
 
   Table read() {
     Fields fields;
@@ -63,7 +64,8 @@ class CsvReader {
     Table table(names);
     while (next(fields)) {
       if (fields.size() != names.size())
-        fail(std::to_string(fields.size()) + " cells; expected " + std::to_string(names.size()));
+        fail(std::to_string(fields.size()) + " cells; expected " + std::to_string(names.size()) +
+             ", as in the first line (a comma separates cells; decimals take a point)");
       std::vector<Cell> row;
       for (const auto& [text, was_quoted] : fields) row.push_back(parsed_cell(text, was_quoted));
       table.append_row(std::move(row));
@@ -122,6 +124,8 @@ std::string csv_text(const Table& table) {
 
 void write_csv(const std::filesystem::path& file, const Table& table) { write_file(file, csv_text(table)); }
 
-Table read_csv(const std::filesystem::path& file) { return CsvReader(file).read(); }
+Table read_csv(const std::filesystem::path& file, std::size_t max_bytes) {
+  return CsvReader(file, max_bytes).read();
+}
 
 }  // namespace wavebalance::app

@@ -60,6 +60,16 @@ bool integrates_in_time(AnalysisType type) {
   return type == AnalysisType::time_stepping || type == AnalysisType::shooting;
 }
 
+std::vector<std::string> input_files(const Scene& scene) {
+  const MatricesStructure& matrices = scene.structure.matrices;
+  std::vector<std::string> files{matrices.mass,    matrices.stiffness, matrices.damping,
+                                 matrices.dof_map, scene.forcing.load, scene.contact.more.table};
+  for (const ForcingTerm& term : scene.forcing.terms) files.push_back(term.samples);
+  for (const ContactPair& pair : scene.contact.pairs) files.push_back(pair.more.table);
+  std::erase(files, "");
+  return files;
+}
+
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (integrates_in_time(type)) return false;

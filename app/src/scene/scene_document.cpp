@@ -95,6 +95,12 @@ void add_section(Document& document, const std::string& name, const toml::table&
   }
 }
 
+/// Without those at its ends.
+std::string without_blanks(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 /// The value of an override: TOML if it is one value, text otherwise.
 DocumentEntry parse_override(const std::string& text, const std::string& section, const std::string& key,
                              const std::string& value) {
@@ -175,7 +181,7 @@ void apply_overrides(Document& document, std::span<const std::string> overrides)
     if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
       throw SceneError(
           {document.name, 0, "--set " + text, "", "", "expected section.key=value, as in contact.gap=2e-3"});
-    const auto [section, key] = split_name(text.substr(0, equals));
+    const auto [section, key] = split_name(without_blanks(text.substr(0, equals)));
     DocumentEntry entry = parse_override(text, section, key, text.substr(equals + 1));
     const auto same = [&](const DocumentEntry& other) { return other.full_name() == entry.full_name(); };
     const auto place = std::find_if(document.entries.begin(), document.entries.end(), same);

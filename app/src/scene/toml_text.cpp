@@ -15,14 +15,47 @@ std::string long_key_text() {
          " parts between dots; expected section.key or [section]";
 }
 
+namespace {
+
+std::string_view line_of_text(std::string_view text, int line) {
+  for (; line > 1 && !text.empty(); --line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
+}
+
+/// What the line `key = text` without its quotes, or without the last one, should be; empty for others.
+std::string quotes_text(std::string_view line) {
+  line = line.substr(0, line.find('#'));
+  const auto equals = line.find('=');
+  if (equals == std::string_view::npos) return "";
+  const auto trimmed = [](std::string_view part) {
+    const auto first = part.find_first_not_of(" \t\r");
+    return first == std::string_view::npos ? std::string_view()
+                                           : part.substr(first, part.find_last_not_of(" \t\r") - first + 1);
+  };
+  std::string_view value = trimmed(line.substr(equals + 1));
+  const bool opened = value.starts_with('"');
+  if (opened) value.remove_prefix(1);
+  if (value.ends_with('"')) value.remove_suffix(1);
+  const bool is_word = !value.empty() && value.find_first_of("\"'[]{}=,") == std::string_view::npos &&
+                       value.find_first_not_of("0123456789.+-eE_: \t") != std::string_view::npos;
+  if (!is_word) return "";
+  return "; a text stands between quotes, as in " + std::string(trimmed(line.substr(0, equals))) + " = " +
+         toml_text(SceneValue(std::string(value)));
+}
+
+}  // namespace
+
 toml::table parse_toml(std::string_view text, const std::string& name) {
   if (const int line = line_of_long_key(text, max_key_parts); line > 0)
     throw SceneError({name, line, "", "", "", long_key_text()});
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw SceneError({name, static_cast<int>(error.source().begin.line), "", "", "",
-                      "not valid TOML: " + std::string(error.description())});
+    const int line = static_cast<int>(error.source().begin.line);
+    throw SceneError(
+        {name, line, "", "", "",
+         "not valid TOML: " + std::string(error.description()) + quotes_text(line_of_text(text, line))});
   }
 }
 

@@ -72,29 +72,34 @@ StudyJournal::~StudyJournal() {
 
 void StudyJournal::read(const std::string& header, std::int64_t runs) {
   const std::string text = read_file(file_);
+  const std::size_t last = text.rfind('\n');
+  const std::size_t whole = last == std::string::npos ? 0 : last + 1;
+  if (whole > 0) {
+    const std::size_t begin = text.find('\n') + 1;
+    const std::string first = text.substr(0, begin - 1);
+    if (first != header) throw IoError(file_, difference_text(first));
+    read_rows(std::string_view(text).substr(begin, whole - begin), runs);
+  }
+  size_ = static_cast<std::int64_t>(whole);
+  if (whole < text.size() && ::ftruncate(descriptor_, size_) != 0)
+    throw IoError(file_, std::string("cannot be shortened: ") + std::strerror(errno));
+}
+
+/// `text` ends with a line. A run whose line cannot be read has no row, so that it is solved again.
+void StudyJournal::read_rows(std::string_view text, std::int64_t runs) {
   std::vector<bool> seen(static_cast<std::size_t>(runs));
-  std::size_t begin = 0;
-  int line_number = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos;
-       begin = end + 1, end = text.find('\n', begin)) {
-    const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    if (++line_number == 1) {
-      if (line != header) throw IoError(file_, difference_text(std::string(line)));
-      continue;
-    }
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = text.find('\n', begin);
     try {
-      StudyRow row = parse_row(line);
+      StudyRow row = parse_row(text.substr(begin, end - begin));
       if (row.run < 0 || row.run >= runs) throw std::invalid_argument("its run is not one of the study");
       const auto index = static_cast<std::size_t>(row.run);
       if (!seen[index]) rows_.push_back(std::move(row));
       seen[index] = true;
-    } catch (const std::invalid_argument& error) {
-      throw IoError(file_, "line " + std::to_string(line_number) + ": " + error.what());
+    } catch (const std::invalid_argument&) {
+      ++unreadable_lines_;
     }
   }
-  size_ = static_cast<std::int64_t>(begin);
-  if (begin < text.size() && ::ftruncate(descriptor_, size_) != 0)
-    throw IoError(file_, std::string("cannot be shortened: ") + std::strerror(errno));
 }
 
 void StudyJournal::write_line(const std::string& line) {

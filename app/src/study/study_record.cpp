@@ -138,7 +138,7 @@ std::string drawn_quantity(const Study& study, const Table& table) {
 }
 
 StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<StudyRow> rows,
-                         const StudyOutcome& outcome) {
+                         const StudyOutcome& outcome, std::int64_t unreadable_lines) {
   std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.run < b.run; });
   StudyRecord record;
   record.table = study_table(study, runs, rows);
@@ -154,6 +154,7 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
                     {"runs_converged", static_cast<std::int64_t>(converged)},
                     {"sampling", name_of(study.sampling)}};
   append_outcome(record.summary, outcome, record.table);
+  record.summary.emplace_back("journal_lines_unreadable", unreadable_lines);
   const std::string quantity = drawn_quantity(study, record.table);
   if (!study.quantity.empty() && quantity != study.quantity)
     record.warnings.push_back(fmt::format("quantity = \"{}\": no run has such a value; pictures show {}",

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <limits>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -22,9 +23,37 @@ namespace {
 constexpr std::array<std::string_view, 5> left_out{"converged", "status", "wall_seconds", "analysis",
                                                    "reduction_seconds"};
 
-Summary scalars_of(const Summary& summary) {
+/// Whether a value of a summary is one of a motion or a curve, and not of the scene or of its solution.
+bool is_result(std::string_view name) {
+  constexpr std::array<std::string_view, 4> units{"_m", "_N", "_J", "_m_per_s2"};
+  constexpr std::array<std::string_view, 16> others{"contact_fraction",
+                                                    "complementarity",
+                                                    "change_after_one_period",
+                                                    "period_of_motion",
+                                                    "frequency_at_max_displacement_Hz",
+                                                    "leading_contact",
+                                                    "unstable_multipliers",
+                                                    "leading_multiplier_real",
+                                                    "leading_multiplier_imag",
+                                                    "energy_ratio",
+                                                    "frequency_ratio",
+                                                    "rayleigh_frequency_ratio",
+                                                    "virial_residual",
+                                                    "largest_energy_ratio",
+                                                    "largest_frequency_ratio",
+                                                    "max_penetration_over_gap"};
+  return std::any_of(units.begin(), units.end(), [&](auto unit) { return name.ends_with(unit); }) ||
+         std::find(others.begin(), others.end(), name) != others.end();
+}
+
+/// Results of a run that did not converge are missing.
+Summary scalars_of(const Summary& summary, bool converged) {
   Summary scalars;
   for (const auto& [name, value] : summary) {
+    if (!converged && is_result(name)) {
+      scalars.emplace_back(name, std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     const bool scalar = std::holds_alternative<double>(value) ||
                         std::holds_alternative<std::int64_t>(value) || std::holds_alternative<bool>(value) ||
                         std::holds_alternative<std::string>(value);
@@ -39,7 +68,7 @@ void solve_into(StudyRow& row, const Scene& scene, LastStructure& last, const so
   const Record record = analyse(scene, {.observer = observer, .model = &last.model_of(scene, observer)});
   row.status = record.status;
   row.converged = record.converged;
-  row.values = scalars_of(record.summary);
+  row.values = scalars_of(record.summary, record.converged);
   if (!record.warnings.empty()) row.message = record.warnings.front();
 }
 

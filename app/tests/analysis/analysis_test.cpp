@@ -229,7 +229,8 @@ TEST(Analyse, RoundingErrorsPastAThousandthOfTheMotionAreNoResponse) {
   EXPECT_EQ(record.status.rfind("inaccurate: ", 0), 0u) << record.status;
   EXPECT_NE(record.status.find("of the motion, more than 1e-03"), std::string::npos) << record.status;
   EXPECT_EQ(value_of<std::string>(record.summary, "status"), record.status);
-  EXPECT_FALSE(record.response.empty());  // of the last iterate
+  EXPECT_TRUE(record.response.empty());  // the last iterate is no motion
+  EXPECT_TRUE(std::isnan(value_of<double>(record.summary, "max_displacement_m")));
 }
 
 TEST(Analyse, SweepsWhoseRoundingErrorsPastAThousandthAreNotConverged) {
@@ -370,6 +371,33 @@ TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
   EXPECT_GT(estimate_cost(scene_of({"time.functions=1048576", "time.quadrature_points=1048576"})).seconds,
             100.0 * estimate_cost(scene).seconds);
   EXPECT_TRUE(std::isnan(estimate_cost(scene_of({"analysis.type=time_stepping"})).seconds));
+}
+
+TEST(CostEstimate, CountsTheDenseMatricesOfLawsOfTheVelocityAtTheSamplesInContact) {
+  const auto bytes = [](const std::string& points, const std::string& frequency) {
+    Scene scene = scene_of({"time.quadrature_points=" + points, "forcing.frequency=" + frequency});
+    const double without = estimate_cost(scene).bytes;
+    scene.contact.law = ContactLawType::hunt_crossley;
+    scene.contact.more.hertz_stiffness = 1e9;
+    return estimate_cost(scene).bytes - without;
+  };
+  EXPECT_GT(bytes("16384", "150"),
+            40.0 * 1600.0 * 1600.0);  // a tenth or more of the period lies beyond the gap
+  EXPECT_LT(bytes("16384", "150"), 10.0 * 16384.0 * 16384.0);
+  EXPECT_GT(bytes("32768", "150"), 3.9 * bytes("16384", "150"));
+  EXPECT_LT(bytes("16384", "20"), bytes("16384", "150"));
+}
+
+TEST(Analyse, SaysThatNoContactClosesAndThatNoLoadActs) {
+  const Record open = analyse(scene_of({"contact.gap=5"}));
+  ASSERT_TRUE(open.converged);
+  ASSERT_EQ(open.warnings.size(), 1u);
+  EXPECT_EQ(open.warnings[0].find("No contact closes: the largest displacement is "), 0u) << open.warnings[0];
+  EXPECT_NE(open.warnings[0].find(" mm where the gap is 5000 mm."), std::string::npos) << open.warnings[0];
+  EXPECT_TRUE(analyse(scene_of()).warnings.empty());
+  const Record unloaded = analyse(scene_of({"forcing.amplitude=0"}));
+  ASSERT_FALSE(unloaded.warnings.empty());
+  EXPECT_EQ(unloaded.warnings[0].find("No load acts"), 0u) << unloaded.warnings[0];
 }
 
 TEST(AvailableMemory, IsThatOfTheMachineAtMost) {

@@ -56,7 +56,8 @@ TEST(CommandRun, WarnsOfAConditionPast1e12AlsoWhenQuiet) {
   const Outcome outcome =
       run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "contact.gap=1e15", "--set",
                    "structure.stiffness_damping=0", "--set", near_resonance});
-  EXPECT_EQ(outcome.errors.find("wavebalance: warning: the condition estimate "), 0u) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("wavebalance: warning: the condition estimate "), std::string::npos)
+      << outcome.errors;
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"the condition estimate "), std::string::npos);
 }
 
@@ -259,6 +260,48 @@ TEST(CommandRun, FolderUsedTwiceHoldsTheSecondRecordAndForeignFiles) {
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
   EXPECT_EQ(TemporaryFolder::count(folder / "out"), 7);
   EXPECT_EQ(read_file(folder / "out" / "backbone.csv"), "not of this record\n");
+}
+
+TEST(CommandRun, NoFileThatItReadsIsReplaced) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", bar_scene);
+  const Outcome outcome = run(folder, {"run", scene, "--output", folder.path()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors, "wavebalance: " + scene +
+                                ": is read by this command and would be replaced; expected another folder of "
+                                "results\n");
+  EXPECT_EQ(read_file(scene), bar_scene);
+  EXPECT_FALSE(fs::exists(folder / "summary.json"));
+  ASSERT_EQ(run(folder, {"run", scene, "--output", folder / "out"}).exit_code, 0);
+  const std::string before = read_file(folder / "out" / "response.csv");
+  for (const std::string start : {folder / "out", folder / "out" / "response.csv"}) {
+    const Outcome again = run(folder, {"run", scene, "--output", folder / "out", "--start-from", start});
+    EXPECT_EQ(again.exit_code, 2) << start;
+    EXPECT_NE(again.errors.find("is read by this command"), std::string::npos) << again.errors;
+  }
+  const Outcome own = run(folder, {"run", folder / "out" / "scene.toml", "--output", folder / "out"});
+  EXPECT_EQ(own.exit_code, 2);
+  EXPECT_EQ(read_file(folder / "out" / "response.csv"), before);
+}
+
+TEST(CommandRun, NoFileThatNoRecordListsIsReplaced) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("case.toml", bar_scene);
+  fs::create_directory(folder / "out");
+  for (const char* name : {"response.csv", "scene.toml", "summary.json", "response.svg"}) {
+    std::ofstream(folder / "out" / name) << "measured\n";
+    const Outcome outcome = run(folder, {"run", scene, "--output", folder / "out"});
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.errors.find(std::string(name) + ": would be replaced, and no summary.json"),
+              std::string::npos)
+        << outcome.errors;
+    EXPECT_EQ(read_file(folder / "out" / name), "measured\n");
+    EXPECT_EQ(TemporaryFolder::count(folder / "out"), 1);
+    fs::remove(folder / "out" / name);
+  }
+  std::ofstream(folder / "out" / "sweep.csv") << "measured\n";  // which this run does not write
+  EXPECT_EQ(run(folder, {"run", scene, "--output", folder / "out"}).exit_code, 0);
+  EXPECT_EQ(read_file(folder / "out" / "sweep.csv"), "measured\n");
 }
 
 TEST(CommandRun, SweepSaysWithWhatItWasSolvedAndWhereItsPeakIs) {

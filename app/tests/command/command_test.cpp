@@ -127,6 +127,10 @@ TEST(CommandLine, WrongArgumentsAreNamedWithWhatIsProbablyMeantAndWhereToRead) {
   EXPECT_NE(run(folder, {"help"}).errors.find("did you mean --help?"), std::string::npos);
   EXPECT_EQ(run(folder, {"run", scene}).errors,
             "wavebalance: --output is required; `wavebalance run --help` says what it takes\n");
+  EXPECT_EQ(
+      run(folder, {"run", scene, "--outpt", "x"}).errors,
+      "wavebalance: there is no option --outpt (did you mean --output?); `wavebalance run --help` says what it "
+      "takes\n");
   EXPECT_NE(run(folder, {"run", scene, "--outptu", "x"}).errors.find("did you mean --output?"),
             std::string::npos);
 }

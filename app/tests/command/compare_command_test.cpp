@@ -115,6 +115,20 @@ TEST(CommandCompare, WithoutAReferenceIsThreeWithTheRecord) {
   EXPECT_NE(read_file(folder / "out" / "summary.json").find("\"converged\": false"), std::string::npos);
 }
 
+TEST(CommandCompare, ReplacesNoFileThatNoRecordListsAndNotItsScene) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", bar_scene);
+  const Outcome own = run(folder, {"compare", scene, "--output", folder.path()});
+  EXPECT_EQ(own.exit_code, 2);
+  EXPECT_NE(own.errors.find("scene.toml: is read by this command"), std::string::npos) << own.errors;
+  std::filesystem::create_directory(folder / "out");
+  folder.write("out/comparison.md", "notes\n");
+  const Outcome foreign = run(folder, {"compare", scene, "--output", folder / "out"});
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_NE(foreign.errors.find("comparison.md: would be replaced"), std::string::npos) << foreign.errors;
+  EXPECT_EQ(read_file(folder / "out" / "comparison.md"), "notes\n");
+}
+
 TEST(CommandCompare, InterruptedWritesWhatWasMeasuredSoFar) {
   const TemporaryFolder folder;
   Command command(

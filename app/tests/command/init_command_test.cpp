@@ -108,6 +108,15 @@ TEST(CommandKeys, OfANameAreAllOfThisName) {
   EXPECT_EQ(names_in(selected_keys_text({"contact.gap"})), std::vector<std::string>{"gap"});
 }
 
+TEST(CommandKeys, OfSeveralSectionsAreAllListed) {
+  const std::string three = selected_keys_text({"forcing", "analysis", "time"});
+  for (const char* section : {"[forcing]", "[analysis]", "[time]"})
+    EXPECT_NE(three.find(section), std::string::npos) << section;
+  EXPECT_EQ(three.find("[structure]"), std::string::npos);
+  EXPECT_EQ(names_in(selected_keys_text({"contact.gap", "forcing.frequency"})),
+            (std::vector<std::string>{"gap", "frequency"}));
+}
+
 TEST(CommandKeys, WithoutAFilterAreAll) { EXPECT_EQ(selected_keys_text({}), describe_scene_keys()); }
 
 void expect_refused(const std::vector<std::string>& filters, const std::string& part) {
@@ -123,7 +132,7 @@ TEST(CommandKeys, WrongFiltersAreAnsweredWithWhatIsAllowed) {
   expect_refused({"contcat"}, "did you mean contact?");
   expect_refused({"structure.type=matrix"}, "structure.type may be \"bar\", \"blade\" or \"matrices\"");
   expect_refused({"contact.gap=1"}, "expected one of structure.type");
-  expect_refused({"time", "contact.gap"}, "no key is selected by all of these");
+  expect_refused({"structure.area", "structure.type=matrices"}, "such a scene has none of these");
 }
 
 TEST(CommandKeys, NamesAreOnePerLineWithTheirChoices) {

@@ -49,6 +49,17 @@ double frequency_at(const Table& curve, double displacement) {
   return std::nan("");
 }
 
+TEST(CommandOverlay, ReplacesNoFileThatNoRecordLists) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_stop(folder, "low", {"forcing.amplitude=0.1"}).exit_code, 0);
+  fs::create_directory(folder / "picture");
+  folder.write("picture/overlay.csv", "measured\n");
+  const Outcome outcome = run(folder, {"overlay", folder / "low", "--output", folder / "picture"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("overlay.csv: would be replaced"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(read_file(folder / "picture" / "overlay.csv"), "measured\n");
+}
+
 // Resonance of a lightly damped structure lies on the backbone of its mode.
 TEST(CommandOverlay, LaysPeaksOfResponsesOnTheBackbone) {
   const TemporaryFolder folder;

@@ -53,6 +53,28 @@ TEST(RunWords, WhatHasNotConvergedIsCalledNoSolution) {
   EXPECT_EQ(text.find("gap"), std::string::npos) << text;
 }
 
+TEST(RunWords, WithoutAMotionNothingIsSaidToFollow) {
+  Summary none = motion(false);
+  for (auto& [name, value] : none)
+    if (name.ends_with("_m") || name.ends_with("_N") || name == "contact_fraction") value = unknown;
+  const std::string text = joined(outcome_sentences(none, unknown));
+  EXPECT_NE(text.find("There is no motion to show."), std::string::npos) << text;
+  EXPECT_EQ(text.find("What follows"), std::string::npos) << text;
+}
+
+TEST(RunWords, UnstablePartsEndAtTheSpecialPointsBetweenTheirPoints) {
+  Table curve;
+  curve.add_column("frequency_Hz", std::vector<double>{10, 11, 12, 13, 14})
+      .add_column("unstable", std::vector<double>{0, 1, 1, 0, 1});
+  Table points({"type", "frequency_Hz"});
+  points.append_row({std::string("grazing"), 10.2});
+  points.append_row({std::string("period_doubling"), 10.5});
+  points.append_row({std::string("period_doubling"), 12.25});
+  const Summary summary{{"stability", std::string("converged")}, {"special_points", points}};
+  const std::string text = joined(stability_sentences(summary, curve));
+  EXPECT_NE(text.find("unstable at 10.5 to 12.25 Hz, 14 Hz."), std::string::npos) << text;
+}
+
 TEST(RunWords, EveryStatusOfStabilityHasASentenceOfItsOwn) {
   using solvers::StabilityStatus;
   std::vector<std::string> statuses{"stable", "unstable", "no_modes", "no_law_of_impact", "interrupted"};

@@ -73,6 +73,8 @@ TEST(CommandStudy, ARunThatDoesNotConvergeIsThreeAndThePageNamesTheCommandThatRe
       study(folder, "scene = \"bar.toml\"\n[[parameters]]\nkey = \"time.functions\"\nvalues = [15, 0, 31]\n");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("refused               1"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("\nconverged"), std::string::npos)
+      << outcome.output;  // the line before says it
   const std::string page = read_file(folder / "out" / "report.html");
   EXPECT_NE(page.find("--set time.functions=0 --output run2"), std::string::npos);
 }
@@ -99,6 +101,23 @@ TEST(CommandStudy, WrongStudiesAndOptionsAreTwoAndNothingIsWritten) {
     EXPECT_NE(outcome.errors.find(one.message), std::string::npos) << outcome.errors;
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
+}
+
+TEST(CommandStudy, ItsSceneAndFilesThatNoRecordListsAreNotReplaced) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", bar_scene);
+  const std::string text = "scene = \"scene.toml\"\n" + small_study.substr(19);
+  const std::string file = folder.write("study.toml", text);
+  const Outcome own = run(folder, {"study", file, "--output", folder.path()});
+  EXPECT_EQ(own.exit_code, 2);
+  EXPECT_NE(own.errors.find("scene.toml: is read by this command"), std::string::npos) << own.errors;
+  EXPECT_FALSE(fs::exists(folder / "study.journal"));
+  fs::create_directory(folder / "out");
+  folder.write("out/study.csv", "measured\n");
+  const Outcome foreign = run(folder, {"study", file, "--output", folder / "out"});
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_NE(foreign.errors.find("study.csv: would be replaced"), std::string::npos) << foreign.errors;
+  EXPECT_EQ(read_file(folder / "out" / "study.csv"), "measured\n");
 }
 
 TEST(CommandStudy, AnotherStudyInTheSameFolderIsRefusedAndTheFirstStays) {

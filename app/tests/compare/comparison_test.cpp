@@ -191,6 +191,41 @@ TEST(Comparison, ThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
   EXPECT_EQ(record.table.rows(), found.points.size());
 }
 
+TEST(Comparison, ThatHasNoTimeLeftAfterItsReferenceSaysSoAndRecommendsNothing) {
+  Comparison found;
+  found.reference.converged = true;
+  found.reference.status = "converged";
+  found.reference.text = "shooting";
+  found.recommendations.emplace_back().sentences = "No pair reaches an error of 1e-2 within the budget.";
+  EXPECT_FALSE(found.converged());
+  EXPECT_EQ(found.status(), "no_time");
+  const ComparisonRecord record = comparison_record(scene_of(), found);
+  for (const std::string& text : {record.text, record.markdown}) {
+    EXPECT_NE(text.find("No time was left to compare pairs"), std::string::npos) << text;
+    EXPECT_EQ(text.find("No pair reaches"), std::string::npos) << text;
+  }
+}
+
+TEST(Comparison, ALongReferenceLeavesTimeForThePairs) {
+  // A stop that stays closed: its Newton matrix has a row for every point, so that the finest level that a
+  // tolerance asks for takes many times the budget.
+  const TemporaryFolder folder;
+  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
+  folder.write("m.mtx", head + "2 2 2\n1 1 2.39\n2 2 2.26\n");
+  folder.write("k.mtx", head + "2 2 3\n1 1 8950\n2 1 -4170\n2 2 4170\n");
+  folder.write("c.mtx", head + "2 2 3\n1 1 6.06\n2 1 -1.87\n2 2 3.81\n");
+  const Scene scene = load_scene(folder.write(
+      "closed.toml",
+      "[structure]\ntype = \"matrices\"\nmass = \"m.mtx\"\nstiffness = \"k.mtx\"\ndamping = \"c.mtx\"\n"
+      "contact_dofs = [2]\n[contact]\nlaw = \"kelvin_voigt\"\nstiffness = 7960.0\ndamping = 104.7\n"
+      "gap = -1.73e-3\ndamping_depth = 3.48e-4\n[forcing]\nload_dofs = [1]\namplitude = 7.5\n"
+      "frequency = 7.74\n[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 63\n"));
+  const Comparison found = compare_responses(scene, brief(2.0));
+  EXPECT_EQ(found.reference.kind, "finer_balance");
+  EXPECT_EQ(found.status(), "converged");
+  EXPECT_FALSE(found.points.empty());
+}
+
 TEST(Comparison, WithoutTimeForAReferenceSaysSo) {
   const Comparison found = compare_responses(scene_of(), brief(1e-6));
   EXPECT_FALSE(found.converged());

@@ -165,6 +165,14 @@ TEST_F(ForcingTerms, SayWhereTheyAreWrong) {
   expect(chain({"amplitude = 1e-4\nkind = \"base_displacement\"\ndofs = [9]"}), "forcing.terms",
          "moves degree of freedom 9; expected 1..3");
   expect(chain({"samples = \"none.csv\""}), "forcing.terms[1].samples", "none.csv");
+  folder_.write("commas.csv", "force\n0,5\n1,5\n");
+  expect(chain({"samples = \"commas.csv\""}), "forcing.terms[1].samples", "decimals take a point");
+  folder_.write("nameless.csv", "0.5\n1.5\n2.5\n");
+  expect(chain({"samples = \"nameless.csv\""}), "forcing.terms[1].samples",
+         "expected the names of the columns");
+  const auto large = folder_.write("large.csv", "force\n1\n2\n");
+  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // a hole
+  expect(chain({"samples = \"large.csv\""}), "forcing.terms[1].samples", "it has more than 268435456 bytes");
   expect(chain({"samples = \"none.csv\"\nharmonic = 2"}), "forcing.terms[1].harmonic", "a term with samples");
   expect(with(chain({}), "amplitude = 100.0", "terms = 3\namplitude = 100.0"), "forcing.terms",
          "expected tables [[forcing.terms]]");

@@ -47,6 +47,27 @@ class ChainScene : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(ChainScene, WhatWasProbablyMeantOtherwiseIsRefusedOrSaid) {
+  expect_error(with(chain_scene, "modal_damping = 0.01", "modal_damping = 2"), 6, "structure.modal_damping",
+               "in 0..1");
+  expect_error(with(chain_scene, "stiffness = \"k.mtx\"", "stiffness = \"m.mtx\""), 4, "structure.stiffness",
+               "is the file of structure.mass, too");
+  expect_error(with(chain_scene, "contact_dofs = [2, 3]", "contact_dofs = [3, -3]"), 5,
+               "structure.contact_dofs",
+               "[[contact.pairs]] with dofs = [3] and side = \"both\" has an obstacle on either side");
+  const std::string pairs = with(with(chain_scene, "contact_dofs = [2, 3]", "# "), "[forcing]",
+                                 "[[contact.pairs]]\ndofs = [3]\nside = \"both\"\ngap = -1e-4\n[forcing]");
+  const Scene both = load(pairs);
+  const std::string text = describe_scene(both);
+  EXPECT_NE(text.find("at 2 contacts, two each of the 1 direction with obstacles on both sides"),
+            std::string::npos)
+      << text;
+  bool said = false;
+  for (const std::string& warning : analyse(both).warnings)
+    said = said || warning.find("contact.pairs[1].gap is -0.0001 m with side = \"both\"") == 0;
+  EXPECT_TRUE(said);
+}
+
 TEST_F(ChainScene, TimeSteppingCountsTheStatesOfTheMatrices) {
   const std::string text = describe_scene(load(chain_scene, {"analysis.type=time_stepping"}));
   EXPECT_NE(text.find("size       6 states"), std::string::npos) << text;

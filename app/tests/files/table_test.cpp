@@ -73,8 +73,9 @@ TEST(Csv, MalformedFilesAreErrorsWithTheLine) {
     return "no error";
   };
   EXPECT_EQ(message("\n"), "holds no line of column names");
-  EXPECT_EQ(message("# a comment\na,b\n"), "line 2: 2 cells; expected 1");
-  EXPECT_EQ(message("a,b\n1,2\n3\n"), "line 3: 1 cells; expected 2");
+  const std::string why = ", as in the first line (a comma separates cells; decimals take a point)";
+  EXPECT_EQ(message("# a comment\na,b\n"), "line 2: 2 cells; expected 1" + why);
+  EXPECT_EQ(message("a,b\n1,2\n3\n"), "line 3: 1 cells; expected 2" + why);
   EXPECT_EQ(message("a,b\n\"1,2\n"), "line 2: a quote is not closed");
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <deque>
 #include <fstream>
 #include <memory>
@@ -111,6 +112,27 @@ TEST(StudyRun, ARunThatIsRefusedIsARowAndTheOthersGoOn) {
   EXPECT_TRUE(std::get<bool>(record.table.at(2, "converged")));
 }
 
+TEST(StudyRun, ARunThatDoesNotConvergeHasNoResultsAndIsNotDrawn) {
+  const Study study = parse_study(
+      "set = [\"analysis.type=time_stepping\"]\nquantity = \"max_contact_force_N\"\n"
+      "[[parameters]]\nkey = \"analysis.max_periods\"\nvalues = [1, 2]\n",
+      "s.toml", bar_scene);
+  const StudyRuns runs(study);
+  std::vector<StudyRow> rows;
+  run_study(study, runs, missing_runs({}, 2), {}, [&](const StudyRow& row) { rows.push_back(row); });
+  const StudyRecord record = study_record(study, runs, rows, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(cell_text(record.table.at(i, "status")), "iteration_limit");
+    for (const char* name : {"max_displacement_m", "min_displacement_m", "rms_displacement_m",
+                             "max_contact_force_N", "contact_fraction"})
+      EXPECT_TRUE(std::isnan(std::get<double>(record.table.at(i, name)))) << name;
+    EXPECT_TRUE(std::isfinite(record.table.numbers("iterations")[i]));
+    EXPECT_TRUE(std::isfinite(record.table.numbers("frequency_Hz")[i]));
+  }
+  EXPECT_TRUE(record.pictures.empty());
+  EXPECT_EQ(quantiles_table(study, record.table).rows(), 0u);
+}
+
 TEST(StudyRun, RowsSurviveTheirJournal) {
   StudyRow row{7, "stalled", false, 0.25, "a \"message\"\nof two lines", {}};
   row.values = {{"number", 0.1},
@@ -149,6 +171,40 @@ TEST(StudyRun, GoesOnWhereItWasKilledWithNothingLostAndNothingTwice) {
       journal.append(row);
       rows.push_back(row);
     });
+  }
+  EXPECT_EQ(texts_of(rows), texts_of(solved_with(bar, 1)));
+  StudyJournal journal(folder.path(), bar.study, bar.runs);
+  EXPECT_EQ(texts_of(journal.take_rows()), texts_of(rows));
+}
+
+TEST(StudyRun, LinesOfTheJournalThatCannotBeReadAreCountedAndTheirRunsSolvedAgain) {
+  const TemporaryFolder folder;
+  const BarStudy bar(6);
+  {
+    StudyJournal journal(folder.path(), bar.study, bar.runs);
+    for (const std::int64_t run : {0, 1, 2, 3}) journal.append(solve_run(bar.study, bar.runs, run));
+  }
+  std::string text = read_file(folder / StudyJournal::file_name);
+  const auto line_of = [&](const std::string& run) { return text.find("{\"run\":" + run); };
+  text[line_of("2") + 3] = '\xff';
+  text.replace(line_of("4"), 4, 4, '\0');
+  folder.write(StudyJournal::file_name, text + "{\"run\":99,\"status\":\"converged\"}\n");
+  std::vector<StudyRow> rows;
+  {
+    StudyJournal journal(folder.path(), bar.study, bar.runs);
+    EXPECT_EQ(journal.unreadable_lines(), 3);
+    rows = journal.take_rows();
+    const auto missing = missing_runs(rows, bar.runs.size());
+    EXPECT_EQ(missing, (std::vector<std::int64_t>{1, 3, 4, 5}));
+    run_study(bar.study, bar.runs, missing, {}, [&](const StudyRow& row) {
+      journal.append(row);
+      rows.push_back(row);
+    });
+    const StudyRecord record = study_record(bar.study, bar.runs, rows, {}, journal.unreadable_lines());
+    bool said = false;
+    for (const auto& [name, value] : record.summary)
+      said = said || (name == "journal_lines_unreadable" && std::get<std::int64_t>(value) == 3);
+    EXPECT_TRUE(said);
   }
   EXPECT_EQ(texts_of(rows), texts_of(solved_with(bar, 1)));
   StudyJournal journal(folder.path(), bar.study, bar.runs);

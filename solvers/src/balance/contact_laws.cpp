@@ -1,7 +1,9 @@
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -79,6 +81,23 @@ void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, co
     force[l] = at.force;
     tangent[l] = at.tangent;
     damping[l] = at.damping;
+  }
+}
+
+void ContactLaws::require_numbers(int contacts, const Eigen::VectorXd& displacement) const {
+  constexpr double largest = 1e9;
+  const Eigen::Index points = displacement.size() / contacts;
+  for (Eigen::Index l = 0; l < displacement.size(); ++l) {
+    const double u = displacement[l];
+    if (!(std::abs(u) <= largest)) continue;
+    const ForceSlopes at = (*this)[static_cast<int>(l / points)].at(u, 0.0);
+    const bool force = std::isnan(at.force);
+    if (!force && !std::isnan(at.tangent) && !std::isnan(at.damping)) continue;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", u);
+    throw std::invalid_argument("the law of contact " + std::to_string(l / points + 1) +
+                                " returned nan as its " + (force ? "force" : "slope") +
+                                " at u = " + text.data() + " m; it must return a number");
   }
 }
 

@@ -16,6 +16,7 @@ void VelocityBlock::collect(const Eigen::VectorXd& tangent, const Eigen::VectorX
 // their velocities, and the shifts of V are those of K.
 void VelocityBlock::fill(CondensedProblem& problem) {
   if (active_.empty()) return;
+  lu_ = {};  // two matrices of the active samples at a time
   const std::vector<int> contacts = contacts_of(active_, problem.points());
   const Eigen::MatrixXd& columns = problem.columns(contacts);
   Eigen::MatrixXd rates(columns.rows(), columns.cols()), block(count(), count());
@@ -29,7 +30,7 @@ void VelocityBlock::fill(CondensedProblem& problem) {
   fill_active_block(problem, columns, active_, matrix_);
   fill_active_block(problem, rates, active_, block);
   auto leading = matrix_.topLeftCorner(count(), count());
-  leading = (tangent_.asDiagonal() * leading).eval();
+  leading.array().colwise() *= tangent_.array();  // in place, since these matrices may fill the memory
   leading += damping_.asDiagonal() * block;
   leading.diagonal().array() += 1.0;
 }

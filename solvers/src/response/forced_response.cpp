@@ -270,6 +270,9 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   }
   PeriodicResponse response = response_of(task, std::move(candidate));
   response.attractor_periods = attractor_periods;
+  if (!response.converged() && response.status != SolveStatus::cancelled)
+    for (const Eigen::VectorXd& at : {problem.contact_free_response(), response.displacement})
+      laws.require_numbers(problem.contacts(), at);
   return response;
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "constants.hpp"
 #include "support/held_motion.hpp"
@@ -175,6 +177,25 @@ TEST(ForcedResponse, IsCancelledByItsObserverInNewtonAndInContinuation) {
     EXPECT_EQ(stopped.status, SolveStatus::cancelled) << phase;
     EXPECT_EQ(steps, 3) << phase;
   }
+}
+
+// A stop whose author divides zero by zero beyond it.
+struct Undefined : Stop {
+  double force(double u) const { return u > 1e-3 ? nan : 0.0; }
+};
+
+TEST(ForcedResponse, NamesTheContactAndTheDisplacementWhereALawReturnsNoNumber) {
+  CondensedProblem problem = case_1(15, 64);
+  try {
+    forced_response(problem, AnyContactLaw(Undefined{}), {});
+    FAIL() << "nothing thrown";
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("the law of contact 1 returned nan as its force at u = 0.0"), 0u) << text;
+    EXPECT_NE(text.find(" m; it must return a number"), std::string::npos) << text;
+  }
+  const Eigen::VectorXd below = Eigen::VectorXd::Constant(4, 0.5e-3);
+  EXPECT_NO_THROW(ContactLaws(AnyContactLaw(Undefined{})).require_numbers(2, below));
 }
 
 TEST(ForcedResponse, SaysWhenItsOperationsAreUsedUp) {

@@ -72,8 +72,8 @@ void add_damping_and_reduction(std::vector<SceneKey>& keys) {
   structure(&Structure::stiffness_damping, "stiffness_damping", "s", "beta in C = beta K", not_negative,
             optional);
   structure(&Structure::modal_damping, "modal_damping", "",
-            "damping of every linear mode over its critical one; in place of another damping", within(0, 10),
-            optional, only_with(modal));
+            "damping of every linear mode over its critical one, 2 % being 0.02; in place of another damping",
+            within(0, 1), optional, only_with(modal));
   structure(
       &Structure::loss_factor, "loss_factor", "",
       "eta of structural damping, K (1 + i eta) at the harmonics above zero; beside another damping or alone. It "

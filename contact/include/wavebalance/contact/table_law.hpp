@@ -49,8 +49,8 @@ class TableLaw {
 
 /// Reads a table from a CSV file: two columns, displacement in m and force in N, behind a header row or none;
 /// blank lines and those that begin with # are skipped. Throws std::runtime_error "<file>:<line>: ..." for
-/// what is not two finite numbers or does not ascend, and "<file>: ..." for a file that cannot be read or has
-/// fewer than two rows or more than 100000.
+/// what is not two finite numbers or does not ascend, and "<file>: ..." for a file that cannot be read, is no
+/// regular file, is larger than 16 MiB, or has fewer than two rows or more than 100000.
 TableLaw read_table_law(const std::filesystem::path& file);
 
 }  // namespace wavebalance::contact

@@ -49,6 +49,9 @@ inline constexpr double largest_rounding_error = 1e-3;
 /// A periodic response of a scene's contacts, or the status and the last iterate if none was found.
 struct Response {
   bool converged = false;
+  /// Whether `contacts` hold a motion of the structure: a response, one that misses time.tolerance, or the
+  /// last period of time stepping. Otherwise they hold the last iterate, which means nothing.
+  bool moves = false;
   std::string status;  ///< "converged" or why not
   double residual =
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)

@@ -47,9 +47,13 @@ struct Comparison {
   double wall_seconds = 0.0;
 
   /// A reference was found, with which others could be compared.
-  bool converged() const { return reference.converged && !interrupted; }
-  /// "converged", "interrupted", or the status of a reference that was not found.
-  std::string status() const { return interrupted ? "interrupted" : reference.status; }
+  bool converged() const { return reference.converged && !interrupted && !points.empty(); }
+  /// "converged", "interrupted", "no_time" if the reference left none for the pairs, or the status of a
+  /// reference that was not found.
+  std::string status() const {
+    if (interrupted) return "interrupted";
+    return reference.converged && points.empty() ? "no_time" : reference.status;
+  }
 };
 
 /// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,

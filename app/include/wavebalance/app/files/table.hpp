@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -80,7 +81,8 @@ std::string csv_text(const Table& table);
 void write_csv(const std::filesystem::path& file, const Table& table);
 
 /// Reads what write_csv() wrote: cells that read as numbers are numbers, "true" and "false" truth values.
-/// Throws IoError with the line of a malformed row.
-Table read_csv(const std::filesystem::path& file);
+/// Throws IoError with the line of a malformed row, and for a file of more than `max_bytes`.
+Table read_csv(const std::filesystem::path& file,
+               std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
 }  // namespace wavebalance::app

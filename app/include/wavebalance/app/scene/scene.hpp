@@ -319,6 +319,9 @@ std::string name_of(ModeFormulation value);
 std::string name_of(AnalysisType value);
 std::string name_of(LoadKind value);
 
+/// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
+std::vector<std::string> input_files(const Scene& scene);
+
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,
 /// where that is 0, the first term that is not static. Null without any.
 struct ReferenceLoad {

@@ -41,8 +41,8 @@ std::string drawn_quantity(const Study& study, const Table& table);
 Figure study_figure(const Study& study, const StudyRuns& runs, const Table& table,
                     const std::string& quantity);
 
-/// Everything of a study of which `rows` have ended, in any order.
+/// Everything of a study of which `rows` have ended, in any order; `unreadable_lines` is that of its journal.
 StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<StudyRow> rows,
-                         const StudyOutcome& outcome);
+                         const StudyOutcome& outcome, std::int64_t unreadable_lines = 0);
 
 }  // namespace wavebalance::app

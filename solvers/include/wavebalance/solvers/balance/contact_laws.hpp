@@ -53,6 +53,10 @@ class ContactLaws {
   /// The same for laws that depend on the velocities (m/s), too, with the slopes by them (N s/m).
   void evaluate(int contacts, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
                 Eigen::VectorXd& force, Eigen::VectorXd& tangent, Eigen::VectorXd& damping) const;
+  /// Throws std::invalid_argument that names the contact (from 1) and the displacement if the force or its
+  /// slope, at rest, is not a number at one of the displacements (m), which are contact-major. Displacements
+  /// that are not finite or beyond 1e9 m, where powers overflow, are left out. O(samples).
+  void require_numbers(int contacts, const Eigen::VectorXd& displacement) const;
   /// The forces (N) at displacements (m), contacts x points each. O(contacts points).
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement) const;
   /// The same at velocities (m/s) that belong to them.

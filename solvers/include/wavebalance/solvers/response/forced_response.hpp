@@ -34,7 +34,9 @@ struct ForcedResponseOptions {
 /// converge, the status gives the reason. A structure that is free to move starts at the position in which
 /// the mean contact forces balance its static load; its status is unbalanced where no such forces exist.
 /// Throws std::invalid_argument for guesses or a list of laws of another length, for a problem without
-/// frequency, for rigid laws at contacts with mass and for options out of range.
+/// frequency, for rigid laws at contacts with mass and for options out of range; and, where it does not
+/// converge, for a law that returns no number at the contact-free response or the last iterate,
+/// ContactLaws::require_numbers().
 PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess = {},
                                  const Eigen::VectorXd& guess_force = {});
