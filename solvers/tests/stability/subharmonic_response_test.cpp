@@ -90,7 +90,7 @@ TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheMotionThatItSettlesTo) {
     EXPECT_EQ(unstable_multipliers(dynamics, problem, hard_stop, response).count, 0);
     const SettledMotion motion = settled(problem, hard_stop);
     EXPECT_EQ(motion.attractor_periods, 2);
-    EXPECT_LE(distance(response.displacement, resample(motion.displacement, 2048, motion.start), 2), 5e-6);
+    EXPECT_LE(distance(response.displacement, resample(motion.last.displacement, 2048, motion.start), 2), 5e-6);
   }
 }
 
@@ -104,7 +104,7 @@ TEST(SubharmonicResponse, OfFourPeriodsIsTheMotionThatItSettlesTo) {
   EXPECT_EQ(unstable_multipliers(dynamics, problem, hard_stop, response).count, 0);
   const SettledMotion motion = settled(problem, hard_stop);
   EXPECT_EQ(motion.attractor_periods, 4);
-  EXPECT_LE(distance(response.displacement, resample(motion.displacement, 4096, motion.start), 4), 5e-6);
+  EXPECT_LE(distance(response.displacement, resample(motion.last.displacement, 4096, motion.start), 4), 5e-6);
 }
 
 // Nothing settles to an unstable motion. It is beside that of one period, along its perturbation.

@@ -247,7 +247,7 @@ TEST(SampleOffset, SubharmonicMotionsAreThoseOfAnIntegration) {
   double least = 1.0;
   for (const double turn : {0.0, 0.5})
     least = std::min(least, (response.displacement -
-                             resample(motion.displacement, problem.points(), motion.start + turn - first))
+                             resample(motion.last.displacement, problem.points(), motion.start + turn - first))
                                     .norm() /
                                 response.displacement.norm());
   EXPECT_LE(least, 1e-4);  // half a sample late it would be 1e-2
