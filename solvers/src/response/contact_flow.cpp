@@ -9,32 +9,45 @@ namespace wavebalance::solvers {
 namespace {
 
 // How often a step is halved at most. A contact that opens or closes is then known to 1e-9 periods.
-constexpr int most_halvings = 20;
+constexpr int deepest_level = 20;
 
-// The force f = law(u - d f, v - m f) of a law that depends on the velocity, by bisection between 0 and the
-// force at (u, v): the residual rises with f where no slope is negative. At a jump of the law it is the value
-// within.
+// The force f = law(u - d f, v - m f) of a law that depends on the velocity, by the regula falsi of Illinois
+// between 0 and the force at (u, v), every third step halved: the residual rises with f where no slope is
+// negative. At a jump of the law it is the value within.
 double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility) {
-  constexpr int halvings = 60;
+  constexpr int max_steps = 150;
+  constexpr double settled = 1e-13;
   double near = 0.0, far = law.force(u, v);
   if (far == 0.0) return 0.0;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (near + far);
-    const double excess = middle - law.force(u - compliance * middle, v - mobility * middle);
-    (excess * far > 0.0 ? far : near) = middle;
+  const auto excess = [&](double f) { return f - law.force(u - compliance * f, v - mobility * f); };
+  double near_excess = -far, far_excess = excess(far);
+  for (int i = 1; i <= max_steps && far_excess != 0.0; ++i) {
+    const bool halve = i % 3 == 0 || far_excess == near_excess;
+    const double share = halve ? 0.5 : far_excess / (far_excess - near_excess);
+    const double middle = far - share * (far - near), now = excess(middle);
+    if (std::abs(now) <= settled * std::abs(middle) || std::abs(far - near) <= settled * std::abs(far))
+      return middle;
+    if (now * far > 0.0) {
+      far = middle;
+      far_excess = now;
+      near_excess *= 0.5;
+    } else {
+      near = middle;
+      near_excess = now;
+      far_excess *= 0.5;
+    }
   }
-  return 0.5 * (near + far);
+  return far;
 }
 
 // Contact forces f at the end of a step with f_c = law_c(displacement_c - (D f)_c, velocity_c - (B f)_c), D
 // and B compliance and mobility of the step: Gauss-Seidel, each force by its resolvent for the flexibility
 // D_cc. `velocity` is empty where no law depends on it. Starts from `force`.
-Eigen::VectorXd solved_forces(const ContactLaws& laws, const ModalFlow& flow,
-                              const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
+Eigen::VectorXd solved_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
+                              const Eigen::MatrixXd& mobility, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
                               Eigen::VectorXd force) {
   constexpr int max_rounds = 200;
   constexpr double settled = 1e-12;
-  const Eigen::MatrixXd &compliance = flow.step_compliance(), &mobility = flow.step_mobility();
   for (int round = 0; round < max_rounds; ++round) {
     double change = 0.0;
     for (Eigen::Index c = 0; c < force.size(); ++c) {
@@ -47,7 +60,7 @@ Eigen::VectorXd solved_forces(const ContactLaws& laws, const ModalFlow& flow,
         const double v = velocity[c] - mobility.row(c).dot(force) + m * force[c];
         next = implicit_force(law, u, v, d, m);
       } else {
-        next = law.resolvent(u, d).force;
+        next = d > 0.0 ? law.resolvent(u, d).force : law.force(u);
       }
       change = std::max(change, std::abs(next - force[c]));
       force[c] = next;
@@ -80,6 +93,16 @@ ContactFlow::State ContactFlow::at_rest() const {
   return {-free_state_, Eigen::VectorXd::Zero(clear_below_.size())};
 }
 
+ContactFlow::State ContactFlow::balanced(State state) const {
+  const ModalFlow& flow = flows_.front();
+  Eigen::VectorXd velocity = free_velocity(0);
+  if (depends_on_velocity_) velocity += flow.contact_velocity(state.deviation);
+  const Eigen::VectorXd displacement = free_displacement(0) + flow.contact_displacement(state.deviation);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(displacement.size(), displacement.size());
+  state.force = solved_forces(laws_, flow.static_compliance(), none, displacement, velocity, state.force);
+  return state;
+}
+
 const ModalFlow& ContactFlow::flow(int level) {
   while (static_cast<int>(flows_.size()) <= level) {
     const int halvings = static_cast<int>(flows_.size());
@@ -90,16 +113,16 @@ const ModalFlow& ContactFlow::flow(int level) {
 
 // Times are in ticks, the shortest step.
 Eigen::VectorXd ContactFlow::free_displacement(Ticks time) const {
-  constexpr Ticks sample = Ticks{1} << (most_halvings - 1);
+  constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
   if (time % sample == 0) return free_.displacement_sample(time / sample % (2 * steps_));
-  return free_.displacement(std::ldexp(double(time), -most_halvings) / steps_);
+  return free_.displacement(std::ldexp(double(time), -deepest_level) / steps_);
 }
 
 Eigen::VectorXd ContactFlow::free_velocity(Ticks time) const {
-  constexpr Ticks sample = Ticks{1} << (most_halvings - 1);
+  constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
   if (!depends_on_velocity_) return {};
   if (time % sample == 0) return free_.velocity_sample(time / sample % (2 * steps_));
-  return free_.velocity(std::ldexp(double(time), -most_halvings) / steps_);
+  return free_.velocity(std::ldexp(double(time), -deepest_level) / steps_);
 }
 
 bool ContactFlow::is_clear(const Eigen::VectorXd& displacement) const {
@@ -121,7 +144,8 @@ ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) 
   if (is_clear(predicted)) return step;
   Eigen::VectorXd velocity = free_velocity(end);
   if (depends_on_velocity_) velocity += flow.contact_velocity(step.end.deviation);
-  step.end.force = solved_forces(laws_, flow, predicted, velocity, begin.force);
+  step.end.force = solved_forces(laws_, flow.step_compliance(), flow.step_mobility(), predicted, velocity,
+                                 begin.force);
   flow.add_force(step.end.deviation, step.end.force);
   step.displacement -= flow.step_compliance() * step.end.force;
   return step;
@@ -132,9 +156,9 @@ ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) 
 ContactFlow::Step ContactFlow::refined(const State& begin, Ticks start, int level, double allowed,
                                        const Step* whole_step) {
   constexpr double event = 1e-3;  // the share of the error that is allowed where a contact opens or closes
-  const Ticks length = Ticks{1} << (most_halvings - level), half = length / 2;
+  const Ticks length = Ticks{1} << (deepest_level - level), half = length / 2;
   Step whole = whole_step ? *whole_step : single(begin, start + length, level);
-  if (level == most_halvings || operations_ > max_operations_) return whole;
+  if (level == deepest_level || operations_ > max_operations_) return whole;
   const bool free = begin.force.isZero(0.0) && whole.end.force.isZero(0.0);
   if (free && is_clear(free_displacement(start + half) +
                        flow(level + 1).contact_displacement_after(begin.deviation)))
@@ -153,7 +177,7 @@ ContactFlow::Step ContactFlow::refined(const State& begin, Ticks start, int leve
 }
 
 ContactFlow::Period ContactFlow::period_from(const State& begin, double tolerance, double max_operations) {
-  const Ticks length = Ticks{1} << most_halvings;
+  const Ticks length = Ticks{1} << deepest_level;
   const double allowed = tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
   max_operations_ = operations_ + max_operations;
   Period period;

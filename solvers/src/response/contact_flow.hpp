@@ -28,6 +28,8 @@ class ContactFlow {
     Eigen::VectorXd force;      // C, N
   };
   State at_rest() const;
+  /// With the forces that the laws have there.
+  State balanced(State state) const;
   /// Of the whole state, in the energy norm.
   double size(const State& state) const { return (state.deviation + free_state_).norm(); }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 #include "response/contact_flow.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
@@ -88,7 +90,7 @@ class Settling {
   }
 
   bool add_period(double tolerance, SettledMotion& result) {
-    constexpr double accuracy = 1.0;  // of a step, over the tolerance
+    constexpr double accuracy = 10.0;  // of a step before it is extrapolated, over the tolerance
     ContactFlow::Period period =
         flow_.period_from(states_.back(), accuracy * tolerance, options_.max_operations - flow_.operations());
     if (!period.complete) return false;
@@ -138,22 +140,81 @@ class Settling {
     return chosen;
   }
 
-  void add_returns(SettledMotion& result) {
-    const int periods = load_periods();
-    for (const std::size_t k : nearest_returns()) {
-      ContactPeriod piece{result.last.displacement, result.last.force};
-      ContactFlow::State state = states_[k];
-      for (int i = 0; i < periods; ++i) {
-        ContactFlow::Period period = flow_.period_from(state, options_.tolerance, options_.max_operations);
-        place(period, i, piece);
-        state = std::move(period.end);
+  // The state after a period of the problem; `piece` is the motion until then, if there is one.
+  std::optional<ContactFlow::State> after_period(ContactFlow::State state, ContactPeriod* piece = nullptr) {
+    for (int i = 0; i < load_periods(); ++i) {
+      ContactFlow::Period period =
+          flow_.period_from(state, options_.tolerance, return_limit_ - flow_.operations());
+      if (!period.complete) return std::nullopt;
+      if (piece) place(period, i, *piece);
+      state = std::move(period.end);
+    }
+    return state;
+  }
+
+  // The derivative of after_period(state) - state, by differences.
+  std::optional<Eigen::MatrixXd> defect_slope(const ContactFlow::State& state, const Eigen::VectorXd& end) {
+    constexpr double change = 1e-5;
+    const double step = change * flow_.size(state);
+    const Eigen::Index size = end.size();
+    Eigen::MatrixXd slope(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      ContactFlow::State other = state;
+      other.deviation[i] += step;
+      const auto other_end = after_period(flow_.balanced(std::move(other)));
+      if (!other_end) return std::nullopt;
+      slope.col(i) = (other_end->deviation - end) / step;
+      slope(i, i) -= 1.0;
+    }
+    return slope;
+  }
+
+  // The periodic motion near a state that nearly returns, by Newton's method on the map of the period.
+  std::optional<ContactFlow::State> periodic_near(ContactFlow::State state) {
+    constexpr int max_iterations = 12;
+    constexpr double least_step = 1.0 / 16.0;
+    auto end = after_period(state);
+    for (int i = 0; end && i < max_iterations; ++i) {
+      const double defect = distance(*end, state);
+      if (defect <= options_.tolerance) return state;
+      const auto slope = defect_slope(state, end->deviation);
+      if (!slope) return std::nullopt;
+      const Eigen::VectorXd change = detail::Lu<double>(*slope).solve(Eigen::VectorXd(end->deviation - state.deviation));
+      std::optional<ContactFlow::State> next_end;
+      ContactFlow::State next;
+      for (double step = 1.0; step >= least_step; step *= 0.5) {
+        next = flow_.balanced({state.deviation - step * change, state.force});
+        next_end = after_period(next);
+        if (!next_end || distance(*next_end, next) < defect) break;
+        next_end.reset();
       }
+      state = std::move(next);
+      end = std::move(next_end);
+    }
+    return std::nullopt;
+  }
+
+  void add_returns(SettledMotion& result) {
+    if (!result.integrated()) return;
+    return_limit_ = flow_.operations() + options_.max_operations;
+    std::vector<ContactFlow::State> found;
+    for (const std::size_t k : nearest_returns()) {
+      const ContactFlow::State state = periodic_near(states_[k]).value_or(states_[k]);
+      const bool known = std::any_of(found.begin(), found.end(),
+                                     [&](const auto& one) { return distance(one, state) <= same; });
+      if (known) continue;
+      found.push_back(state);
+      ContactPeriod piece = result.last;
+      if (!after_period(state, &piece)) return;
       result.returns.push_back(std::move(piece));
     }
   }
 
+  static constexpr double same = 1e-4;  // distance of two states that are taken for one
+
   const SettlingOptions& options_;
   ContactFlow flow_;
+  double return_limit_ = 0.0;  // of operations
   std::vector<ContactFlow::State> states_;  // at the starts of the periods of the load
 };
 

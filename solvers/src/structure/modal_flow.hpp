@@ -42,6 +42,8 @@ class ModalFlow {
   /// C x C, m/N: what forces at the end of a step take from the displacements there, static deflection of the
   /// omitted modes included. Symmetric, not negative.
   const Eigen::MatrixXd& step_compliance() const { return step_compliance_; }
+  /// The part of the omitted modes alone.
+  const Eigen::MatrixXd& static_compliance() const { return static_compliance_; }
   /// Velocities of the contacts (C, m/s) in a state.
   Eigen::VectorXd contact_velocity(const Eigen::VectorXd& state) const;
   /// C x C, m/s/N: what forces at the end of a step take from the velocities there.

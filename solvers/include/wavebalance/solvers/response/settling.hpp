@@ -16,7 +16,7 @@ struct SettlingOptions {
   double tolerance = 1e-6;       ///< of the state after its period, in the energy norm, relative
   int max_modes = 120;           ///< of the structure; the others deflect statically
   int max_size = 400;            ///< degrees of freedom up to which the modes are computed
-  double max_operations = 1e10;  ///< about two to five seconds
+  double max_operations = 4e9;   ///< a second or two; as much again for periodic motions near returns
   int max_returns = 12;          ///< pieces of the motion that are kept where it does not settle
   Observer observer;             ///< called once per period
 
@@ -41,8 +41,9 @@ struct SettledMotion {
   double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
   /// The last period; without columns where nothing could be integrated.
   ContactPeriod last;
-  /// Where the motion does not settle to one of the problem's period: the pieces after whose period its state
-  /// nearly returns, the nearest first. Unstable motions are near them [D. Auerbach et al., Phys. Rev. Lett.
+  /// Where the motion does not settle to one of the problem's period: the unstable motions of that period
+  /// near states that nearly return after it, by Newton's method on the map of the period, and where that
+  /// finds none, the piece of the motion that nearly returns [D. Auerbach et al., Phys. Rev. Lett.
   /// 58, 1987, doi:10.1103/PhysRevLett.58.2387].
   std::vector<ContactPeriod> returns;
 
