@@ -44,8 +44,8 @@ double implicit_force(const AnyContactLaw& law, double u, double v, double compl
 // and B compliance and mobility of the step: Gauss-Seidel, each force by its resolvent for the flexibility
 // D_cc. `velocity` is empty where no law depends on it. Starts from `force`.
 Eigen::VectorXd solved_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
-                              const Eigen::MatrixXd& mobility, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
-                              Eigen::VectorXd force) {
+                              const Eigen::MatrixXd& mobility, const Eigen::VectorXd& displacement,
+                              const Eigen::VectorXd& velocity, Eigen::VectorXd force) {
   constexpr int max_rounds = 200;
   constexpr double settled = 1e-12;
   for (int round = 0; round < max_rounds; ++round) {
@@ -133,8 +133,8 @@ bool ContactFlow::is_clear(const Eigen::VectorXd& displacement) const {
 ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) {
   const ModalFlow& flow = this->flow(level);
   const auto states = double(flow.states()), contacts = double(clear_below_.size());
-  constexpr double around = 500.0;  // operations that the call of a step is worth
-  constexpr double of_law = 400.0;  // and the resolvent of a law
+  constexpr double around = 2000.0;  // operations of which the rest of a step takes the time
+  constexpr double of_law = 1500.0;  // and the resolvent of a law
   operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
   Step step;
   step.end.deviation = flow.advance(begin.deviation, begin.force);
@@ -144,8 +144,8 @@ ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) 
   if (is_clear(predicted)) return step;
   Eigen::VectorXd velocity = free_velocity(end);
   if (depends_on_velocity_) velocity += flow.contact_velocity(step.end.deviation);
-  step.end.force = solved_forces(laws_, flow.step_compliance(), flow.step_mobility(), predicted, velocity,
-                                 begin.force);
+  step.end.force =
+      solved_forces(laws_, flow.step_compliance(), flow.step_mobility(), predicted, velocity, begin.force);
   flow.add_force(step.end.deviation, step.end.force);
   step.displacement -= flow.step_compliance() * step.end.force;
   return step;
@@ -160,8 +160,8 @@ ContactFlow::Step ContactFlow::refined(const State& begin, Ticks start, int leve
   Step whole = whole_step ? *whole_step : single(begin, start + length, level);
   if (level == deepest_level || operations_ > max_operations_) return whole;
   const bool free = begin.force.isZero(0.0) && whole.end.force.isZero(0.0);
-  if (free && is_clear(free_displacement(start + half) +
-                       flow(level + 1).contact_displacement_after(begin.deviation)))
+  if (free &&
+      is_clear(free_displacement(start + half) + flow(level + 1).contact_displacement_after(begin.deviation)))
     return whole;
   const Step first = single(begin, start + half, level + 1);
   Step second = single(first.end, start + length, level + 1);

@@ -186,6 +186,30 @@ Start start_of(const Task& task, const ContactPeriod& period, double start) {
   return {resample(period.displacement, points, start), resample(period.force, points, start)};
 }
 
+/// From the motion that the structure settles to, or from those that recur in it, after `best` was found in
+/// other ways. `attractor_periods` is set.
+Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
+                        int& attractor_periods) {
+  SettlingOptions settling = task.options.settling;
+  settling.observer = task.options.observer;
+  const SettledMotion motion = settle(task.problem, task.laws, settling);
+  attractor_periods = motion.attractor_periods;
+  if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
+  if (motion.cancelled) return best;
+  if (!motion.integrated()) return better(std::move(best), try_residual(task, form, first));
+  const double start = motion.start - task.problem.pair().first_sample();
+  for (const ContactPeriod& piece : motion.returns) {
+    best =
+        better(std::move(best), try_newton(task, form, start_of(task, piece, start), Strategy::recurrence));
+    if (best.ended()) return best;
+  }
+  if (!motion.returns.empty()) return best;
+  const Start settled = start_of(task, motion.last, start);
+  best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
+  if (best.ended()) return best;
+  return better(std::move(best), try_residual(task, form, settled));
+}
+
 Candidate solve(const Task& task, const Start& first, bool guessed, int& attractor_periods) {
   const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
   Candidate best = try_newton(task, form, first, Strategy::newton);
@@ -196,27 +220,7 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;
   }
-  SettlingOptions settling = task.options.settling;
-  settling.observer = task.options.observer;
-  const SettledMotion motion = settle(task.problem, task.laws, settling);
-  attractor_periods = motion.attractor_periods;
-  if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
-  if (motion.cancelled) return best;
-  if (!motion.integrated()) return better(std::move(best), try_residual(task, form, first));
-  const double start = motion.start - task.problem.pair().first_sample();
-  for (const ContactPeriod& piece : motion.returns) {
-    best = better(std::move(best), try_newton(task, form, start_of(task, piece, start), Strategy::recurrence));
-    if (best.ended()) return best;
-  }
-  const Start settled = start_of(task, motion.last, start);
-  if (motion.returns.empty()) {
-    best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
-    if (best.ended()) return best;
-  }
-  if (getenv("WB_NOHOM")) return best;
-  // A structure that does not settle to a motion of the problem's period may have an unstable one.
-  const bool settles = attractor_periods > 0 && load_periods(task.problem) % attractor_periods == 0;
-  return better(std::move(best), try_residual(task, form, settles ? settled : first));
+  return solve_settled(task, form, first, std::move(best), attractor_periods);
 }
 
 /// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.

@@ -16,9 +16,9 @@ namespace {
 
 /// What an integration of one accuracy ended with.
 struct Verdict {
-  int repeats = 0;      // periods of the load after which the state repeats; 0 for none
-  double apart = 0.0;   // the least distance of states within those periods, relative
-  bool known = true;    // false where the operations ran out or the motion grew without bound
+  int repeats = 0;     // periods of the load after which the state repeats; 0 for none
+  double apart = 0.0;  // the least distance of states within those periods, relative
+  bool known = true;   // false where the operations ran out or the motion grew without bound
   bool cancelled = false;
 
   bool agrees(const Verdict& other) const {
@@ -53,7 +53,8 @@ class Settling {
     Verdict before{.known = false};
     double tolerance = options_.tolerance;
     for (const double share : {0.5, 1.0, 1.5}) {
-      const Verdict now = settled(tolerance, static_cast<int>(std::ceil(share * options_.max_periods)), result);
+      const Verdict now =
+          settled(tolerance, static_cast<int>(std::ceil(share * options_.max_periods)), result);
       result.cancelled = now.cancelled;
       if (now.agrees(before)) result.attractor_periods = now.repeats;
       if (now.agrees(before) || !now.known) break;
@@ -132,9 +133,10 @@ class Settling {
     std::vector<std::size_t> chosen;
     for (const auto& [change, k] : returns) {
       if (chosen.size() == static_cast<std::size_t>(options_.max_returns)) break;
-      const bool near = std::any_of(chosen.begin(), chosen.end(), [&, &change = change, &k = k](std::size_t other) {
-        return distance(states_[k], states_[other]) < change;
-      });
+      const bool near =
+          std::any_of(chosen.begin(), chosen.end(), [&, &change = change, &k = k](std::size_t other) {
+            return distance(states_[k], states_[other]) < change;
+          });
       if (!near) chosen.push_back(k);
     }
     return chosen;
@@ -179,7 +181,8 @@ class Settling {
       if (defect <= options_.tolerance) return state;
       const auto slope = defect_slope(state, end->deviation);
       if (!slope) return std::nullopt;
-      const Eigen::VectorXd change = detail::Lu<double>(*slope).solve(Eigen::VectorXd(end->deviation - state.deviation));
+      const Eigen::VectorXd change =
+          detail::Lu<double>(*slope).solve(Eigen::VectorXd(end->deviation - state.deviation));
       std::optional<ContactFlow::State> next_end;
       ContactFlow::State next;
       for (double step = 1.0; step >= least_step; step *= 0.5) {
@@ -196,7 +199,7 @@ class Settling {
 
   void add_returns(SettledMotion& result) {
     if (!result.integrated()) return;
-    return_limit_ = flow_.operations() + options_.max_operations;
+    return_limit_ = flow_.operations() + 0.5 * options_.max_operations;
     std::vector<ContactFlow::State> found;
     for (const std::size_t k : nearest_returns()) {
       const ContactFlow::State state = periodic_near(states_[k]).value_or(states_[k]);
@@ -214,7 +217,7 @@ class Settling {
 
   const SettlingOptions& options_;
   ContactFlow flow_;
-  double return_limit_ = 0.0;  // of operations
+  double return_limit_ = 0.0;               // of operations
   std::vector<ContactFlow::State> states_;  // at the starts of the periods of the load
 };
 

@@ -55,11 +55,11 @@ class ModalFlow {
   ModalFlow() = default;
   void set_step(double step);
 
-  Eigen::MatrixXd shapes_;      // n x m, mass-normalised
-  Eigen::MatrixXd projection_;  // m x n, shapes^T mass
-  Eigen::VectorXd sigma_;       // m, rad/s
-  Eigen::MatrixXd contact_;     // C x m
-  Eigen::MatrixXd rates_;       // 2m x 2m, of the first-order form, 1/s
+  Eigen::MatrixXd shapes_;             // n x m, mass-normalised
+  Eigen::MatrixXd projection_;         // m x n, shapes^T mass
+  Eigen::VectorXd sigma_;              // m, rad/s
+  Eigen::MatrixXd contact_;            // C x m
+  Eigen::MatrixXd rates_;              // 2m x 2m, of the first-order form, 1/s
   Eigen::MatrixXd static_compliance_;  // C x C, m/N, of the omitted modes
   Eigen::MatrixXd exponential_, contact_exponential_, begin_, end_, step_compliance_, step_mobility_;
 };

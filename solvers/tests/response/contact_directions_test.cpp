@@ -212,9 +212,9 @@ TEST(ObstaclesOnBothSides, TouchWithinOnePeriodInEveryFormAsTimeSteppingSays) {
   const SettledMotion settled = settle(problem, law);
   ASSERT_EQ(settled.attractor_periods, 1);
   EXPECT_TRUE(every_contact_presses(settled.last.force));
-  EXPECT_LE(
-      distance(resample(settled.last.displacement, 512), reference.contacts.displacement.transpose().reshaped()),
-      2e-3);
+  EXPECT_LE(distance(resample(settled.last.displacement, 512),
+                     reference.contacts.displacement.transpose().reshaped()),
+            2e-3);
 }
 
 TEST(ObstaclesOnBothSides, MoveAsOneLawThatActsOnBothSides) {

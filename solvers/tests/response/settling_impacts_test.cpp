@@ -9,7 +9,6 @@
 #include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/contact/clearance_law.hpp"
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
@@ -19,6 +18,8 @@
 
 namespace wavebalance::solvers {
 namespace {
+
+using testing::LinearContact;
 
 struct ImpactCase {
   LinearStructure structure;
@@ -80,10 +81,11 @@ ImpactCase five_masses_between_damped_stops() {
       0.0, 0.0, 0.0, 0.0, 4635.96561261294, 0.0, -2555.9889734979415, 0.0, 0.0, 0.0, 2555.9889734979415;
   contacts << 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0;
   const Eigen::VectorXd load = 19.62968366675098 * Eigen::VectorXd::Unit(5, 0);
-  return {structure_of(mass, damping, stiffness, contacts, load),
-          ContactLaws({contact::KelvinVoigtLaw(2755886.357316102, 3218.888317007048, 8.513757003834608e-05),
-                       contact::KelvinVoigtLaw(5797048.625604386, 184.80879999898036, 0.0007371992129435768)}),
-          4.347472126367738};
+  return {
+      structure_of(mass, damping, stiffness, contacts, load),
+      ContactLaws({contact::KelvinVoigtLaw(2755886.357316102, 3218.888317007048, 8.513757003834608e-05),
+                   contact::KelvinVoigtLaw(5797048.625604386, 184.80879999898036, 0.0007371992129435768)}),
+      4.347472126367738};
 }
 
 ImpactCase two_masses_before_damped_stops() {
@@ -94,9 +96,9 @@ ImpactCase two_masses_before_damped_stops() {
                                   {-16690.770671322567, 16690.770671322567}};
   return {structure_of(mass, damping, stiffness, -Eigen::Matrix2d::Identity(),
                        Eigen::Vector2d(0.0, 1.5 * 22.6105257256964)),
-          ContactLaws({contact::KelvinVoigtLaw(10016228.727020187, 632.0689858520601, 0.0009428975171644093),
-                       contact::HuntCrossleyLaw(507848825.0698899, 2.5, 1.4480338776274324,
-                                                0.0013314989930147305)}),
+          ContactLaws(
+              {contact::KelvinVoigtLaw(10016228.727020187, 632.0689858520601, 0.0009428975171644093),
+               contact::HuntCrossleyLaw(507848825.0698899, 2.5, 1.4480338776274324, 0.0013314989930147305)}),
           17.45219292300007};
 }
 
@@ -152,6 +154,46 @@ TEST(SettlingImpacts, TheSettledMotionStartsTheBalance) {
   EXPECT_EQ(response.attractor_periods, 1);
   EXPECT_NEAR(response.displacement.maxCoeff(), stepped(one).contacts.displacement.maxCoeff(),
               1e-3 * response.displacement.cwiseAbs().maxCoeff());
+}
+
+// An exponential spring that stays closed: its force in the rest position is exp(50) times its constant.
+TEST(SettlingImpacts, AnExponentialStopThatStaysClosedIsSolvedWithAnyNumberOfFunctions) {
+  LinearStructure structure =
+      testing::Oscillator{.mass = 1.0, .damping = 4.0, .stiffness = 1000.0, .load = 1.5}.structure();
+  structure.forces.push_back({-Eigen::VectorXd::Ones(1), Eigen::VectorXcd::Ones(1)});
+  const ImpactCase one{structure, contact::ExponentialLaw(0.01, 1e4, -5e-3), 4.0};
+  CondensedProblem few = problem_of(one, 63, 512);
+  const PeriodicResponse known = forced_response(few, one.laws, {});
+  ASSERT_TRUE(known.converged());
+  for (const int functions : {127, 255}) {
+    CondensedProblem problem = problem_of(one, functions, 1024);
+    const PeriodicResponse response = forced_response(problem, one.laws, {});
+    ASSERT_TRUE(response.converged()) << functions;
+    EXPECT_NEAR(response.displacement.maxCoeff(), known.displacement.maxCoeff(), 1e-9);
+  }
+}
+
+// A mass in a clearance, whose motion of one period is unstable: Newton's method is led to it by the motion
+// that is settled to, which is aperiodic or of several periods.
+TEST(SettlingImpacts, AnUnstableMotionIsFoundNearAReturn) {
+  const testing::Oscillator mass{.mass = 1.0, .damping = 0.1, .stiffness = 1.0, .load = 1.0};
+  const LinearContact stop{100.0, 0.0};
+  SettlingOptions options;
+  int returns = 0;
+  for (double omega = 2.2; omega < 4.4; omega += 0.2) {
+    const ImpactCase one{mass.structure(), stop, omega / two_pi};
+    CondensedProblem problem = problem_of(one, 255, 2048);
+    const SettledMotion motion = settle(problem, one.laws, options);
+    if (motion.returns.empty()) continue;
+    EXPECT_NE(motion.attractor_periods, 1);
+    ForcedResponseOptions newton_alone;
+    newton_alone.fallbacks = false;
+    const PeriodicResponse response = forced_response(
+        problem, one.laws, newton_alone, resample(motion.returns.front().displacement, 2048, motion.start));
+    EXPECT_TRUE(response.converged()) << omega;
+    ++returns;
+  }
+  EXPECT_GE(returns, 2);
 }
 
 }  // namespace

@@ -10,13 +10,13 @@ namespace wavebalance::solvers {
 
 /// How a motion is integrated from rest until it repeats.
 struct SettlingOptions {
-  int steps = 1024;              ///< per period of the load between contacts; in contact, as many as are needed
-  int max_periods = 600;         ///< of the load
-  int longest = 16;              ///< periods of the load after which a motion may repeat
-  double tolerance = 1e-6;       ///< of the state after its period, in the energy norm, relative
-  int max_modes = 120;           ///< of the structure; the others deflect statically
-  int max_size = 400;            ///< degrees of freedom up to which the modes are computed
-  double max_operations = 4e9;   ///< a second or two; as much again for periodic motions near returns
+  int steps = 1024;         ///< per period of the load between contacts; in contact, as many as are needed
+  int max_periods = 600;    ///< of the load
+  int longest = 16;         ///< periods of the load after which a motion may repeat
+  double tolerance = 1e-6;  ///< of the state after its period, in the energy norm, relative
+  int max_modes = 120;      ///< of the structure; the others deflect statically
+  int max_size = 400;       ///< degrees of freedom up to which the modes are computed
+  double max_operations = 1e10;  ///< two to five seconds; half as much again for motions near returns
   int max_returns = 12;          ///< pieces of the motion that are kept where it does not settle
   Observer observer;             ///< called once per period
 
