@@ -180,6 +180,36 @@ Candidate try_residual(const Task& task, const Eigen::VectorXd& regularization, 
                       Strategy::residual_homotopy);
 }
 
+/// A period of a motion that was integrated, which begins `start` periods after the first sample.
+Start start_of(const Task& task, const ContactPeriod& period, double start) {
+  const int points = task.problem.points();
+  return {resample(period.displacement, points, start), resample(period.force, points, start)};
+}
+
+/// From the motion that the structure settles to, or from those that recur in it, after `best` was found in
+/// other ways. `attractor_periods` is set.
+Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
+                        int& attractor_periods) {
+  SettlingOptions settling = task.options.settling;
+  settling.observer = task.options.observer;
+  const SettledMotion motion = settle(task.problem, task.laws, settling);
+  attractor_periods = motion.attractor_periods;
+  if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
+  if (motion.cancelled) return best;
+  if (!motion.integrated()) return better(std::move(best), try_residual(task, form, first));
+  const double start = motion.start - task.problem.pair().first_sample();
+  for (const ContactPeriod& piece : motion.returns) {
+    best =
+        better(std::move(best), try_newton(task, form, start_of(task, piece, start), Strategy::recurrence));
+    if (best.ended()) return best;
+  }
+  if (!motion.returns.empty()) return best;
+  const Start settled = start_of(task, motion.last, start);
+  best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
+  if (best.ended()) return best;
+  return better(std::move(best), try_residual(task, form, settled));
+}
+
 Candidate solve(const Task& task, const Start& first, bool guessed, int& attractor_periods) {
   const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
   Candidate best = try_newton(task, form, first, Strategy::newton);
@@ -190,22 +220,7 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;
   }
-  SettlingOptions settling = task.options.settling;
-  settling.observer = task.options.observer;
-  const SettledMotion motion = settle(task.problem, task.laws, settling);
-  attractor_periods = motion.attractor_periods;
-  if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
-  if (motion.cancelled) return best;
-  if (attractor_periods == SettledMotion::not_integrated)
-    return better(std::move(best), try_residual(task, form, first));
-  const double start = motion.start - task.problem.pair().first_sample();
-  const Start settled{resample(motion.displacement, task.problem.points(), start),
-                      resample(motion.force, task.problem.points(), start)};
-  best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
-  if (best.ended()) return best;
-  // A structure that does not settle to a motion of the problem's period may have an unstable one.
-  const bool settles = attractor_periods > 0 && load_periods(task.problem) % attractor_periods == 0;
-  return better(std::move(best), try_residual(task, form, settles ? settled : first));
+  return solve_settled(task, form, first, std::move(best), attractor_periods);
 }
 
 /// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.
@@ -251,7 +266,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   laws.require(problem.contacts());
   const DisplacementFormAtTheEnd restored(problem);
   const Task task{problem, laws, options};
-  int attractor_periods = SettledMotion::not_integrated;
+  int attractor_periods = SettledMotion::unknown;
   Candidate candidate;
   if (problem.is_free() && !static_load_is_balanced(problem, laws)) {
     candidate = no_solution();

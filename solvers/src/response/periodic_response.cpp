@@ -16,6 +16,8 @@ std::string_view to_string(Strategy strategy) {
       return "load_continuation";
     case Strategy::settling:
       return "settling";
+    case Strategy::recurrence:
+      return "recurrence";
     case Strategy::residual_homotopy:
       return "residual_homotopy";
     case Strategy::perturbation:

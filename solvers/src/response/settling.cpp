@@ -2,241 +2,223 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <deque>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
-#include "structure/modal_flow.hpp"
+#include "response/contact_flow.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using Complex = std::complex<double>;
+/// What an integration of one accuracy ended with.
+struct Verdict {
+  int repeats = 0;     // periods of the load after which the state repeats; 0 for none
+  double apart = 0.0;  // the least distance of states within those periods, relative
+  bool known = true;   // false where the operations ran out or the motion grew without bound
+  bool cancelled = false;
 
-// Contact forces f at the end of a step with f_c = law_c(predicted_c - (D f)_c), D the compliance of the
-// step: Gauss-Seidel, each force by its resolvent for the flexibility D_cc.
-void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
-                  const Eigen::VectorXd& predicted, Eigen::VectorXd& force) {
-  constexpr int max_rounds = 200;
-  constexpr double settled = 1e-12;
-  for (int round = 0; round < max_rounds; ++round) {
-    double change = 0.0;
-    for (Eigen::Index c = 0; c < force.size(); ++c) {
-      const double others = compliance.row(c).dot(force) - compliance(c, c) * force[c];
-      const double next = laws[static_cast<int>(c)].resolvent(predicted[c] - others, compliance(c, c)).force;
-      change = std::max(change, std::abs(next - force[c]));
-      force[c] = next;
-    }
-    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) return;
+  bool agrees(const Verdict& other) const {
+    // States that come nearer to each other are those of a spiral towards a motion of fewer periods.
+    constexpr double steady = 1e-2;
+    return known && other.known && repeats == other.repeats &&
+           (repeats <= 1 || std::abs(apart - other.apart) <= steady * apart);
   }
-}
+};
 
-// The force f = law(u - d f, v - m f) of a law that depends on the velocity, by bisection between 0 and the
-// force at (u, v): the residual rises with f where no slope is negative. At a jump of the law it is the value
-// within.
-double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility) {
-  constexpr int halvings = 60;
-  double near = 0.0, far = law.force(u, v);
-  if (far == 0.0) return 0.0;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (near + far);
-    const double excess = middle - law.force(u - compliance * middle, v - mobility * middle);
-    (excess * far > 0.0 ? far : near) = middle;
+// Puts a period of the load that was integrated in its place, the `block`-th of a period of the problem. Its
+// columns are the ends of steps.
+void place(const ContactFlow::Period& period, int block, ContactPeriod& whole) {
+  const Eigen::Index steps = period.force.cols(), all = whole.force.cols();
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    whole.displacement.col((block * steps + k + 1) % all) = period.displacement.col(k);
+    whole.force.col((block * steps + k + 1) % all) = period.force.col(k);
   }
-  return 0.5 * (near + far);
-}
-
-// The same as solve_forces() where laws depend on the velocity, `mobility` that of the step.
-void solve_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance, const Eigen::MatrixXd& mobility,
-                  const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
-                  Eigen::VectorXd& force) {
-  constexpr int max_rounds = 200;
-  constexpr double settled = 1e-12;
-  for (int round = 0; round < max_rounds; ++round) {
-    double change = 0.0;
-    for (Eigen::Index c = 0; c < force.size(); ++c) {
-      const double d = compliance(c, c), m = mobility(c, c);
-      const double u = displacement[c] - compliance.row(c).dot(force) + d * force[c];
-      const double v = velocity[c] - mobility.row(c).dot(force) + m * force[c];
-      const AnyContactLaw& law = laws[static_cast<int>(c)];
-      const double next =
-          law.depends_on_velocity() ? implicit_force(law, u, v, d, m) : law.resolvent(u, d).force;
-      change = std::max(change, std::abs(next - force[c]));
-      force[c] = next;
-    }
-    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) return;
-  }
-}
-
-// Responses of all degrees of freedom without contact to a load of these amplitudes, n x harmonics.
-Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
-                                double frequency) {
-  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), amplitudes.cols());
-  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
-    if (amplitudes.col(n).isZero(0.0)) continue;
-    const Complex rate(0.0, 2.0 * std::numbers::pi * frequency * double(n));
-    const Complex elastic(1.0, n > 0 ? structure.loss_factor : 0.0);
-    const Eigen::MatrixXcd impedance = elastic * Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
-                                       rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
-                                       rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
-    responses.col(n) = detail::Lu<Complex>(impedance).solve(Eigen::VectorXcd(amplitudes.col(n)));
-  }
-  return responses;
-}
-
-// The contact-free motion of the contacts at steps k = 0..steps-1, C x steps, from their responses.
-Eigen::MatrixXd contact_free_motion(const Eigen::MatrixXcd& responses, int steps) {
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(responses.rows(), steps);
-  for (Eigen::Index n = 0; n < responses.cols(); ++n)
-    for (int k = 0; k < steps; ++k) {
-      const Complex phase = std::polar(1.0, 2.0 * std::numbers::pi * double(n) * k / steps);
-      motion.col(k) += (responses.col(n) * phase).real();
-    }
-  return motion;
-}
-
-// The amplitudes of a load (n x harmonics) that is `start` periods ahead, so that the first harmonic of
-// `series` is at its maximum: a load that comes later then gives the same motion later.
-Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXcd& series, double& start) {
-  start = 0.0;
-  Eigen::Index first = 1;
-  while (first < series.size() && series[first] == 0.0) ++first;
-  if (first >= series.size()) return amplitudes;
-  start = -std::arg(series[first]) / (2.0 * std::numbers::pi * double(first));
-  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n)
-    amplitudes.col(n) *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * start);
-  return amplitudes;
-}
-
-// Every `step`-th harmonic: those of a load that repeats `step` times within the period.
-Eigen::VectorXcd every(int step, const Eigen::VectorXcd& harmonics) {
-  if (step == 1) return harmonics;
-  const Eigen::Index count = (harmonics.size() + step - 1) / step;
-  return Eigen::VectorXcd(harmonics(Eigen::seqN(0, count, step)));
-}
-
-// All that acts on the structure of a problem, n x harmonics of one period of the load.
-Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
-  const LinearStructure& structure = problem.structure();
-  const Eigen::VectorXcd harmonics = every(repeats, problem.load_harmonics());
-  LinearStructure forced;  // the forces alone
-  forced.load = Eigen::VectorXd::Zero(structure.size());
-  forced.forces = structure.forces;
-  Eigen::MatrixXcd amplitudes = forced.load_amplitudes(repeats * problem.frequency());
-  const Eigen::Index before = amplitudes.cols(), count = std::max(before, harmonics.size());
-  amplitudes.conservativeResize(Eigen::NoChange, count);
-  amplitudes.rightCols(count - before).setZero();
-  amplitudes.leftCols(harmonics.size()) += structure.load.cast<Complex>() * harmonics.transpose();
-  if (problem.load_scale() != 1.0) amplitudes.rightCols(count - 1) *= problem.load_scale();
-  return amplitudes;
 }
 
 class Settling {
  public:
   Settling(const CondensedProblem& problem, const ContactLaws& laws, const SettlingOptions& options,
            ModalFlow flow)
-      : laws_(laws), options_(options), flow_(std::move(flow)), repeats_(load_periods(problem)) {
-    const LinearStructure& structure = problem.structure();
-    const double frequency = repeats_ * problem.frequency();
-    const bool forces_alone = structure.load.isZero(0.0) && !structure.forces.empty();
-    const Eigen::VectorXcd series = forces_alone ? structure.forces.front().amplitudes(frequency)
-                                                 : every(repeats_, problem.load_harmonics());
-    const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
-    const Eigen::MatrixXcd responses = load_responses(structure, amplitudes, frequency);
-    free_ = contact_free_motion(structure.contact_directions * responses, options.steps);
-    if (laws.depend_on_velocity()) {
-      Eigen::MatrixXcd rates = structure.contact_directions * responses;
-      for (Eigen::Index n = 0; n < rates.cols(); ++n)
-        rates.col(n) *= Complex(0.0, 2.0 * std::numbers::pi * frequency * double(n));
-      free_velocity_ = contact_free_motion(rates, options.steps);
-    }
-    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(structure.size());
-    for (Eigen::Index n = 0; n < responses.cols(); ++n)
-      velocity -= 2.0 * std::numbers::pi * frequency * double(n) * responses.col(n).imag();
-    // The state is the deviation from the motion without contact.
-    free_state_ = flow_.state(responses.real().rowwise().sum(), velocity);
-    state_ = -free_state_;
-    force_ = Eigen::VectorXd::Zero(free_.rows());
-  }
+      : options_(options), flow_(problem, laws, options.steps, std::move(flow)) {}
 
   SettledMotion run() {
     SettledMotion result;
-    result.start = start_ / repeats_;
-    result.displacement = free_.replicate(1, repeats_);
-    result.force = Eigen::MatrixXd::Zero(free_.rows(), repeats_ * free_.cols());
-    std::deque<Eigen::VectorXd> past{state_};
-    while (result.periods < options_.max_periods) {
-      integrate_period(result);
-      ++result.periods;
-      if (!state_.allFinite()) return result;  // an undamped mode that is loaded at its own frequency
-      const double scale = (state_ + free_state_).norm();
-      const double change = (state_ - past.front()).norm() / scale;
-      double least = 0.0;
-      const int repeats = periods_to(past, least);
-      past.push_front(state_);
-      if (past.size() > static_cast<std::size_t>(options_.longest)) past.pop_back();
-      constexpr int transient = 50;  // before a motion is taken for one of several periods
-      // A spiral towards a motion of fewer periods comes near past states too, and nearly as near later ones.
-      constexpr double apart = 100.0;
-      const bool subharmonic = repeats > 1 && least > apart * options_.tolerance * scale;
-      if (repeats == 1 || (subharmonic && result.periods > transient)) {
-        result.attractor_periods = repeats;
-        return result;
-      }
-      const Progress progress{"settling", result.periods, change, "relative change per period",
-                              double(result.periods) / options_.max_periods};
-      result.cancelled = !goes_on(options_.observer, progress);
-      if (result.cancelled) return result;
+    result.start = flow_.free_motion().start() / load_periods();
+    states_.push_back(flow_.at_rest());
+    constexpr double finer = 1e-2, finest = 1e-11;
+    Verdict before{.known = false};
+    double tolerance = options_.tolerance;
+    for (const double share : {0.5, 1.0, 1.5}) {
+      const Verdict now =
+          settled(tolerance, static_cast<int>(std::ceil(share * options_.max_periods)), result);
+      result.cancelled = now.cancelled;
+      if (now.agrees(before)) result.attractor_periods = now.repeats;
+      if (now.agrees(before) || !now.known) break;
+      before = now;
+      tolerance = std::max(finest, finer * tolerance);
     }
-    result.attractor_periods = 0;
+    const bool settles = result.attractor_periods > 0 && load_periods() % result.attractor_periods == 0;
+    if (!result.cancelled && !settles) add_returns(result);
     return result;
   }
 
  private:
-  // After how many periods the state repeats one of the past ones, the latest first; 0 for none. `least` is
-  // set to its least distance from later ones.
-  int periods_to(const std::deque<Eigen::VectorXd>& past, double& least) const {
-    const double close = options_.tolerance * (state_ + free_state_).norm();
-    least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < past.size(); ++i) {
-      const double distance = (state_ - past[i]).norm();
-      if (distance <= close) return static_cast<int>(i) + 1;
-      least = std::min(least, distance);
+  int load_periods() const { return flow_.free_motion().load_periods(); }
+
+  // Goes on from the last state up to `max_periods` in all, at most until the state repeats.
+  Verdict settled(double tolerance, int max_periods, SettledMotion& result) {
+    constexpr int transient = 50;  // before a motion is taken for one of several periods
+    // A spiral towards a motion of fewer periods comes near past states too, and nearly as near later ones.
+    constexpr double apart = 100.0;
+    const std::size_t first = states_.size() - 1;
+    Verdict verdict;
+    while (result.periods < max_periods) {
+      if (!add_period(tolerance, result)) return {.known = false};
+      verdict = repeated(first);
+      const bool subharmonic = verdict.repeats > 1 && verdict.apart > apart * options_.tolerance;
+      if (verdict.repeats == 1 || (subharmonic && states_.size() - first > transient)) return verdict;
+      verdict.repeats = 0;
+      const double change = distance(states_.back(), states_[states_.size() - 2]);
+      const Progress progress{"settling", result.periods, change, "relative change per period",
+                              std::min(1.0, double(result.periods) / options_.max_periods)};
+      if (!goes_on(options_.observer, progress)) return {.known = false, .cancelled = true};
     }
-    return 0;
+    return verdict;
   }
 
-  void integrate_period(SettledMotion& result) {
-    const Eigen::MatrixXd& compliance = flow_.step_compliance();
-    for (int k = 0; k < options_.steps; ++k) {
-      const int next = k + 1 < options_.steps ? k + 1 : 0;
-      const int column = ((result.periods % repeats_) * options_.steps + k + 1) % (repeats_ * options_.steps);
-      Eigen::VectorXd end = flow_.advance(state_, force_);
-      const Eigen::VectorXd predicted = free_.col(next) + flow_.contact_displacement(end);
-      if (free_velocity_.size() > 0)
-        solve_forces(laws_, compliance, flow_.step_mobility(), predicted,
-                     free_velocity_.col(next) + flow_.contact_velocity(end), force_);
-      else
-        solve_forces(laws_, compliance, predicted, force_);
-      flow_.add_force(end, force_);
-      state_.swap(end);
-      result.displacement.col(column) = predicted - compliance * force_;
-      result.force.col(column) = force_;
+  bool add_period(double tolerance, SettledMotion& result) {
+    constexpr double accuracy = 10.0;  // of a step before it is extrapolated, over the tolerance
+    ContactFlow::Period period =
+        flow_.period_from(states_.back(), accuracy * tolerance, options_.max_operations - flow_.operations());
+    if (!period.complete) return false;
+    if (!result.integrated())
+      result.last = {period.displacement.replicate(1, load_periods()),
+                     period.force.replicate(1, load_periods())};
+    place(period, result.periods % load_periods(), result.last);
+    states_.push_back(std::move(period.end));
+    ++result.periods;
+    return true;
+  }
+
+  double distance(const ContactFlow::State& one, const ContactFlow::State& other) const {
+    return (one.deviation - other.deviation).norm() / flow_.size(one);
+  }
+
+  // After how many periods the last state repeats one since `first`, the latest of them.
+  Verdict repeated(std::size_t first) const {
+    Verdict verdict{.apart = std::numeric_limits<double>::infinity()};
+    const std::size_t last = states_.size() - 1,
+                      longest = std::min(last - first, static_cast<std::size_t>(options_.longest));
+    for (std::size_t lag = 1; lag <= longest; ++lag) {
+      const double apart = distance(states_[last], states_[last - lag]);
+      if (apart <= options_.tolerance) verdict.repeats = static_cast<int>(lag);
+      if (verdict.repeats > 0) break;
+      verdict.apart = std::min(verdict.apart, apart);
+    }
+    return verdict;
+  }
+
+  // Of the states that nearly return after a period of the problem, the nearest first, those that differ.
+  std::vector<std::size_t> nearest_returns() const {
+    constexpr std::size_t transient = 20;
+    const auto period = static_cast<std::size_t>(load_periods());
+    std::vector<std::pair<double, std::size_t>> returns;
+    for (std::size_t k = transient; k + period < states_.size(); ++k)
+      returns.emplace_back(distance(states_[k], states_[k + period]), k);
+    std::sort(returns.begin(), returns.end());
+    std::vector<std::size_t> chosen;
+    for (const auto& [change, k] : returns) {
+      if (chosen.size() == static_cast<std::size_t>(options_.max_returns)) break;
+      const bool near =
+          std::any_of(chosen.begin(), chosen.end(), [&, &change = change, &k = k](std::size_t other) {
+            return distance(states_[k], states_[other]) < change;
+          });
+      if (!near) chosen.push_back(k);
+    }
+    return chosen;
+  }
+
+  // The state after a period of the problem; `piece` is the motion until then, if there is one.
+  std::optional<ContactFlow::State> after_period(ContactFlow::State state, ContactPeriod* piece = nullptr) {
+    for (int i = 0; i < load_periods(); ++i) {
+      ContactFlow::Period period =
+          flow_.period_from(state, options_.tolerance, return_limit_ - flow_.operations());
+      if (!period.complete) return std::nullopt;
+      if (piece) place(period, i, *piece);
+      state = std::move(period.end);
+    }
+    return state;
+  }
+
+  // The derivative of after_period(state) - state, by differences.
+  std::optional<Eigen::MatrixXd> defect_slope(const ContactFlow::State& state, const Eigen::VectorXd& end) {
+    constexpr double change = 1e-5;
+    const double step = change * flow_.size(state);
+    const Eigen::Index size = end.size();
+    Eigen::MatrixXd slope(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      ContactFlow::State other = state;
+      other.deviation[i] += step;
+      const auto other_end = after_period(flow_.balanced(std::move(other)));
+      if (!other_end) return std::nullopt;
+      slope.col(i) = (other_end->deviation - end) / step;
+      slope(i, i) -= 1.0;
+    }
+    return slope;
+  }
+
+  // The periodic motion near a state that nearly returns, by Newton's method on the map of the period.
+  std::optional<ContactFlow::State> periodic_near(ContactFlow::State state) {
+    constexpr int max_iterations = 12;
+    constexpr double least_step = 1.0 / 16.0;
+    auto end = after_period(state);
+    for (int i = 0; end && i < max_iterations; ++i) {
+      const double defect = distance(*end, state);
+      if (defect <= options_.tolerance) return state;
+      const auto slope = defect_slope(state, end->deviation);
+      if (!slope) return std::nullopt;
+      const Eigen::VectorXd change =
+          detail::Lu<double>(*slope).solve(Eigen::VectorXd(end->deviation - state.deviation));
+      std::optional<ContactFlow::State> next_end;
+      ContactFlow::State next;
+      for (double step = 1.0; step >= least_step; step *= 0.5) {
+        next = flow_.balanced({state.deviation - step * change, state.force});
+        next_end = after_period(next);
+        if (!next_end || distance(*next_end, next) < defect) break;
+        next_end.reset();
+      }
+      state = std::move(next);
+      end = std::move(next_end);
+    }
+    return std::nullopt;
+  }
+
+  void add_returns(SettledMotion& result) {
+    if (!result.integrated()) return;
+    return_limit_ = flow_.operations() + 0.5 * options_.max_operations;
+    std::vector<ContactFlow::State> found;
+    for (const std::size_t k : nearest_returns()) {
+      const ContactFlow::State state = periodic_near(states_[k]).value_or(states_[k]);
+      const bool known = std::any_of(found.begin(), found.end(),
+                                     [&](const auto& one) { return distance(one, state) <= same; });
+      if (known) continue;
+      found.push_back(state);
+      ContactPeriod piece = result.last;
+      if (!after_period(state, &piece)) return;
+      result.returns.push_back(std::move(piece));
     }
   }
 
-  const ContactLaws& laws_;
+  static constexpr double same = 1e-4;  // distance of two states that are taken for one
+
   const SettlingOptions& options_;
-  ModalFlow flow_;
-  int repeats_ = 1;                       // periods of the load within that of the problem
-  double start_ = 0.0;                    // periods of the load after t = 0 at which the motion starts
-  Eigen::MatrixXd free_, free_velocity_;  // the latter empty where no law depends on it
-  Eigen::VectorXd free_state_, state_, force_;
+  ContactFlow flow_;
+  double return_limit_ = 0.0;               // of operations
+  std::vector<ContactFlow::State> states_;  // at the starts of the periods of the load
 };
 
 }  // namespace
@@ -249,6 +231,8 @@ void SettlingOptions::validate() const {
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_modes", max_modes, 1);
   detail::require_at_least(who, "max_size", max_size, 0);
+  detail::require_positive(who, "max_operations", max_operations);
+  detail::require_at_least(who, "max_returns", max_returns, 0);
 }
 
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,

@@ -36,10 +36,10 @@ class Search {
     attractor = motion.attractor_periods;
     cancelled = motion.cancelled;
     const bool shorter = attractor > 0 && attractor < wanted_ && wanted_ % attractor == 0;
-    if (attractor == SettledMotion::not_integrated || cancelled || shorter) return std::nullopt;
+    if (!motion.integrated() || cancelled || shorter) return std::nullopt;
     const double start = motion.start - problem_.pair().first_sample();
-    return near(resample(motion.displacement, problem_.points(), start),
-                resample(motion.force, problem_.points(), start), Strategy::settling);
+    return near(resample(motion.last.displacement, problem_.points(), start),
+                resample(motion.last.force, problem_.points(), start), Strategy::settling);
   }
 
   /// From perturbations of `response`: one of more periods, if any is found.
@@ -166,7 +166,7 @@ PeriodicResponse subharmonic_response(CondensedProblem& problem, const ContactLa
   if (load_periods(problem) == 1 || !touches || search.is_found(best) ||
       best.status == SolveStatus::cancelled)
     return best;
-  int attractor = SettledMotion::not_integrated;
+  int attractor = SettledMotion::unknown;
   bool cancelled = false;
   const auto settled = search.settled(attractor, cancelled);
   if (settled && settled->converged() && (search.is_found(*settled) || !best.converged())) best = *settled;

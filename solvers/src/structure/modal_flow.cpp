@@ -9,8 +9,16 @@
 namespace wavebalance::solvers {
 namespace {
 
+double least_mass(const Eigen::VectorXd& diagonal) { return 1e-9 * diagonal.mean(); }
+
+// The number of degrees of freedom with less than the least mass.
+Eigen::Index without_mass(const LinearStructure& structure) {
+  const Eigen::VectorXd diagonal = structure.mass.diagonal();
+  return (diagonal.array() < least_mass(diagonal)).count();
+}
+
 Eigen::MatrixXd with_mass_everywhere(Eigen::MatrixXd mass) {
-  const double least = 1e-9 * mass.diagonal().mean();
+  const double least = least_mass(mass.diagonal());
   for (Eigen::Index i = 0; i < mass.rows(); ++i)
     if (mass(i, i) < least) mass(i, i) = least;
   return mass;
@@ -38,8 +46,9 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   if (circulatory) elastic = (0.5 * (elastic + elastic.transpose())).eval();
   const auto eigen = detail::symmetric_eigen(elastic, mass);
   if (!eigen) return std::nullopt;
-  const Eigen::Index all = eigen->values.size(), m = std::min<Eigen::Index>(all, max_modes);
-  const Eigen::Index contacts = structure.contacts();
+  const Eigen::Index all = eigen->values.size(),
+                     m = std::min<Eigen::Index>(all - without_mass(structure), max_modes);
+  if (m < 1) return std::nullopt;
   ModalFlow flow;
   flow.shapes_ = eigen->vectors.leftCols(m);
   flow.projection_ = detail::transposed_product(flow.shapes_, mass);
@@ -54,25 +63,36 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   if (circulatory)
     skew = detail::transposed_product(flow.shapes_,
                                       (Eigen::MatrixXd(structure.stiffness) - elastic) * flow.shapes_);
-  // Van Loan's block matrix for a force that is linear in time.
-  const Eigen::Index states = 2 * m, size = states + 2 * contacts;
+  flow.rates_ = first_order(flow.sigma_, stiffness, skew, damping);
+  const Eigen::MatrixXd omitted = contact.rightCols(all - m);
+  const Eigen::VectorXd flexibilities = eigen->values.tail(all - m).cwiseInverse();
+  flow.static_compliance_ = detail::product_transposed(omitted * flexibilities.asDiagonal(), omitted);
+  flow.set_step(step);
+  return flow;
+}
+
+ModalFlow ModalFlow::over(double step) const {
+  ModalFlow other = *this;
+  other.set_step(step);
+  return other;
+}
+
+// Van Loan's block matrix for a force that is linear in time.
+void ModalFlow::set_step(double step) {
+  const Eigen::Index m = modes(), states = 2 * m, contacts = contact_.rows(), size = states + 2 * contacts;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
-  block.topLeftCorner(states, states) = step * first_order(flow.sigma_, stiffness, skew, damping);
-  block.block(m, states, m, contacts) = -step * flow.contact_.transpose();
+  block.topLeftCorner(states, states) = step * rates_;
+  block.block(m, states, m, contacts) = -step * contact_.transpose();
   block.block(states, states + contacts, contacts, contacts).setIdentity();
   // In the energy norm of a damped structure the powers do not grow.
   const Eigen::MatrixXd exponential = detail::exponential(block);
-  flow.exponential_ = exponential.topLeftCorner(states, states);
-  flow.end_ = exponential.block(0, states + contacts, states, contacts);
-  flow.begin_ = exponential.block(0, states, states, contacts) - flow.end_;
-  flow.step_compliance_.resize(contacts, contacts);
-  for (Eigen::Index c = 0; c < contacts; ++c)
-    flow.step_compliance_.col(c) = -flow.contact_displacement(flow.end_.col(c));
-  flow.step_mobility_ = -flow.contact_ * flow.end_.bottomRows(m);
-  const Eigen::MatrixXd omitted = contact.rightCols(all - m);
-  const Eigen::VectorXd flexibilities = eigen->values.tail(all - m).cwiseInverse();
-  flow.step_compliance_ += detail::product_transposed(omitted * flexibilities.asDiagonal(), omitted);
-  return flow;
+  exponential_ = exponential.topLeftCorner(states, states);
+  end_ = exponential.block(0, states + contacts, states, contacts);
+  begin_ = exponential.block(0, states, states, contacts) - end_;
+  contact_exponential_ = contact_ * sigma_.cwiseInverse().asDiagonal() * exponential_.topRows(m);
+  step_compliance_ = static_compliance_;
+  for (Eigen::Index c = 0; c < contacts; ++c) step_compliance_.col(c) -= contact_displacement(end_.col(c));
+  step_mobility_ = -contact_ * end_.bottomRows(m);
 }
 
 Eigen::VectorXd ModalFlow::advance(const Eigen::VectorXd& state, const Eigen::VectorXd& force) const {
@@ -87,6 +107,10 @@ void ModalFlow::add_force(Eigen::VectorXd& state, const Eigen::VectorXd& force) 
 
 Eigen::VectorXd ModalFlow::contact_displacement(const Eigen::VectorXd& state) const {
   return contact_ * state.head(modes()).cwiseQuotient(sigma_);
+}
+
+Eigen::VectorXd ModalFlow::contact_displacement_after(const Eigen::VectorXd& state) const {
+  return contact_exponential_ * state;
 }
 
 Eigen::VectorXd ModalFlow::contact_velocity(const Eigen::VectorXd& state) const {

@@ -18,10 +18,13 @@ namespace wavebalance::solvers {
 class ModalFlow {
  public:
   /// step in s, frequency in Hz (> 0). The lowest `max_modes` modes are taken; the others follow their static
-  /// deflection. A degree of freedom without mass is given 1e-9 of the mean mass. Nothing when the modes are
-  /// not found: mass neither positive definite nor zero on its diagonal. O(n^3).
+  /// deflection. So do those of degrees of freedom without mass, as many as there are, which are found with
+  /// 1e-9 of the mean mass. Nothing when the modes are not found: mass neither positive definite nor zero on
+  /// its diagonal. O(n^3).
   static std::optional<ModalFlow> make(const LinearStructure& structure, double frequency, double step,
                                        int max_modes);
+  /// The same structure over another step, in s. O(m^3).
+  ModalFlow over(double step) const;
 
   Eigen::Index modes() const { return shapes_.cols(); }  ///< m
   Eigen::Index states() const { return 2 * modes(); }
@@ -34,9 +37,13 @@ class ModalFlow {
 
   /// Displacements of the contacts (C, m) in a state, without the static deflection under present forces.
   Eigen::VectorXd contact_displacement(const Eigen::VectorXd& state) const;
+  /// The same at the end of a step without contact forces. O(C m).
+  Eigen::VectorXd contact_displacement_after(const Eigen::VectorXd& state) const;
   /// C x C, m/N: what forces at the end of a step take from the displacements there, static deflection of the
   /// omitted modes included. Symmetric, not negative.
   const Eigen::MatrixXd& step_compliance() const { return step_compliance_; }
+  /// The part of the omitted modes alone.
+  const Eigen::MatrixXd& static_compliance() const { return static_compliance_; }
   /// Velocities of the contacts (C, m/s) in a state.
   Eigen::VectorXd contact_velocity(const Eigen::VectorXd& state) const;
   /// C x C, m/s/N: what forces at the end of a step take from the velocities there.
@@ -46,12 +53,15 @@ class ModalFlow {
 
  private:
   ModalFlow() = default;
+  void set_step(double step);
 
-  Eigen::MatrixXd shapes_;      // n x m, mass-normalised
-  Eigen::MatrixXd projection_;  // m x n, shapes^T mass
-  Eigen::VectorXd sigma_;       // m, rad/s
-  Eigen::MatrixXd contact_;     // C x m
-  Eigen::MatrixXd exponential_, begin_, end_, step_compliance_, step_mobility_;
+  Eigen::MatrixXd shapes_;             // n x m, mass-normalised
+  Eigen::MatrixXd projection_;         // m x n, shapes^T mass
+  Eigen::VectorXd sigma_;              // m, rad/s
+  Eigen::MatrixXd contact_;            // C x m
+  Eigen::MatrixXd rates_;              // 2m x 2m, of the first-order form, 1/s
+  Eigen::MatrixXd static_compliance_;  // C x C, m/N, of the omitted modes
+  Eigen::MatrixXd exponential_, contact_exponential_, begin_, end_, step_compliance_, step_mobility_;
 };
 
 }  // namespace wavebalance::solvers

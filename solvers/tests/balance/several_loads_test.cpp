@@ -191,7 +191,7 @@ TEST(SeveralLoads, AgainstAStopSettleToTheMotionOfTheBalance) {
   ASSERT_TRUE(response.converged());
   const SettledMotion settled = settle(problem, stop, {});
   ASSERT_EQ(settled.attractor_periods, 1);
-  const Eigen::VectorXd samples = resample(settled.displacement, 1024, settled.start);
+  const Eigen::VectorXd samples = resample(settled.last.displacement, 1024, settled.start);
   EXPECT_LE((samples - response.displacement).norm(), 2e-2 * response.displacement.norm());
 }
 

@@ -163,7 +163,7 @@ TEST(TurnedCoordinates, ChangeNeitherShootingNorSettling) {
     other.set_frequency(driven);
     const SettledMotion settled = settle(other, laws);
     ASSERT_EQ(settled.attractor_periods, 1);
-    EXPECT_LE(distance(resample(settled.displacement, 256), response.displacement), 2e-3);
+    EXPECT_LE(distance(resample(settled.last.displacement, 256), response.displacement), 2e-3);
   }
 }
 
@@ -211,10 +211,10 @@ TEST(ObstaclesOnBothSides, TouchWithinOnePeriodInEveryFormAsTimeSteppingSays) {
   }
   const SettledMotion settled = settle(problem, law);
   ASSERT_EQ(settled.attractor_periods, 1);
-  EXPECT_TRUE(every_contact_presses(settled.force));
-  EXPECT_LE(
-      distance(resample(settled.displacement, 512), reference.contacts.displacement.transpose().reshaped()),
-      2e-3);
+  EXPECT_TRUE(every_contact_presses(settled.last.force));
+  EXPECT_LE(distance(resample(settled.last.displacement, 512),
+                     reference.contacts.displacement.transpose().reshaped()),
+            2e-3);
 }
 
 TEST(ObstaclesOnBothSides, MoveAsOneLawThatActsOnBothSides) {

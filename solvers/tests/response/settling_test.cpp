@@ -67,7 +67,7 @@ TEST(Settling, WithoutContactArrivesAtTheResponseOfTheLoad) {
   const CondensedProblem problem = oscillator_problem(25.0);
   const SettledMotion motion = settle(problem, AnyContactLaw());
   EXPECT_EQ(motion.attractor_periods, 1);
-  const Eigen::VectorXd samples = resample(motion.displacement, 256);
+  const Eigen::VectorXd samples = resample(motion.last.displacement, 256);
   EXPECT_LE((samples - problem.contact_free_response()).norm(), 1e-5 * samples.norm());
 }
 
@@ -78,9 +78,9 @@ TEST(Settling, AgainstAStopArrivesAtTheForcedResponse) {
   ASSERT_EQ(motion.attractor_periods, 1);
   const PeriodicResponse response = forced_response(problem, stop, {});
   ASSERT_TRUE(response.converged());
-  EXPECT_LE((resample(motion.displacement, 256) - response.displacement).norm(),
+  EXPECT_LE((resample(motion.last.displacement, 256) - response.displacement).norm(),
             1e-3 * response.displacement.norm());
-  EXPECT_LE((resample(motion.force, 256) - response.contact_force).norm(),
+  EXPECT_LE((resample(motion.last.force, 256) - response.contact_force).norm(),
             1e-2 * response.contact_force.norm());
 }
 
@@ -113,7 +113,7 @@ TEST(Settling, ReportsWhatItCannotIntegrateAndStopsWhenAsked) {
   const CondensedProblem problem = oscillator_problem(25.0);
   SettlingOptions small;
   small.max_size = 0;
-  EXPECT_EQ(settle(problem, AnyContactLaw(), small).attractor_periods, SettledMotion::not_integrated);
+  EXPECT_EQ(settle(problem, AnyContactLaw(), small).attractor_periods, SettledMotion::unknown);
   testing::Oscillator undamped;
   undamped.damping = 0.0;
   CondensedProblem resonant(testing::fourier_pair(7, 32), undamped.structure(), testing::cosine_load());

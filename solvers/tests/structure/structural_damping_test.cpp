@@ -155,11 +155,11 @@ TEST(StructuralDamping, SettlesToTheMotionWithoutContactAndNearThatWithIt) {
   const SettledMotion without = settle(problem, far, settling);
   ASSERT_EQ(without.attractor_periods, 1);
   const Eigen::VectorXd free = problem.contact_free_response();
-  EXPECT_LT((resample(without.displacement, 256, without.start) - free).norm(), 1e-4 * free.norm());
+  EXPECT_LT((resample(without.last.displacement, 256, without.start) - free).norm(), 1e-4 * free.norm());
   const PeriodicResponse response = forced_response(problem, near, {});
   const SettledMotion with = settle(problem, near, settling);
   ASSERT_EQ(with.attractor_periods, 1);
-  EXPECT_LT((resample(with.displacement, 256, with.start) - response.displacement).norm(),
+  EXPECT_LT((resample(with.last.displacement, 256, with.start) - response.displacement).norm(),
             0.1 * response.displacement.norm());
 }
 

@@ -246,8 +246,8 @@ TEST(SampleOffset, SubharmonicMotionsAreThoseOfAnIntegration) {
   const double first = problem.pair().first_sample();
   double least = 1.0;
   for (const double turn : {0.0, 0.5})
-    least = std::min(least, (response.displacement -
-                             resample(motion.displacement, problem.points(), motion.start + turn - first))
+    least = std::min(least, (response.displacement - resample(motion.last.displacement, problem.points(),
+                                                              motion.start + turn - first))
                                     .norm() /
                                 response.displacement.norm());
   EXPECT_LE(least, 1e-4);  // half a sample late it would be 1e-2

@@ -15,6 +15,7 @@ enum class Strategy {
   gap_continuation,   ///< arc length in the gaps, from where the first contact touches to the gaps given
   load_continuation,  ///< arc length in the load, from rest, of laws that act on both sides
   settling,           ///< Newton's method from the motion that the structure at rest settles to
+  recurrence,         ///< Newton's method from a period after which that motion nearly returns
   residual_homotopy,  ///< arc length from that motion, or from the start given, to a solution
   perturbation        ///< Newton's method from a motion of fewer periods and a perturbation of it
 };
@@ -30,7 +31,7 @@ struct PeriodicResponse {
   double residual = 0.0;               ///< ||R|| / (||u0|| + ||K f||)
   int iterations = 0;                  ///< Newton iterations of all attempts
   Strategy strategy = Strategy::none;  ///< what found it
-  /// SettledMotion::attractor_periods where the structure was settled; -1 where it was not.
+  /// SettledMotion::attractor_periods where the structure was settled; -1 where it was not, or not known.
   int attractor_periods = -1;
   std::vector<double> residual_history;  ///< residuals of the last Newton run
   double condition = 0.0;                ///< NewtonResult::condition of that run

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
@@ -9,36 +10,50 @@ namespace wavebalance::solvers {
 
 /// How a motion is integrated from rest until it repeats.
 struct SettlingOptions {
-  int steps = 1024;         ///< per period of the load
+  int steps = 1024;         ///< per period of the load between contacts; in contact, as many as are needed
   int max_periods = 600;    ///< of the load
   int longest = 16;         ///< periods of the load after which a motion may repeat
   double tolerance = 1e-6;  ///< of the state after its period, in the energy norm, relative
   int max_modes = 120;      ///< of the structure; the others deflect statically
   int max_size = 400;       ///< degrees of freedom up to which the modes are computed
-  Observer observer;        ///< called once per period
+  double max_operations = 1e10;  ///< two to five seconds; half as much again for motions near returns
+  int max_returns = 12;          ///< pieces of the motion that are kept where it does not settle
+  Observer observer;             ///< called once per period
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
 };
 
-/// The motion that a structure at rest settles to under its load.
-struct SettledMotion {
-  static constexpr int not_integrated = -1;
-  /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for
-  /// subharmonic ones, 0 for none within the options' limits, -1 when nothing could be integrated.
-  int attractor_periods = not_integrated;
-  int periods = 0;         ///< integrated
-  bool cancelled = false;  ///< the observer asked to stop
-  double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
-  /// C x steps load_periods(), m and N: of the last period of the problem.
+/// One period of the problem of a motion of the contacts, C x steps load_periods(), m and N.
+struct ContactPeriod {
   Eigen::MatrixXd displacement, force;
 };
 
+/// The motion that a structure at rest settles to under its load.
+struct SettledMotion {
+  static constexpr int unknown = -1;
+  /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for
+  /// subharmonic ones, 0 for none within the options' limits. -1 where it is not known: nothing could be
+  /// integrated, the operations ran out, or integrations of different accuracy say different numbers.
+  int attractor_periods = unknown;
+  int periods = 0;         ///< integrated
+  bool cancelled = false;  ///< the observer asked to stop
+  double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
+  /// The last period; without columns where nothing could be integrated.
+  ContactPeriod last;
+  /// Where the motion does not settle to one of the problem's period: the unstable motions of that period
+  /// near states that nearly return after it, by Newton's method on the map of the period, and where that
+  /// finds none, the piece of the motion that nearly returns [D. Auerbach et al., Phys. Rev. Lett.
+  /// 58, 1987, doi:10.1103/PhysRevLett.58.2387].
+  std::vector<ContactPeriod> returns;
+
+  bool integrated() const { return last.displacement.cols() > 0; }
+};
+
 /// Integrates M u'' + C u' + K u = load - contact forces of `problem` (frequency set before) from rest at a
-/// maximum of the load's first harmonic. Each
-/// step is exact for forces linear in time; the forces at its end are solved for with the resolvents of the
-/// laws, so that any law serves, rigid ones too [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999].
-/// Second order in the step. O(n^3) once, O(m^2 + C m) per step.
+/// maximum of the load's first harmonic. Steps in contact are as short as their error demands, and a number
+/// of periods is one that two integrations agree on, the second with a hundredth of the error of the first.
+/// O(n^3) once, O(m^2 + C m) per step.
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options = {});
 

@@ -1,0 +1,198 @@
+#include "response/contact_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wavebalance::solvers {
+namespace {
+
+// How often a step is halved at most. A contact that opens or closes is then known to 1e-9 periods.
+constexpr int deepest_level = 20;
+
+// The force f = law(u - d f, v - m f) of a law that depends on the velocity, by the regula falsi of Illinois
+// between 0 and the force at (u, v), every third step halved: the residual rises with f where no slope is
+// negative. At a jump of the law it is the value within.
+double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility) {
+  constexpr int max_steps = 150;
+  constexpr double settled = 1e-13;
+  double near = 0.0, far = law.force(u, v);
+  if (far == 0.0) return 0.0;
+  const auto excess = [&](double f) { return f - law.force(u - compliance * f, v - mobility * f); };
+  double near_excess = -far, far_excess = excess(far);
+  for (int i = 1; i <= max_steps && far_excess != 0.0; ++i) {
+    const bool halve = i % 3 == 0 || far_excess == near_excess;
+    const double share = halve ? 0.5 : far_excess / (far_excess - near_excess);
+    const double middle = far - share * (far - near), now = excess(middle);
+    if (std::abs(now) <= settled * std::abs(middle) || std::abs(far - near) <= settled * std::abs(far))
+      return middle;
+    if (now * far > 0.0) {
+      far = middle;
+      far_excess = now;
+      near_excess *= 0.5;
+    } else {
+      near = middle;
+      near_excess = now;
+      far_excess *= 0.5;
+    }
+  }
+  return far;
+}
+
+// Contact forces f at the end of a step with f_c = law_c(displacement_c - (D f)_c, velocity_c - (B f)_c), D
+// and B compliance and mobility of the step: Gauss-Seidel, each force by its resolvent for the flexibility
+// D_cc. `velocity` is empty where no law depends on it. Starts from `force`.
+Eigen::VectorXd solved_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
+                              const Eigen::MatrixXd& mobility, const Eigen::VectorXd& displacement,
+                              const Eigen::VectorXd& velocity, Eigen::VectorXd force) {
+  constexpr int max_rounds = 200;
+  constexpr double settled = 1e-12;
+  for (int round = 0; round < max_rounds; ++round) {
+    double change = 0.0;
+    for (Eigen::Index c = 0; c < force.size(); ++c) {
+      const AnyContactLaw& law = laws[static_cast<int>(c)];
+      const double d = compliance(c, c);
+      const double u = displacement[c] - compliance.row(c).dot(force) + d * force[c];
+      double next = 0.0;
+      if (velocity.size() > 0 && law.depends_on_velocity()) {
+        const double m = mobility(c, c);
+        const double v = velocity[c] - mobility.row(c).dot(force) + m * force[c];
+        next = implicit_force(law, u, v, d, m);
+      } else {
+        next = d > 0.0 ? law.resolvent(u, d).force : law.force(u);
+      }
+      change = std::max(change, std::abs(next - force[c]));
+      force[c] = next;
+    }
+    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) break;
+  }
+  return force;
+}
+
+// Whether a contact has a force at one of two times alone.
+bool opens_or_closes(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  return ((one.array() == 0.0) != (other.array() == 0.0)).any();
+}
+
+}  // namespace
+
+ContactFlow::ContactFlow(const CondensedProblem& problem, const ContactLaws& laws, int steps, ModalFlow flow)
+    : laws_(laws),
+      steps_(steps),
+      free_(problem, 2 * steps),
+      clear_below_(laws.gaps(problem.contacts())),
+      depends_on_velocity_(laws.depend_on_velocity()) {
+  free_state_ = flow.state(free_.initial_displacement(), free_.initial_velocity());
+  for (int c = 0; c < problem.contacts(); ++c)
+    if (!laws[c].unilateral()) clear_below_[c] = -std::numeric_limits<double>::infinity();
+  flows_.push_back(std::move(flow));
+}
+
+ContactFlow::State ContactFlow::at_rest() const {
+  return {-free_state_, Eigen::VectorXd::Zero(clear_below_.size())};
+}
+
+ContactFlow::State ContactFlow::balanced(State state) const {
+  const ModalFlow& flow = flows_.front();
+  Eigen::VectorXd velocity = free_velocity(0);
+  if (depends_on_velocity_) velocity += flow.contact_velocity(state.deviation);
+  const Eigen::VectorXd displacement = free_displacement(0) + flow.contact_displacement(state.deviation);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(displacement.size(), displacement.size());
+  state.force = solved_forces(laws_, flow.static_compliance(), none, displacement, velocity, state.force);
+  return state;
+}
+
+const ModalFlow& ContactFlow::flow(int level) {
+  while (static_cast<int>(flows_.size()) <= level) {
+    const int halvings = static_cast<int>(flows_.size());
+    flows_.push_back(flows_.front().over(std::ldexp(1.0 / (free_.frequency() * steps_), -halvings)));
+  }
+  return flows_[static_cast<std::size_t>(level)];
+}
+
+// Times are in ticks, the shortest step.
+Eigen::VectorXd ContactFlow::free_displacement(Ticks time) const {
+  constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
+  if (time % sample == 0) return free_.displacement_sample(time / sample % (2 * steps_));
+  return free_.displacement(std::ldexp(double(time), -deepest_level) / steps_);
+}
+
+Eigen::VectorXd ContactFlow::free_velocity(Ticks time) const {
+  constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
+  if (!depends_on_velocity_) return {};
+  if (time % sample == 0) return free_.velocity_sample(time / sample % (2 * steps_));
+  return free_.velocity(std::ldexp(double(time), -deepest_level) / steps_);
+}
+
+bool ContactFlow::is_clear(const Eigen::VectorXd& displacement) const {
+  return (displacement.array() <= clear_below_.array()).all();
+}
+
+// A step of the length of its level, whatever acts within.
+ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) {
+  const ModalFlow& flow = this->flow(level);
+  const auto states = double(flow.states()), contacts = double(clear_below_.size());
+  constexpr double around = 2000.0;  // operations of which the rest of a step takes the time
+  constexpr double of_law = 1500.0;  // and the resolvent of a law
+  operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
+  Step step;
+  step.end.deviation = flow.advance(begin.deviation, begin.force);
+  const Eigen::VectorXd predicted = free_displacement(end) + flow.contact_displacement(step.end.deviation);
+  step.displacement = predicted;
+  step.end.force = Eigen::VectorXd::Zero(predicted.size());
+  if (is_clear(predicted)) return step;
+  Eigen::VectorXd velocity = free_velocity(end);
+  if (depends_on_velocity_) velocity += flow.contact_velocity(step.end.deviation);
+  step.end.force =
+      solved_forces(laws_, flow.step_compliance(), flow.step_mobility(), predicted, velocity, begin.force);
+  flow.add_force(step.end.deviation, step.end.force);
+  step.displacement -= flow.step_compliance() * step.end.force;
+  return step;
+}
+
+// The same, halved as far as needed for an error in the state of at most `allowed`. `whole_step` is the
+// result of single(), if there is one.
+ContactFlow::Step ContactFlow::refined(const State& begin, Ticks start, int level, double allowed,
+                                       const Step* whole_step) {
+  constexpr double event = 1e-3;  // the share of the error that is allowed where a contact opens or closes
+  const Ticks length = Ticks{1} << (deepest_level - level), half = length / 2;
+  Step whole = whole_step ? *whole_step : single(begin, start + length, level);
+  if (level == deepest_level || operations_ > max_operations_) return whole;
+  const bool free = begin.force.isZero(0.0) && whole.end.force.isZero(0.0);
+  if (free &&
+      is_clear(free_displacement(start + half) + flow(level + 1).contact_displacement_after(begin.deviation)))
+    return whole;
+  const Step first = single(begin, start + half, level + 1);
+  Step second = single(first.end, start + length, level + 1);
+  const Eigen::VectorXd correction = (second.end.deviation - whole.end.deviation) / 3.0;
+  const bool changes =
+      opens_or_closes(begin.force, first.end.force) || opens_or_closes(first.end.force, second.end.force);
+  if (!(correction.norm() > allowed * (changes ? event : 1.0))) {
+    second.end.deviation += correction;
+    return second;
+  }
+  const Step middle = refined(begin, start, level + 1, allowed, &first);
+  return refined(middle.end, start + half, level + 1, allowed, nullptr);
+}
+
+ContactFlow::Period ContactFlow::period_from(const State& begin, double tolerance, double max_operations) {
+  const Ticks length = Ticks{1} << deepest_level;
+  const double allowed = tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
+  max_operations_ = operations_ + max_operations;
+  Period period;
+  period.displacement.resize(clear_below_.size(), steps_);
+  period.force.resize(clear_below_.size(), steps_);
+  period.end = begin;
+  for (int k = 0; k < steps_; ++k) {
+    Step step = refined(period.end, k * length, 0, allowed, nullptr);
+    period.displacement.col(k) = step.displacement;
+    period.force.col(k) = step.end.force;
+    period.end = std::move(step.end);
+    if (operations_ > max_operations_) return period;
+  }
+  period.complete = period.end.deviation.allFinite();
+  return period;
+}
+
+}  // namespace wavebalance::solvers

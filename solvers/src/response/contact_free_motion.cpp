@@ -1,0 +1,105 @@
+#include "response/contact_free_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "linalg/dense.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double whole_turn = 2.0 * std::numbers::pi;
+
+// Responses of all degrees of freedom without contact to a load of these amplitudes, n x harmonics.
+Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
+                                double frequency) {
+  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), amplitudes.cols());
+  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
+    if (amplitudes.col(n).isZero(0.0)) continue;
+    const Complex rate(0.0, whole_turn * frequency * double(n));
+    const Complex elastic(1.0, n > 0 ? structure.loss_factor : 0.0);
+    const Eigen::MatrixXcd impedance = elastic * Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
+                                       rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
+                                       rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
+    responses.col(n) = detail::Lu<Complex>(impedance).solve(Eigen::VectorXcd(amplitudes.col(n)));
+  }
+  return responses;
+}
+
+// The amplitudes of a load (n x harmonics) that is `start` periods ahead, so that the first harmonic of
+// `series` is at its maximum.
+Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXcd& series, double& start) {
+  start = 0.0;
+  Eigen::Index first = 1;
+  while (first < series.size() && series[first] == 0.0) ++first;
+  if (first >= series.size()) return amplitudes;
+  start = -std::arg(series[first]) / (whole_turn * double(first));
+  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n)
+    amplitudes.col(n) *= std::polar(1.0, whole_turn * double(n) * start);
+  return amplitudes;
+}
+
+// Every `step`-th harmonic: those of a load that repeats `step` times within the period.
+Eigen::VectorXcd every(int step, const Eigen::VectorXcd& harmonics) {
+  if (step == 1) return harmonics;
+  const Eigen::Index count = (harmonics.size() + step - 1) / step;
+  return Eigen::VectorXcd(harmonics(Eigen::seqN(0, count, step)));
+}
+
+// All that acts on the structure of a problem, n x harmonics of one period of the load.
+Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
+  const LinearStructure& structure = problem.structure();
+  const Eigen::VectorXcd harmonics = every(repeats, problem.load_harmonics());
+  LinearStructure forced;  // the forces alone
+  forced.load = Eigen::VectorXd::Zero(structure.size());
+  forced.forces = structure.forces;
+  Eigen::MatrixXcd amplitudes = forced.load_amplitudes(repeats * problem.frequency());
+  const Eigen::Index before = amplitudes.cols(), count = std::max(before, harmonics.size());
+  amplitudes.conservativeResize(Eigen::NoChange, count);
+  amplitudes.rightCols(count - before).setZero();
+  amplitudes.leftCols(harmonics.size()) += structure.load.cast<Complex>() * harmonics.transpose();
+  if (problem.load_scale() != 1.0) amplitudes.rightCols(count - 1) *= problem.load_scale();
+  return amplitudes;
+}
+
+}  // namespace
+
+ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int samples)
+    : repeats_(solvers::load_periods(problem)), frequency_(repeats_ * problem.frequency()) {
+  const LinearStructure& structure = problem.structure();
+  const bool forces_alone = structure.load.isZero(0.0) && !structure.forces.empty();
+  const Eigen::VectorXcd series = forces_alone ? structure.forces.front().amplitudes(frequency_)
+                                               : every(repeats_, problem.load_harmonics());
+  const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
+  const Eigen::MatrixXcd responses = load_responses(structure, amplitudes, frequency_);
+  contact_responses_ = structure.contact_directions * responses;
+  contact_rates_ = contact_responses_;
+  initial_displacement_ = responses.real().rowwise().sum();
+  initial_velocity_ = Eigen::VectorXd::Zero(structure.size());
+  for (Eigen::Index n = 0; n < responses.cols(); ++n) {
+    const double rate = whole_turn * frequency_ * double(n);
+    contact_rates_.col(n) *= Complex(0.0, rate);
+    initial_velocity_ -= rate * responses.col(n).imag();
+  }
+  displacements_.resize(contact_responses_.rows(), samples);
+  velocities_.resize(contact_responses_.rows(), samples);
+  for (int k = 0; k < samples; ++k) {
+    displacements_.col(k) = displacement(double(k) / samples);
+    velocities_.col(k) = velocity(double(k) / samples);
+  }
+}
+
+Eigen::VectorXd ContactFreeMotion::at(const Eigen::MatrixXcd& responses, double periods) {
+  const Complex turn = std::polar(1.0, whole_turn * periods);
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(responses.rows());
+  Complex phase(1.0, 0.0);
+  for (Eigen::Index n = 0; n < responses.cols(); ++n, phase *= turn)
+    motion += phase.real() * responses.col(n).real() - phase.imag() * responses.col(n).imag();
+  return motion;
+}
+
+}  // namespace wavebalance::solvers
