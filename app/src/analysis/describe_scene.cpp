@@ -65,14 +65,13 @@ std::string sides_text(const Scene& scene) {
   const auto both = std::count_if(pairs.begin(), pairs.end(),
                                   [](const auto& one) { return one.side == ObstacleSide::both; });
   if (both == 0) return "";
-  return ", two each of the " + count_text(both, "direction") + " with obstacles on both sides";
+  return "; two each of the " + count_text(both, "direction") + " with obstacles on both sides";
 }
 
 std::string contact_place(const Scene& scene) {
   const StructureType type = scene.structure.type;
   if (type == StructureType::bar) return "at the tip";
-  if (!scene.contact.pairs.empty())
-    return "at " + count_text(contact_count(scene), "contact") + sides_text(scene);
+  if (!scene.contact.pairs.empty()) return "at " + count_text(contact_count(scene), "contact");
   const std::string count = count_text(contact_count(scene), "degree") + " of freedom";
   return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
 }
@@ -110,7 +109,8 @@ std::string law_text(const Contact& contact) {
 std::string contact_line(const Scene& scene) {
   const Contact& contact = scene.contact;
   if (contact.law == ContactLawType::none) return "contact    none: the problem is linear\n";
-  return "contact    " + law_text(contact) + " " + contact_place(scene) + ", " + gap_text(contact) + "\n";
+  return "contact    " + law_text(contact) + " " + contact_place(scene) + ", " + gap_text(contact) +
+         sides_text(scene) + "\n";
 }
 
 std::string force_place(const Scene& scene) {

@@ -107,18 +107,18 @@ void check_gaps(const Document& document, const Scene& scene) {
                   " of freedom in contact");
 }
 
-/// One file is not two matrices.
-void check_same_file(const Document& document, const MatricesStructure& matrices) {
+/// One file is mass and stiffness of an oscillator with m = k at most.
+void check_same_file(const Document& document, const MatricesStructure& matrices, Eigen::Index rows) {
   std::error_code ignored;
-  if (!matrices.mass.empty() && std::filesystem::equivalent(matrices.mass, matrices.stiffness, ignored))
+  if (rows > 1 && std::filesystem::equivalent(matrices.mass, matrices.stiffness, ignored))
     fail_rule(document, {"structure.stiffness"}, "is the file of structure.mass, too; expected another one");
 }
 
 void check_files(const Document& document, Scene& scene) {
-  check_same_file(document, scene.structure.matrices);
   try {
     const auto files = structure_files(scene);
     scene.structure.matrices.files.contents = files;
+    check_same_file(document, scene.structure.matrices, files->matrices.stiffness.rows());
     check_against_files(scene, *files);
   } catch (const StructureFault& fault) {
     fail_rule(document, {fault.key()}, fault.what());

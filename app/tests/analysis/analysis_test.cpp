@@ -1,7 +1,6 @@
 #include "wavebalance/app/analysis/analysis.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,7 +10,6 @@
 #include "support/bar_scene.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
@@ -357,37 +355,6 @@ TEST(Analyse, SweepSaysAtWhichFrequencyItIsLargest) {
             frequencies[static_cast<std::size_t>(peak)]);
 }
 
-TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
-  const Scene scene = scene_of();
-  const auto bytes = [&](const std::vector<std::string>& overrides) {
-    return estimate_cost(scene_of(overrides)).bytes;
-  };
-  const double base = bytes({});
-  EXPECT_GT(base, 10e6);
-  EXPECT_LT(base, 100e6);
-  EXPECT_NEAR(bytes({"analysis.output_points=1048576"}) - base, 500.0 * (1048576 - 1024), 1e-6 * base);
-  EXPECT_GT(bytes({"time.quadrature_points=16777216"}), 130.0 * 16777216);
-  EXPECT_GT(bytes({"time.functions=1048576", "time.quadrature_points=1048576"}), 280.0 * 1048576);
-  EXPECT_GT(estimate_cost(scene_of({"time.functions=1048576", "time.quadrature_points=1048576"})).seconds,
-            100.0 * estimate_cost(scene).seconds);
-  EXPECT_TRUE(std::isnan(estimate_cost(scene_of({"analysis.type=time_stepping"})).seconds));
-}
-
-TEST(CostEstimate, CountsTheDenseMatricesOfLawsOfTheVelocityAtTheSamplesInContact) {
-  const auto bytes = [](const std::string& points, const std::string& frequency) {
-    Scene scene = scene_of({"time.quadrature_points=" + points, "forcing.frequency=" + frequency});
-    const double without = estimate_cost(scene).bytes;
-    scene.contact.law = ContactLawType::hunt_crossley;
-    scene.contact.more.hertz_stiffness = 1e9;
-    return estimate_cost(scene).bytes - without;
-  };
-  EXPECT_GT(bytes("16384", "150"),
-            40.0 * 1600.0 * 1600.0);  // a tenth or more of the period lies beyond the gap
-  EXPECT_LT(bytes("16384", "150"), 10.0 * 16384.0 * 16384.0);
-  EXPECT_GT(bytes("32768", "150"), 3.9 * bytes("16384", "150"));
-  EXPECT_LT(bytes("16384", "20"), bytes("16384", "150"));
-}
-
 TEST(Analyse, SaysThatNoContactClosesAndThatNoLoadActs) {
   const Record open = analyse(scene_of({"contact.gap=5"}));
   ASSERT_TRUE(open.converged);
@@ -398,14 +365,6 @@ TEST(Analyse, SaysThatNoContactClosesAndThatNoLoadActs) {
   const Record unloaded = analyse(scene_of({"forcing.amplitude=0"}));
   ASSERT_FALSE(unloaded.warnings.empty());
   EXPECT_EQ(unloaded.warnings[0].find("No load acts"), 0u) << unloaded.warnings[0];
-}
-
-TEST(AvailableMemory, IsThatOfTheMachineAtMost) {
-  EXPECT_GT(available_memory(), 1e6);
-  EXPECT_LE(available_memory(),
-            static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)));
-  EXPECT_EQ(memory_text(1.234e9), "1.2 GB");
-  EXPECT_EQ(memory_text(15.2e6), "15 MB");
 }
 
 TEST(DescribeScene, SaysHowLargeAndWhetherAdmissible) {

@@ -75,6 +75,29 @@ TEST(RunWords, UnstablePartsEndAtTheSpecialPointsBetweenTheirPoints) {
   EXPECT_NE(text.find("unstable at 10.5 to 12.25 Hz, 14 Hz."), std::string::npos) << text;
 }
 
+TEST(RunWords, WordsOfModesAreExplainedWhereTheyStand) {
+  const Summary mode{{"converged", true},
+                     {"status", std::string("converged")},
+                     {"analysis", std::string("nonlinear_mode")},
+                     {"mode", std::int64_t{1}},
+                     {"points", std::int64_t{20}},
+                     {"points_tongue", std::int64_t{2}},
+                     {"largest_energy_ratio", 3.0},
+                     {"virial_residual", 1.5e-5}};
+  const std::string text = joined(outcome_sentences(mode, unknown));
+  EXPECT_NE(text.find("A tongue is a part of the curve on an internal resonance"), std::string::npos) << text;
+  EXPECT_NE(text.find("The virial residual, at most 1.5e-05, is the relative error"), std::string::npos)
+      << text;
+  Table points({"type", "energy_ratio"});
+  points.append_row({std::string("krein_collision"), 2.0});
+  const std::string stability =
+      joined(stability_sentences({{"stability", std::string("converged")}, {"special_points", points}}, {}));
+  EXPECT_NE(
+      stability.find("Krein collisions, where two pairs of multipliers meet on the unit circle and leave it"),
+      std::string::npos)
+      << stability;
+}
+
 TEST(RunWords, EveryStatusOfStabilityHasASentenceOfItsOwn) {
   using solvers::StabilityStatus;
   std::vector<std::string> statuses{"stable", "unstable", "no_modes", "no_law_of_impact", "interrupted"};

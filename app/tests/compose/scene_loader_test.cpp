@@ -276,24 +276,6 @@ TEST(SceneLoader, SyntaxErrorsCarryTheirLine) {
   EXPECT_NE(message_of("a = 1\na = 2\n").find("case.toml:2"), std::string::npos);
 }
 
-TEST(SceneLoader, TextsWithoutTheirQuotesAreShownWithThem) {
-  const auto allowed = [](const std::string& law) {
-    const auto details = error_of(with(bar_scene, "law = \"exponential\"", "law = " + law));
-    EXPECT_NE(details.allowed.find("not valid TOML"), std::string::npos) << details.allowed;
-    return details.allowed;
-  };
-  for (const char* law : {"linear", "\"linear", "linear\""})
-    EXPECT_NE(allowed(law).find("; a text stands between quotes, as in law = \"linear\""), std::string::npos)
-        << law << ": " << allowed(law);
-  const auto number = error_of(with(bar_scene, "gap = 1e-3", "gap = 1e-3.5"));
-  EXPECT_EQ(number.allowed.find("between quotes"), std::string::npos) << number.allowed;
-}
-
-TEST(SceneLoader, OverridesMayHaveBlanksAroundTheirKeyAndValue) {
-  const std::vector<std::string> overrides{" contact.gap = 2e-3 "};
-  EXPECT_EQ(parse_scene(bar_scene, "case.toml", overrides).contact.gap, 2e-3);
-}
-
 TEST(SceneLoader, OverridesAreAppliedBeforeChecks) {
   const std::vector<std::string> overrides{"contact.gap=2e-3", "time.trial=haar", "time.weight=\"fourier\"",
                                            "time.functions=32", "contact.gap=3e-3"};
