@@ -133,8 +133,8 @@ bool ContactFlow::is_clear(const Eigen::VectorXd& displacement) const {
 ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) {
   const ModalFlow& flow = this->flow(level);
   const auto states = double(flow.states()), contacts = double(clear_below_.size());
-  constexpr double around = 2000.0;  // operations of which the rest of a step takes the time
-  constexpr double of_law = 1500.0;  // and the resolvent of a law
+  constexpr double around = 1250.0;  // operations of which the rest of a step takes the time
+  constexpr double of_law = 1000.0;  // and the resolvent of a law
   operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
   Step step;
   step.end.deviation = flow.advance(begin.deviation, begin.force);

@@ -199,9 +199,13 @@ class Settling {
 
   void add_returns(SettledMotion& result) {
     if (!result.integrated()) return;
-    return_limit_ = flow_.operations() + 0.5 * options_.max_operations;
+    return_limit_ = flow_.operations() + options_.max_operations;
     std::vector<ContactFlow::State> found;
     for (const std::size_t k : nearest_returns()) {
+      const double change = distance(states_[k + static_cast<std::size_t>(load_periods())], states_[k]);
+      result.cancelled = !goes_on(options_.observer,
+                                  {"settling", result.periods, change, "relative change per period", 1.0});
+      if (result.cancelled) return;
       const ContactFlow::State state = periodic_near(states_[k]).value_or(states_[k]);
       const bool known = std::any_of(found.begin(), found.end(),
                                      [&](const auto& one) { return distance(one, state) <= same; });
