@@ -36,7 +36,7 @@ class Search {
     attractor = motion.attractor_periods;
     cancelled = motion.cancelled;
     const bool shorter = attractor > 0 && attractor < wanted_ && wanted_ % attractor == 0;
-    if (!motion.integrated() || cancelled || shorter) return std::nullopt;
+    if (attractor == SettledMotion::unknown || cancelled || shorter) return std::nullopt;
     const double start = motion.start - problem_.pair().first_sample();
     return near(resample(motion.last.displacement, problem_.points(), start),
                 resample(motion.last.force, problem_.points(), start), Strategy::settling);

