@@ -231,6 +231,24 @@ def test_a_rigid_obstacle_at_a_redistributed_mass_is_met_and_the_structure_is_re
     np.testing.assert_allclose(everywhere.displacement.mean(axis=1), mean, atol=1e-9 * size)
 
 
+def test_stability_that_is_not_known_is_masked_and_not_unstable():
+    curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
+
+    class WithAGap:
+        unstable = np.concatenate([[-1], curve.unstable[1:]])
+
+        def __getattr__(self, name):
+            return getattr(curve._core, name)
+
+        def __len__(self):
+            return len(curve)
+
+    stable = type(curve)(WithAGap()).stable
+    assert stable[0] is np.ma.masked and np.count_nonzero(stable.mask) == 1
+    np.testing.assert_array_equal(stable[1:], curve.unstable[1:] == 0)
+    assert not np.ma.is_masked(curve.stable)
+
+
 def test_the_curve_of_a_hardening_spring_folds_and_is_unstable_between_its_folds():
     curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
     folds = [point["frequency"] for point in curve.special("fold")]

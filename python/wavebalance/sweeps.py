@@ -38,7 +38,7 @@ class Sweep:
     unstable: numpy.ndarray
         Floquet multipliers outside the unit circle, -1 where not known.
     stable: numpy.ndarray
-        Truth values: whether the motion is known to be stable.
+        Truth values, masked where the stability is not known (numpy.ma): such a motion is neither stable nor unstable.
     contacts: numpy.ndarray
         Intervals of contact within the period.
     stability_status: list[str]
@@ -67,7 +67,7 @@ class Sweep:
         known = len(core.unstable) == len(core)
         self.unstable: npt.NDArray[np.int32] = core.unstable if known else np.full(len(core), -1, np.int32)
         self.contacts: npt.NDArray[np.int32] = core.contacts if known else np.full(len(core), -1, np.int32)
-        self.stable: npt.NDArray[np.bool_] = self.unstable == 0
+        self.stable = np.ma.masked_array(self.unstable == 0, mask=self.unstable < 0)
         self.stability_status: list[str] = core.stability_status
         self.special_points: list[dict[str, Any]] = core.special_points
 

@@ -161,12 +161,9 @@ double place_of_peak(const solvers::FrequencySweep& curve) {
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
                     const std::vector<CurveMotion>& motions) {
   Record record;
-  record.converged = sweep.converged();
-  record.interrupted = sweep.interrupted() || sweep.stability.cancelled ||
-                       std::any_of(sweep.branches.begin(), sweep.branches.end(), [](const auto& branch) {
-                         return branch.end == solvers::BranchEnd::cancelled;
-                       });
-  record.status = sweep.status();
+  record.interrupted = sweep.stopped();
+  record.converged = sweep.converged() && !record.interrupted;
+  record.status = record.interrupted ? "interrupted" : sweep.status();
   record.warnings = model.warnings;
   warn_of_unbalanced_load(record, model);
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
@@ -248,6 +245,12 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
 
 }  // namespace
 
+bool Sweep::stopped() const {
+  return interrupted() || stability.cancelled || !motions_left_out.empty() ||
+         std::any_of(branches.begin(), branches.end(),
+                     [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
+}
+
 std::string Sweep::status() const {
   if (interrupted()) return "interrupted";
   if (curve.rounding_error > largest_rounding_error) return inaccurate_status(curve.rounding_error);
@@ -316,7 +319,7 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
 Record stable_sweep_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
                            const Observer& observer) {
   Sweep sweep = stable_sweep(scene, model, observer, start);
-  const auto motions = curve_motions(scene, model, sweep);
+  const auto motions = curve_motions(scene, model, sweep, observer);
   Record record = sweep_record(scene, model, sweep, motions);
   append_start(record, start, !sweep.curve.points.empty(), sweep.start_distance);
   return record;

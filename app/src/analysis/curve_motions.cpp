@@ -39,11 +39,9 @@ class MotionsOfCurve {
     return measured("peak", parameter_of(*highest, sweep_.curve.parameter), highest->unknown);
   }
 
-  std::vector<CurveMotion> special() {
-    std::vector<CurveMotion> motions;
-    for (const auto& point : sweep_.stability.special_points)
-      motions.push_back(measured(std::string(to_string(point.type)), point.unknown_parameter, point.unknown));
-    return motions;
+  CurveMotion special(std::size_t index) {
+    const auto& point = sweep_.stability.special_points[index];
+    return measured(std::string(to_string(point.type)), point.unknown_parameter, point.unknown);
   }
 
   /// At a frequency or amplitude of the load.
@@ -157,25 +155,35 @@ void append_files(Record& record, const StructureModel& model, const CurveMotion
 
 }  // namespace
 
-std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep) {
+std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
+                                       const Observer& observer) {
   const MotionAt& wanted = scene.analysis.motion_at;
   std::vector<CurveMotion> motions;
   if (wanted.empty() || sweep.curve.points.empty()) return motions;
   MotionsOfCurve curve(scene, model, sweep);
-  if (wanted.peak) {
+  const auto goes_on_to = [&](const std::string& motion) {
+    const bool stopped = sweep.stopped() || !goes_on(observer, {"motions", int(motions.size())});
+    if (stopped) sweep.motions_left_out.push_back(motion);
+    return !stopped;
+  };
+  if (wanted.peak && goes_on_to("peak")) {
     motions.push_back(curve.peak());
     motions.back().name = "motion_peak";
   }
   if (wanted.special) {
     std::map<std::string, int> counts;
-    for (CurveMotion& motion : curve.special()) {
-      motion.name = fmt::format("motion_{}_{}", motion.at, ++counts[motion.at]);
-      motions.push_back(std::move(motion));
+    for (std::size_t i = 0; i < sweep.stability.special_points.size(); ++i) {
+      const std::string type(to_string(sweep.stability.special_points[i].type));
+      const std::string name = fmt::format("{}_{}", type, ++counts[type]);
+      if (!goes_on_to(name)) continue;
+      motions.push_back(curve.special(i));
+      motions.back().name = "motion_" + name;
     }
   }
-  for (const double place : wanted.places)
-    append_numbered(motions, curve.at_place(place),
-                    fmt::format("motion_{}{}", cell_text(place), sweep_axis(sweep).suffix));
+  for (const double place : wanted.places) {
+    const std::string name = cell_text(place) + sweep_axis(sweep).suffix;
+    if (goes_on_to(name)) append_numbered(motions, curve.at_place(place), "motion_" + name);
+  }
   return motions;
 }
 
@@ -193,8 +201,13 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
                                 " was not solved for to the tolerance: " + motion.name +
                                 ".csv holds the last iterate.");
   }
+  if (!sweep.motions_left_out.empty())
+    record.warnings.push_back(
+        fmt::format("analysis.motion_at: the sweep was interrupted before these motions were solved for: {}.",
+                    fmt::join(sweep.motions_left_out, ", ")));
   for (const double place : scene.analysis.motion_at.places)
-    if (std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
+    if (sweep.motions_left_out.empty() &&
+        std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
           return motion.at == axis.quantity && motion.place == place;
         }))
       record.warnings.push_back(

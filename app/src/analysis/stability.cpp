@@ -238,7 +238,8 @@ void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep
 }
 
 void append_stability(Record& record, const Sweep& sweep) {
-  const bool complete = sweep.stability.points.size() == sweep.curve.points.size();
+  const bool complete =
+      !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
   append_turning_points(record, sweep, complete && folds_are_known(sweep.stability));
   if (sweep.stability.points.empty()) return;
   record.summary.emplace_back("stability",

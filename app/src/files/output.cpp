@@ -1,6 +1,7 @@
 #include "wavebalance/app/files/output.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -77,6 +78,29 @@ fs::path write_temporary(const fs::path& target, std::string_view contents) {
   throw IoError(target, "cannot be written: " + reason_of(error));
 }
 
+/// Whether a file can be written beside `target`. Its name is gone before any signal is delivered, so that
+/// one that ends the process leaves nothing.
+void require_writable(const fs::path& target) {
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, &before);
+  int opened = -1;
+  try {
+    const auto [descriptor, temporary] = open_temporary(target);
+    ::unlink(temporary.c_str());
+    opened = descriptor;
+  } catch (...) {
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    throw;
+  }
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  Descriptor descriptor(opened);
+  int error = write_all(descriptor.get(), "wavebalance\n");
+  if (error == 0) error = flush(descriptor.get());
+  if (!descriptor.close() && error == 0) error = errno;
+  if (error != 0) throw IoError(target, "cannot be written: " + reason_of(error));
+}
+
 void flush_directory(const fs::path& directory) {
   Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (descriptor.get() >= 0) ::fsync(descriptor.get());  // a courtesy: the files themselves are safe
@@ -145,8 +169,7 @@ IoError::IoError(fs::path path, std::string reason)
 OutputFiles::OutputFiles(fs::path directory) : directory_(without_trailing_slash(directory)) {
   const std::vector<fs::path> made = make_directories(directory_);
   try {
-    const fs::path probe = write_temporary(directory_ / "probe", "wavebalance\n");
-    ::unlink(probe.c_str());
+    require_writable(directory_ / "probe");
   } catch (const IoError& error) {
     remove_directories(made);
     throw IoError(directory_, "cannot be written to: " + error.reason());

@@ -40,6 +40,27 @@ TEST(MotionAt, IsOneNameOneFrequencyOrAList) {
   EXPECT_EQ(whole.analysis.motion_at, (MotionAt{true, false, {2.0}}));
 }
 
+// Stopped for good at the first step of a phase.
+Observer stop_at(const std::string& phase) {
+  return [phase, stopped = false](const solvers::Progress& progress) mutable {
+    stopped = stopped || progress.phase == phase;
+    return !stopped;
+  };
+}
+
+TEST(InterruptedSweep, HasNotConvergedWhereverTheInterruptionCame) {
+  for (const std::string phase : {"frequency sweep", "stability", "motions"}) {
+    const Record record = analyse(stop_with({"analysis.motion_at=[\"peak\", 0.18, 0.24]"}), stop_at(phase));
+    EXPECT_TRUE(record.interrupted) << phase;
+    EXPECT_FALSE(record.converged) << phase;
+    EXPECT_EQ(record.status, "interrupted") << phase;
+    const bool named = std::any_of(record.warnings.begin(), record.warnings.end(), [](const auto& warning) {
+      return warning.find("before these motions were solved for: peak, 0.18Hz, 0.24Hz.") != std::string::npos;
+    });
+    EXPECT_TRUE(named) << phase;
+  }
+}
+
 TEST(MotionAt, IsWrittenAsItWasRead) {
   const Scene scene = stop_with({"analysis.motion_at=[0.2, \"peak\", 0.18]"});
   EXPECT_NE(write_scene(scene).find("motion_at = [\"peak\", 0.2, 0.18]"), std::string::npos);

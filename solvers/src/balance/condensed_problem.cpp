@@ -116,6 +116,8 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   if (!(frequency_hz > 0.0) || !std::isfinite(frequency_hz))
     throw std::invalid_argument("CondensedProblem: frequency is " + std::to_string(frequency_hz) +
                                 " Hz; it must be positive and finite");
+  if (frequency_hz == condensed_at_) return;
+  condensed_at_ = 0.0;  // in case that no condensation exists there
   frequency_ = frequency_hz;
   const int solved = pair_.solved_size();
   const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
@@ -130,6 +132,7 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   append_dropped();
   update_kernel();
   update_free_response();
+  condensed_at_ = frequency_hz;
 }
 
 void CondensedProblem::set_regularization(Eigen::VectorXd flexibility) {

@@ -2,132 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "linalg/bracket.hpp"
+#include "stability/contact_along.hpp"
+#include "stability/stiffness_cuts.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using Complex = std::complex<double>;
-
-// The displacement of one contact at any time, in periods.
-class ContactCurve {
- public:
-  // `samples` are those of the sum of trial functions with `coefficients`, a spectrum over translates, from
-  // the time `first` on.
-  ContactCurve(const AnyTimeBasis& trial, const Eigen::VectorXcd& coefficients, Eigen::VectorXd samples,
-               double first)
-      : samples_(std::move(samples)), first_(first), smooth_(trial.pointwise_derivatives() >= 1) {
-    if (!trial.band_limited()) return;
-    harmonics_.resize(coefficients.size());
-    for (Eigen::Index n = 0; n < harmonics_.size(); ++n)
-      harmonics_[n] = (n == 0 ? 1.0 : 2.0) * trial.fourier_coefficient(int(n)) * coefficients[n];
-  }
-
-  const Eigen::VectorXd& samples() const { return samples_; }
-  /// The slope, m per period.
-  double rate(double time) const {
-    const double step = 1e-3 / double(samples_.size());
-    if (harmonics_.size() == 0) return ((*this)(time + step) - (*this)(time - step)) / (2.0 * step);
-    const Complex turn = std::polar(1.0, 2.0 * std::numbers::pi * time);
-    Complex sum = 0.0;
-    for (Eigen::Index n = harmonics_.size() - 1; n > 0; --n)
-      sum = (sum + Complex(0.0, 2.0 * std::numbers::pi * double(n)) * harmonics_[n]) * turn;
-    return sum.real();
-  }
-  /// The time of a sample, or of a place between two, in periods.
-  double time_of(double sample) const { return first_ + sample / double(samples_.size()); }
-
-  double operator()(double time) const {
-    if (harmonics_.size() == 0) return interpolated(time);
-    const Complex turn = std::polar(1.0, 2.0 * std::numbers::pi * time);
-    double re = 0.0, im = 0.0;  // Horner's scheme
-    for (Eigen::Index n = harmonics_.size() - 1; n >= 0; --n) {
-      const double next = re * turn.real() - im * turn.imag() + harmonics_[n].real();
-      im = re * turn.imag() + im * turn.real() + harmonics_[n].imag();
-      re = next;
-    }
-    return re;
-  }
-
- private:
-  double interpolated(double time) const {
-    const Eigen::Index count = samples_.size();
-    const double since = time - first_;
-    const double position = (since - std::floor(since)) * double(count);
-    const auto left = static_cast<Eigen::Index>(position);
-    const double x = position - double(left);
-    const auto at = [&](Eigen::Index offset) { return samples_[(left + offset + count) % count]; };
-    if (!smooth_) return (1.0 - x) * at(0) + x * at(1);
-    return at(0) * (1.0 - x * x) * (2.0 - x) / 2.0 + at(1) * x * (1.0 + x) * (2.0 - x) / 2.0 -
-           (at(-1) * (2.0 - x) + at(2) * (1.0 + x)) * x * (1.0 - x) / 6.0;
-  }
-
-  Eigen::VectorXd samples_;
-  double first_;
-  Eigen::VectorXcd harmonics_;  // u = Re sum harmonics exp(2 pi i n t); empty where there are too many
-  bool smooth_;
-};
-
-// A law along the motion of its contact. In the force form the curve is that of v = u + flexibility f.
-struct ContactAlong {
-  AnyContactLaw law;
-  bool unilateral;
-  double flexibility;  // m/N; 0 in the displacement form
-  ContactCurve curve;
-  double frequency;  // Hz
-
-  bool has_velocity() const { return law.depends_on_velocity(); }
-  double velocity(double time) const { return frequency * curve.rate(time); }
-  ForceSlopes at(double time) const { return law.at(curve(time), velocity(time)); }
-  bool acts(double time) const {
-    const ForceSlopes slopes = at(time);
-    return slopes.force != 0.0 || slopes.tangent != 0.0 || slopes.damping != 0.0;
-  }
-  double damping(double time) const { return has_velocity() ? at(time).damping : 0.0; }
-  // At the end of an interval: the force just inside less that outside, over the velocity.
-  double impulse(double time) const {
-    if (!has_velocity()) return 0.0;
-    constexpr double beside = 1e-9;
-    const double jump = std::abs(at(time + beside).force - at(time - beside).force);
-    const double speed = std::abs(velocity(time)),
-                 slope = at(time + beside).tangent + at(time - beside).tangent;
-    // What a smooth force changes by within these times is no jump.
-    const double smooth = 4.0 * beside * std::abs(curve.rate(time) * slope);
-    return speed > 0.0 && jump > smooth + 1e-6 * std::abs(law.force(curve(time), speed)) ? jump / speed : 0.0;
-  }
-
-  double tangent(double time) const {
-    if (has_velocity()) return at(time).tangent;
-    const double v = curve(time);
-    const double u = flexibility > 0.0 ? v - flexibility * law.resolvent(v, flexibility).force : v;
-    // At the end of an interval rounding may leave u below the gap.
-    return law.tangent(unilateral ? std::max(u, law.gap()) : u);
-  }
-};
-
-// The time between samples l and l + 1 at which the curve crosses the level.
-double crossing(const ContactCurve& curve, double level, Eigen::Index l) {
-  const Eigen::VectorXd& samples = curve.samples();
-  detail::Bracket bracket{curve.time_of(double(l)), curve.time_of(double(l + 1)), samples[l] - level,
-                          samples[(l + 1) % samples.size()] - level};
-  double root = bracket.low;
-  const auto value = [&](double time) -> std::optional<double> {
-    root = time;
-    return curve(time) - level;
-  };
-  const double scale = std::abs(bracket.low_value) + std::abs(bracket.high_value);
-  detail::narrow(bracket, 60, value, [&](const detail::Bracket& now, double residual) {
-    return std::abs(residual) < 1e-15 * scale || now.high - now.low < 1e-15;
-  });
-  return root;
-}
+using detail::ContactAlong;
+using detail::ContactCurve;
+using detail::crossing;
 
 // Whether the curve rises above the level between samples about l that are all below it: the vertex of the
 // parabola through three samples says whether to look, the curve itself decides.
@@ -278,6 +166,7 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
   if (kappa == 0.0 || stiffness.held || stiffness.status != StabilityStatus::converged) return stiffness;
   PeriodicStiffness held;
   held.held = true;
+  held.cuts = stiffness.cuts;
   if (stiffness.damping) {
     held.status = StabilityStatus::effort_limit;  // not of laws that depend on the velocity
     return held;
@@ -363,6 +252,8 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
     }
     (along.law.is_rigid() ? rigid : elastic) += static_cast<int>(intervals->size());
     stiffness.intervals.insert(stiffness.intervals.end(), intervals->begin(), intervals->end());
+    if (!intervals->empty())
+      for (const double time : detail::cut_times(along)) stiffness.cuts.push_back({c, time});
   }
   if (rigid > 0) {
     stiffness.status = StabilityStatus::no_finite_stiffness;

@@ -106,7 +106,7 @@ class Tracker {
       index_ = i;
       if (before) examine(*before, here, 1.0);
       before = std::move(here);
-      if (!tell(value_of(point))) break;
+      if (result_.cancelled || !tell(value_of(point))) break;
     }
     return std::move(result_);
   }
@@ -166,7 +166,7 @@ class Tracker {
   // curve. Of points between no more is measured than what differs.
   void examine(const CurveSample& a, const CurveSample& b, double width) {
     const Difference between = difference(a, b);
-    if (!between.any()) return;
+    if (!between.any() || result_.cancelled || !tell(a.point.parameter)) return;
     const bool located = width <= options_.tolerance;
     const bool signs = between.fold || between.flip;
     const Measure what = between.count ? Measure::count : signs ? Measure::signs : Measure::contacts;

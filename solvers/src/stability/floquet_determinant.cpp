@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "linalg/dense.hpp"
 #include "stability/gauss_rule.hpp"
+#include "stability/smooth_pieces.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -13,10 +15,35 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
+int gauss_nodes(int harmonics, double length) { return int(std::ceil(1.8 * harmonics * length)) + 7; }
+int periodic_nodes(int harmonics) { return 3 * harmonics + 8; }
+
+// The intervals of contact in pieces whose rules resolve the stiffness; nothing where 64 pieces of an
+// interval between cuts do not.
+std::optional<std::vector<ContactInterval>> resolved_pieces(const PeriodicStiffness& stiffness,
+                                                            int harmonics) {
+  constexpr int most = 64;
+  const std::vector<double> allowed = allowed_errors(stiffness);
+  const auto nodes = [harmonics](double length) { return gauss_nodes(harmonics, length); };
+  std::vector<ContactInterval> pieces;
+  for (const ContactInterval& interval : cut_intervals(stiffness)) {
+    const double error = allowed[std::size_t(interval.contact)];
+    if (interval.always() &&
+        is_resolved_periodically(stiffness, interval.contact, periodic_nodes(harmonics), error)) {
+      pieces.push_back(interval);
+      continue;
+    }
+    const auto halves = resolved_halves(stiffness, interval, nodes, error, most);
+    if (!halves) return std::nullopt;
+    pieces.insert(pieces.end(), halves->begin(), halves->end());
+  }
+  return pieces;
+}
+
 // Equal weights where contact lasts the whole period, since the integrand is then periodic.
 QuadratureRule rule_for(const ContactInterval& interval, int harmonics) {
-  if (!interval.always()) return gauss_rule(int(std::ceil(1.8 * harmonics * interval.length())) + 7);
-  const int count = 3 * harmonics + 8;
+  if (!interval.always()) return gauss_rule(gauss_nodes(harmonics, interval.length()));
+  const int count = periodic_nodes(harmonics);
   return {Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / count),
           Eigen::VectorXd::Constant(count, 1.0 / count)};
 }
@@ -30,7 +57,10 @@ FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const Pe
       harmonics_(truncation.harmonics),
       at_once_(truncation.at_once) {
   if (at_once_.size() == 0) at_once_ = Eigen::VectorXd::Zero(dynamics.contacts());
-  place_nodes(stiffness);
+  if (const auto pieces = resolved_pieces(stiffness, harmonics_))
+    place_nodes(stiffness, *pieces);
+  else
+    resolved_ = false;
   const Eigen::Index count = harmonics_ + 2;
   waves_.resize(nodes(), 2 * count);
   for (Eigen::Index i = 0; i < waves_.rows(); ++i) {
@@ -43,9 +73,10 @@ FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const Pe
   }
 }
 
-void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness) {
+void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness,
+                                     const std::vector<ContactInterval>& pieces) {
   std::vector<double> times, weights;
-  for (const ContactInterval& interval : stiffness.intervals) {
+  for (const ContactInterval& interval : pieces) {
     const QuadratureRule rule = rule_for(interval, harmonics_);
     const auto begin = static_cast<Eigen::Index>(times.size());
     if (ranges_.empty() || ranges_.back().contact != interval.contact)
@@ -259,7 +290,7 @@ struct Contacts {
 Contacts extremes(const PeriodicStiffness& stiffness, int contacts) {
   constexpr int samples = 8;
   Contacts result{Eigen::VectorXd::Zero(contacts), Eigen::VectorXd::Zero(contacts)};
-  for (const ContactInterval& interval : stiffness.intervals) {
+  for (const ContactInterval& interval : cut_intervals(stiffness)) {
     double& longest = result.longest[interval.contact];
     longest = std::max(longest, interval.length());
     for (int i = 0; i <= samples; ++i) {

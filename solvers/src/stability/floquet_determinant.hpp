@@ -31,6 +31,8 @@ class FloquetDeterminant {
   FloquetDeterminant(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
                      const Truncation& truncation);
 
+  /// Whether the rules of the pieces represent the stiffness; without that there are no nodes.
+  bool resolved() const { return resolved_; }
   int nodes() const { return static_cast<int>(time_.size()); }
   int harmonics() const { return harmonics_; }         ///< H
   double angular_frequency() const { return omega_; }  ///< omega, rad/s
@@ -66,7 +68,7 @@ class FloquetDeterminant {
     Eigen::Index begin, count;
   };
 
-  void place_nodes(const PeriodicStiffness& stiffness);
+  void place_nodes(const PeriodicStiffness& stiffness, const std::vector<ContactInterval>& pieces);
   ContactDynamics::Values compliance(std::complex<double> sigma, bool with_slope) const;
   ContactDynamics::Values weighted_compliance(std::complex<double> sigma, double weight,
                                               bool with_slope) const;
@@ -87,6 +89,7 @@ class FloquetDeterminant {
   int harmonics_;
   Eigen::VectorXd at_once_;  // C, m/N, taken out of the compliances
   int evaluations_ = 0;
+  bool resolved_ = true;
   std::vector<Range> ranges_;
   Eigen::VectorXd time_, weighted_;  // nodes, in periods; w_j D(t_j)
   Eigen::MatrixXd waves_;            // nodes x 2 (H + 2), cos(2 pi n t), then sin, n = 0..H + 1

@@ -232,6 +232,10 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
     return result;
   }
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
+  if (!determinant.resolved()) {
+    result.status = StabilityStatus::too_few_harmonics;
+    return result;
+  }
   CharacteristicPolynomial characteristic(determinant);
   const double period = characteristic.period();
   find_exponents(characteristic, options);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
+
+#include "stability/smooth_pieces.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -20,7 +23,8 @@ double largest_exponent(const ContactDynamics& dynamics) {
 
 // The largest rate, 1/s, of the contact's stiffness on the mass or the damping beside it, which are those of
 // h(t) at t = 0.
-double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {
+double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                    const std::vector<ContactInterval>& intervals) {
   const int contacts = dynamics.contacts();
   Eigen::VectorXd jump = Eigen::VectorXd::Zero(contacts), rise = jump;
   for (const ContactPole& pole : dynamics.poles()) {
@@ -31,7 +35,7 @@ double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& st
   }
   constexpr int samples = 8;
   double fastest = 0.0;
-  for (const ContactInterval& interval : stiffness.intervals)
+  for (const ContactInterval& interval : intervals)
     for (int i = 0; i <= samples; ++i) {
       const double time = interval.begin + interval.length() * i / samples;
       const double stop = std::abs(stiffness.tangent(interval.contact, time));
@@ -46,11 +50,53 @@ double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& st
   return fastest;
 }
 
+// A piece whose parts resolve the stiffness of its closed contacts, or what it is halved into where they do
+// not; nothing of more than `most` parts.
+std::optional<std::vector<Piece>> halved(const PeriodicStiffness& stiffness, const Piece& whole, int nodes,
+                                         const std::vector<double>& allowed, int most) {
+  const auto resolves = [&](const Piece& piece) {
+    const double length = (piece.end - piece.begin) / piece.parts;
+    for (const int contact : piece.closed)
+      for (int part = 0; part < piece.parts; ++part) {
+        const double begin = piece.begin + part * length;
+        if (!is_resolved(stiffness, {contact, begin, begin + length}, nodes,
+                         allowed[static_cast<std::size_t>(contact)]))
+          return false;
+      }
+    return true;
+  };
+  std::vector<Piece> waiting{whole}, result;
+  int count = whole.parts;
+  while (!waiting.empty()) {
+    const Piece piece = waiting.back();
+    waiting.pop_back();
+    if (resolves(piece)) {
+      result.push_back(piece);
+      continue;
+    }
+    const int parts = (piece.parts + 1) / 2;
+    count += 2 * parts - piece.parts;
+    if (count > most) return std::nullopt;
+    const double middle = 0.5 * (piece.begin + piece.end);
+    waiting.push_back({middle, piece.end, piece.closed, parts});
+    waiting.push_back({piece.begin, middle, piece.closed, parts});
+  }
+  return result;
+}
+
+// The pieces as intervals of each of their closed contacts.
+std::vector<ContactInterval> closed_intervals(const std::vector<Piece>& pieces) {
+  std::vector<ContactInterval> intervals;
+  for (const Piece& piece : pieces)
+    for (const int contact : piece.closed) intervals.push_back({contact, piece.begin, piece.end});
+  return intervals;
+}
+
 }  // namespace
 
 std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest) {
   std::vector<double> ends{0.0, 1.0};
-  for (const ContactInterval& interval : stiffness.intervals)
+  for (const ContactInterval& interval : cut_intervals(stiffness))
     for (const double time : {interval.begin, interval.end}) ends.push_back(time - std::floor(time));
   std::sort(ends.begin(), ends.end());
   std::vector<Piece> result;
@@ -70,9 +116,24 @@ std::optional<std::vector<Piece>> resolving_pieces(const ContactDynamics& dynami
                                                    const PeriodicStiffness& stiffness, double frequency,
                                                    const MonodromyOptions& options) {
   const double phase = options.max_phase * frequency, resolved = phase * options.max_pieces;
-  const double contact = contact_rate(dynamics, stiffness);
+  const double contact = contact_rate(dynamics, stiffness, cut_intervals(stiffness));
   if (!(contact <= resolved)) return std::nullopt;
-  return pieces(stiffness, phase / std::clamp(largest_exponent(dynamics), contact, resolved));
+  const std::vector<double> allowed = allowed_errors(stiffness);
+  std::vector<Piece> result;
+  for (const Piece& piece :
+       pieces(stiffness, phase / std::clamp(largest_exponent(dynamics), contact, resolved))) {
+    const auto parts = halved(stiffness, piece, options.nodes, allowed, options.max_pieces + piece.parts);
+    if (!parts) return std::nullopt;
+    result.insert(result.end(), parts->begin(), parts->end());
+  }
+  // Short pieces find peaks of the stiffness that samples of the whole interval pass by.
+  const double peak = contact_rate(dynamics, stiffness, closed_intervals(result));
+  if (!(peak <= resolved)) return std::nullopt;
+  if (peak > contact)
+    for (Piece& piece : result)
+      if (!piece.closed.empty())
+        piece.parts = std::max(piece.parts, int(std::ceil((piece.end - piece.begin) * peak / phase)));
+  return result;
 }
 
 }  // namespace wavebalance::solvers

@@ -167,6 +167,9 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
     return counted_by_monodromy(dynamics, stiffness, frequency, options)
         .value_or(without_count(StabilityStatus::too_few_harmonics));
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
+  if (!determinant.resolved())
+    return counted_by_monodromy(dynamics, stiffness, frequency, options)
+        .value_or(without_count(StabilityStatus::too_few_harmonics));
   if (is_costly(determinant, stiffness, frequency))
     if (const auto counted = counted_by_monodromy(dynamics, stiffness, frequency, options)) return *counted;
   result.harmonics = options.harmonics;
@@ -208,6 +211,22 @@ UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const 
   return unstable_multipliers(ContactDynamics(problem.structure()), problem, laws, response, options);
 }
 
+namespace {
+
+StabilitySigns signs_by_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                  double frequency, const StabilityOptions& options) {
+  StabilitySigns signs;
+  const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
+  signs.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
+  if (!multipliers) return signs;
+  const auto real = multipliers->imag().array() == 0.0;
+  signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
+  signs.flip = (real && multipliers->real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
+  return signs;
+}
+
+}  // namespace
+
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                                double frequency, const StabilityOptions& options) {
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
@@ -222,17 +241,9 @@ StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicSt
   if (signs.status != StabilityStatus::converged) return signs;
   const Truncation truncation =
       stiffness.damping ? Truncation{} : truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0) {
-    const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
-    signs.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
-    if (multipliers) {
-      const auto real = multipliers->imag().array() == 0.0;
-      signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
-      signs.flip = (real && multipliers->real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
-    }
-    return signs;
-  }
+  if (truncation.harmonics == 0) return signs_by_monodromy(dynamics, stiffness, frequency, options);
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
+  if (!determinant.resolved()) return signs_by_monodromy(dynamics, stiffness, frequency, options);
   signs.fold = determinant.sign_at_zero();
   signs.flip = determinant.sign_at_half();
   return signs;

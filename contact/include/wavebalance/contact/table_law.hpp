@@ -27,6 +27,8 @@ class TableLaw {
   /// m: where the force begins in a unilateral table, else 0.
   double gap() const { return gap_; }
   static std::vector<double> kinks() { return {}; }
+  /// m: the points, at which the slope's slope jumps.
+  const std::vector<double>& breakpoints() const { return displacements_; }
   /// Whether the table begins with two zeros at least, and has no negative force and none falling beyond its
   /// end.
   bool unilateral() const { return unilateral_; }

@@ -26,13 +26,16 @@ struct Sweep {
       1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()
   double wall_seconds = 0.0;
   std::string amplitude_unit = "N";  ///< of an amplitude sweep
+  std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
 
   bool converged() const {
     return curve.status == solvers::SweepStatus::reached_end &&
            curve.rounding_error <= largest_rounding_error;
   }
-  /// The observer stopped it; the curve holds the points so far.
+  /// The observer stopped the curve, which holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
+  /// The observer stopped it, its stability, a branch or its motions.
+  bool stopped() const;
   /// "reached_end", or the reason why not, such as "interrupted".
   std::string status() const;
 };

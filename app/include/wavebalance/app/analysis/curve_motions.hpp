@@ -24,7 +24,9 @@ struct CurveMotion {
 /// points in their order along the curve, and at each frequency or amplitude those of all its points, in the
 /// same order and numbered if there are several. Those of the branches are left out. A place that the curve
 /// does not pass has none. `sweep` is one of the scene with motion_at. A response and its stability for each.
-std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep);
+/// Where the observer stops them, the others are left out and named in sweep.motions_left_out.
+std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
+                                       const Observer& observer = {});
 
 /// The files of the motions of a sweep, their table `motions` in the summary, and a warning for each place
 /// without one and each motion that was not solved for.

@@ -64,6 +64,13 @@ concept SaysItsKinks = requires(const Law& law) {
   { law.kinks() } -> std::convertible_to<std::vector<double>>;
 };
 
+/// A law that says at which displacements its slope or the slope's slope jumps, ascending, m: the knots of a
+/// table. Rules that integrate the slope over time are cut there. One that does not say has its kinks.
+template <class Law>
+concept SaysItsBreakpoints = requires(const Law& law) {
+  { law.breakpoints() } -> std::convertible_to<std::vector<double>>;
+};
+
 /// A law that says whether its force falls nowhere, so that its resolvent is one force for every v.
 template <class Law>
 concept SaysWhetherItRises = requires(const Law& law) {
@@ -108,6 +115,8 @@ class AnyContactLaw {
   ForceSlopes at(double displacement, double velocity) const { return model_->at(displacement, velocity); }
   /// Where the slope jumps, ascending, m.
   std::vector<double> kinks() const { return model_->kinks(); }
+  /// Where the slope or its slope jumps, ascending, m.
+  std::vector<double> breakpoints() const { return model_->breakpoints(); }
 
   /// f with f = force(v - flexibility f), and df/dv, for flexibility > 0 in m/N: the law in series with a
   /// spring. A monotone law has exactly one; for a falling one any is returned.
@@ -143,6 +152,7 @@ class AnyContactLaw {
     virtual bool depends_on_velocity() const = 0;
     virtual ForceSlopes at(double displacement, double velocity) const = 0;
     virtual std::vector<double> kinks() const = 0;
+    virtual std::vector<double> breakpoints() const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>) const = 0;
   };
@@ -175,6 +185,12 @@ class AnyContactLaw {
         return law_.kinks();
       else
         return kinks_of(*this);
+    }
+    std::vector<double> breakpoints() const override {
+      if constexpr (SaysItsBreakpoints<Law>)
+        return law_.breakpoints();
+      else
+        return kinks();
     }
     double potential(double displacement) const override { return law_.potential(displacement); }
     double gap() const override { return law_.gap(); }

@@ -15,7 +15,9 @@ enum class StabilityStatus {
   no_response,          ///< the response has not converged
   no_finite_stiffness,  ///< a law in contact has no finite stiffness: rigid contact
   too_few_samples,    ///< an interval of contact lies between two samples, so that the response has no force
-  too_few_harmonics,  ///< contact is so stiff that max_harmonics do not resolve it
+  /// contact is so stiff that max_harmonics do not resolve it, or its stiffness varies so fast that halved
+  /// intervals do not
+  too_few_harmonics,
   undamped,           ///< an exponent of the structure without contact lies on the imaginary axis
   /// contacts without mass and damping that deflect each other at once, or whose force depends on the
   /// velocity
@@ -38,10 +40,18 @@ struct ContactInterval {
   bool always() const { return end - begin >= 1.0; }
 };
 
-/// The stiffness D(t) of the contacts over one period: smooth within intervals of contact, zero outside.
+/// A time (in periods) within an interval of contact at which the stiffness or its slope jumps.
+struct StiffnessCut {
+  int contact = 0;
+  double time = 0.0;
+};
+
+/// The stiffness D(t) of the contacts over one period, zero outside the intervals of contact.
 struct PeriodicStiffness {
   StabilityStatus status = StabilityStatus::converged;
   std::vector<ContactInterval> intervals;  ///< by contact, then by begin
+  /// Where it is known to be not smooth within them. Rules of Gauss nodes halve what is not resolved else.
+  std::vector<StiffnessCut> cuts = {};
   /// The slope of the law, N/m, of a contact at a time (in periods) within one of its intervals.
   std::function<double(int contact, double time)> tangent;
   /// The slope by the velocity, N s/m, likewise; empty where no law depends on the velocity.
@@ -61,6 +71,7 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
 /// both bases are band-limited, otherwise a cubic through the samples, or for trial functions without a
 /// derivative a line. In the force form u is the displacement at which the law has the force, v - rho(v) /
 /// epsilon. A law that also acts below its gap has the intervals between its kinks, less those without slope.
+/// Up to 64 times a period at which a contact passes other breakpoints of its law are cuts.
 ///
 /// A law whose force depends on the velocity has its intervals where it acts; the velocity is that of the sum
 /// of trial functions or of the interpolant.

@@ -1,0 +1,41 @@
+// A frequency that is set is not condensed again, and nothing else is forgotten by that.
+#include <gtest/gtest.h>
+
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+CondensedProblem unit_problem(double damping) {
+  return {testing::fourier_pair(7, 16), testing::unit_oscillator(damping, 1.0), testing::cosine_load()};
+}
+
+TEST(RepeatedFrequency, HasTheFreeResponseOfAProblemSetOnce) {
+  CondensedProblem once = unit_problem(0.1), twice = unit_problem(0.1);
+  twice.set_frequency(0.3);
+  twice.set_regularization(Eigen::VectorXd::Constant(1, 1e-3));
+  twice.set_load_scale(2.0);
+  twice.set_frequency(0.3);
+  once.set_load_scale(2.0);
+  once.set_regularization(Eigen::VectorXd::Constant(1, 1e-3));
+  once.set_frequency(0.3);
+  EXPECT_EQ(twice.contact_free_response(), once.contact_free_response());
+  const Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(16, -1.0, 2.0);
+  Eigen::VectorXd of_once(16), of_twice(16);
+  once.apply(force, of_once);
+  twice.apply(force, of_twice);
+  EXPECT_EQ(of_twice, of_once);
+}
+
+TEST(RepeatedFrequency, ThatHasNoCondensationThrowsEachTime) {
+  LinearStructure undamped = testing::unit_oscillator(0.0, 1.0);
+  undamped.stiffness.coeffRef(0, 0) = 0.0;  // singular at harmonic 0
+  CondensedProblem problem(testing::fourier_pair(7, 16), undamped, testing::cosine_load());
+  EXPECT_THROW(problem.set_frequency(0.3), SingularSystem);
+  EXPECT_THROW(problem.set_frequency(0.3), SingularSystem);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
