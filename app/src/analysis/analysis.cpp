@@ -217,7 +217,7 @@ solvers::PeriodicResponse first_point(const Scene& scene, const StructureModel& 
   auto& [problem, laws] = composed;
   auto first = scene.analysis.subharmonic == 1
                    ? solvers::forced_response(problem, laws, how, samples.displacement, samples.force)
-                   : several_periods(problem, laws, model.structure, how, samples.displacement);
+                   : several_periods(problem, laws, model, how, samples.displacement);
   distance = relative_distance(first.displacement, samples.displacement);
   return first;
 }

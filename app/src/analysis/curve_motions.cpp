@@ -97,7 +97,7 @@ class MotionsOfCurve {
           solvers::structure_motion(composed_.problem, response, scene_.analysis.motion_points).displacement;
     motion.stability.status.clear();
     if (scene_.analysis.stability && motion.converged)
-      motion.stability = response_stability(composed_.problem, composed_.laws, response, model_.structure);
+      motion.stability = response_stability(composed_.problem, composed_.laws, response, model_);
     return motion;
   }
 

@@ -39,7 +39,7 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
   if (options.structure_points > 0)
     result.structure = solvers::structure_motion(problem, found, options.structure_points);
   if (options.stability && found.converged())
-    result.stability = response_stability(problem, laws, found, model.structure);
+    result.stability = response_stability(problem, laws, found, model);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
@@ -51,7 +51,7 @@ void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem&
   auto& [problem, laws] = composed;
   const auto found = scene.analysis.subharmonic == 1
                          ? solvers::forced_response(problem, laws, solver, options.guess, options.guess_force)
-                         : several_periods(problem, laws, model.structure, solver, options.guess);
+                         : several_periods(problem, laws, model, solver, options.guess);
   note_solution(result, problem, found, scene, model);
   result.start_distance = relative_distance(found.displacement, options.guess);
   note_motion(problem, found, laws, scene, model, options, result);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include "analysis/summary_parts.hpp"
@@ -33,15 +32,6 @@ solvers::StabilityOptions options_for(const solvers::CondensedProblem& problem) 
 std::string status_of(const solvers::UnstableMultipliers& count) {
   if (count.status != solvers::StabilityStatus::converged) return std::string(to_string(count.status));
   return count.count > 0 ? "unstable" : "stable";
-}
-
-/// Nothing where the structure has no modes to compute.
-std::optional<solvers::ContactDynamics> dynamics_of(const solvers::LinearStructure& structure) {
-  try {
-    return solvers::ContactDynamics(structure);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
 }
 
 std::complex<double> leading_multiplier(const solvers::ContactDynamics& dynamics,
@@ -140,10 +130,10 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
 
 ResponseStability response_stability(const solvers::CondensedProblem& problem,
                                      const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
-                                     const solvers::LinearStructure& structure) {
+                                     const StructureModel& model) {
   const auto start = std::chrono::steady_clock::now();
   ResponseStability result;
-  const auto dynamics = dynamics_of(structure);
+  const solvers::ContactDynamics* dynamics = model.contact_dynamics();
   if (!dynamics) return result;
   const auto count = solvers::unstable_multipliers(*dynamics, problem, laws, found, options_for(problem));
   result.status = status_of(count);
@@ -157,15 +147,14 @@ ResponseStability response_stability(const solvers::CondensedProblem& problem,
 }
 
 solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
-                                          const solvers::ContactLaws& laws,
-                                          const solvers::LinearStructure& structure,
+                                          const solvers::ContactLaws& laws, const StructureModel& model,
                                           const solvers::ForcedResponseOptions& how,
                                           const Eigen::VectorXd& guess) {
-  const auto dynamics = dynamics_of(structure);
+  const solvers::ContactDynamics* dynamics = model.contact_dynamics();
   solvers::SubharmonicOptions options;
   options.response = how;
   options.floquet.stability = options_for(problem);
-  return solvers::subharmonic_response(problem, laws, dynamics ? &*dynamics : nullptr, options, guess);
+  return solvers::subharmonic_response(problem, laws, dynamics, options, guess);
 }
 
 void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
@@ -208,7 +197,7 @@ void add_branches(const Scene& scene, const StructureModel& model, const solvers
 }  // namespace
 
 void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
-  const auto dynamics = dynamics_of(model.structure);
+  const solvers::ContactDynamics* dynamics = model.contact_dynamics();
   if (!scene.analysis.stability || sweep.curve.points.empty() || !dynamics) return;
   ComposedProblem composed = compose_problem(scene, model);
   solvers::CurveStabilityOptions options;

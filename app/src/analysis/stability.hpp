@@ -7,16 +7,15 @@
 
 namespace wavebalance::app {
 
-/// The stability of a converged response of `problem`, the condensation of `structure`.
+/// The stability of a converged response of `problem`, the condensation of the model's structure.
 ResponseStability response_stability(const solvers::CondensedProblem& problem,
                                      const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
-                                     const solvers::LinearStructure& structure);
+                                     const StructureModel& model);
 
 /// A response of a problem of several periods of the load, whose motion has no shorter period if one is
 /// found.
 solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
-                                          const solvers::ContactLaws& laws,
-                                          const solvers::LinearStructure& structure,
+                                          const solvers::ContactLaws& laws, const StructureModel& model,
                                           const solvers::ForcedResponseOptions& how,
                                           const Eigen::VectorXd& guess = {});
 

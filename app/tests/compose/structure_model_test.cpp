@@ -40,6 +40,13 @@ double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
+TEST(StructureModel, ComputesItsPolesOnceForAllCopies) {
+  const StructureModel model = make_model(load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case1.toml"));
+  const StructureModel copy = model;
+  ASSERT_NE(model.contact_dynamics(), nullptr);
+  EXPECT_EQ(model.contact_dynamics(), copy.contact_dynamics());
+}
+
 TEST(MatricesModel, BarGivenAsMatricesHasTheSameNonlinearMode) {
   const TemporaryFolder folder;
   const Scene bar = parse_scene(rod_scene, "rod.toml");

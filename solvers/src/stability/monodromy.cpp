@@ -12,6 +12,7 @@
 #include "stability/gauss_rule.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/monodromy_pieces.hpp"
+#include "stability/pole_states.hpp"
 #include "stability/stability_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -29,86 +30,6 @@ Eigen::MatrixXd lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& po
   return values;
 }
 
-// The states of a structure: of each pole its amplitude a, a' = lambda a - left^T f, as one real number or
-// as its real and imaginary part. The contacts are displaced by sum Re(weight residue shape a), weight 2 for
-// a pair.
-class States {
- public:
-  States(const ContactDynamics& dynamics, double period) : dynamics_(dynamics), period_(period) {
-    for (const ContactPole& pole : dynamics.poles()) {
-      begins_.push_back(size_);
-      size_ += pole.exponent.imag() == 0.0 ? 1 : 2;
-    }
-  }
-
-  Eigen::Index size() const { return size_; }
-
-  // C x size(): displacements of the contacts a time (in periods) after the states.
-  Eigen::MatrixXd free_motion(double time) const {
-    Eigen::MatrixXd motion(dynamics_.contacts(), size_);
-    for (std::size_t l = 0; l < begins_.size(); ++l) {
-      const ContactPole& pole = dynamics_.poles()[l];
-      const Eigen::VectorXcd shape = pole.residue * std::exp(pole.exponent * time * period_) * pole.shape;
-      if (pole.exponent.imag() == 0.0) {
-        motion.col(begins_[l]) = shape.real();
-      } else {
-        motion.col(begins_[l]) = 2.0 * shape.real();
-        motion.col(begins_[l] + 1) = -2.0 * shape.imag();
-      }
-    }
-    return motion;
-  }
-
-  // C x size(): their velocities, m/s.
-  Eigen::MatrixXd free_velocity(double time) const {
-    Eigen::MatrixXd motion(dynamics_.contacts(), size_);
-    for (std::size_t l = 0; l < begins_.size(); ++l) {
-      const ContactPole& pole = dynamics_.poles()[l];
-      const Eigen::VectorXcd shape =
-          pole.exponent * pole.residue * std::exp(pole.exponent * time * period_) * pole.shape;
-      if (pole.exponent.imag() == 0.0) {
-        motion.col(begins_[l]) = shape.real();
-      } else {
-        motion.col(begins_[l]) = 2.0 * shape.real();
-        motion.col(begins_[l] + 1) = -2.0 * shape.imag();
-      }
-    }
-    return motion;
-  }
-
-  // Takes the states of all columns on by `time`.
-  void advance(double time, Eigen::MatrixXd& states) const {
-    for (std::size_t l = 0; l < begins_.size(); ++l) {
-      const Complex growth = std::exp(dynamics_.poles()[l].exponent * time * period_);
-      if (dynamics_.poles()[l].exponent.imag() == 0.0) {
-        states.row(begins_[l]) *= growth.real();
-        continue;
-      }
-      const Eigen::RowVectorXd re = states.row(begins_[l]), im = states.row(begins_[l] + 1);
-      states.row(begins_[l]) = growth.real() * re - growth.imag() * im;
-      states.row(begins_[l] + 1) = growth.imag() * re + growth.real() * im;
-    }
-  }
-
-  // size() x C: the states a time after unit impulses (N s) at the contacts.
-  Eigen::MatrixXd after_impulse(double time) const {
-    Eigen::MatrixXd states(size_, dynamics_.contacts());
-    for (std::size_t l = 0; l < begins_.size(); ++l) {
-      const ContactPole& pole = dynamics_.poles()[l];
-      const Eigen::RowVectorXcd row = std::exp(pole.exponent * time * period_) * pole.left.transpose();
-      states.row(begins_[l]) = row.real();
-      if (pole.exponent.imag() != 0.0) states.row(begins_[l] + 1) = row.imag();
-    }
-    return states;
-  }
-
- private:
-  const ContactDynamics& dynamics_;
-  double period_;
-  Eigen::Index size_ = 0;
-  std::vector<Eigen::Index> begins_;
-};
-
 // The map of perturbations over the pieces of a period.
 class Propagator {
  public:
@@ -123,7 +44,7 @@ class Propagator {
       below_.push_back(lagrange(rule_.points, rule_.points[i] * rule_.points));
   }
 
-  const States& states() const { return states_; }
+  const PoleStates& states() const { return states_; }
 
   void pass(const Piece& piece, Eigen::MatrixXd& states) const {
     if (stiffness_.impulse) strike(piece.begin, states);
@@ -260,7 +181,7 @@ class Propagator {
 
   const ContactDynamics& dynamics_;
   const PeriodicStiffness& stiffness_;
-  States states_;
+  PoleStates states_;
   double period_;
   QuadratureRule rule_;
   std::vector<Eigen::MatrixXd> below_;
@@ -282,7 +203,7 @@ Eigen::MatrixXd generator(const ContactDynamics& dynamics, Eigen::Index size) {
 // Holds contacts at zero from a state in which they need not be there: the impulse that closes them, and the
 // map over `length` (s) under the forces that keep them. h0 is the jump of the displacements after a unit
 // impulse.
-bool hold(const States& states, const ContactDynamics& dynamics, const std::vector<int>& closed,
+bool hold(const PoleStates& states, const ContactDynamics& dynamics, const std::vector<int>& closed,
           double length, Eigen::MatrixXd& map) {
   const Eigen::MatrixXd displaced = states.free_motion(0.0)(closed, Eigen::all);
   const Eigen::MatrixXd struck = states.after_impulse(0.0)(Eigen::all, closed);
@@ -297,6 +218,28 @@ bool hold(const States& states, const ContactDynamics& dynamics, const std::vect
   const Eigen::MatrixXd held = free - detail::product(struck, h0.solve(detail::product(displaced, free)));
   map = detail::product(detail::exponential(length * held), map);
   return true;
+}
+
+// Pieces in the order in which the longest free flight comes first, and its length in periods.
+double begin_with_free_flight(std::vector<Piece>& pieces) {
+  const auto length_from = [&](std::size_t first) {
+    double length = 0.0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Piece& piece = pieces[(first + i) % pieces.size()];
+      if (!piece.closed.empty()) break;
+      length += piece.end - piece.begin;
+    }
+    return length;
+  };
+  std::size_t first = 0;
+  double longest = 0.0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (const double length = length_from(i); length > longest) {
+      first = i;
+      longest = length;
+    }
+  std::rotate(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
+  return longest;
 }
 
 void require_causal(const char* who, const ContactDynamics& dynamics) {
@@ -325,15 +268,26 @@ void MonodromyOptions::validate() const {
   detail::require_positive("MonodromyOptions", "max_phase", max_phase);
 }
 
-Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
-                              double frequency, const MonodromyOptions& options) {
+namespace {
+
+// The stiffness of a structure that is held, once all arguments are checked.
+PeriodicStiffness checked_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
+                                    double frequency, const MonodromyOptions& options) {
   options.validate();
-  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
+  PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   require_stability_arguments("monodromy", dynamics, stiffness, frequency, 1);
   require_causal("monodromy", dynamics);
   if (stiffness.status != StabilityStatus::converged)
     throw std::invalid_argument("monodromy: the status of the stiffness is " +
                                 std::string(to_string(stiffness.status)) + "; it must be converged");
+  return stiffness;
+}
+
+}  // namespace
+
+Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
+                              double frequency, const MonodromyOptions& options) {
+  const PeriodicStiffness stiffness = checked_stiffness(dynamics, of_contacts, frequency, options);
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
   const Eigen::Index size = propagator.states().size();
   const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
@@ -345,30 +299,42 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
 
 double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                             double frequency, const MonodromyOptions& options) {
-  const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
+  auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
   if (!resolving) return std::numeric_limits<double>::infinity();
-  const double states = double(States(dynamics, 1.0 / frequency).size());
-  double operations = 25.0 * states * states * states;  // of the eigenvalues [Golub & Van Loan]
+  const PoleStates all(dynamics, 1.0 / frequency);
+  const auto states = double(all.size()),
+             left = double(all.left_after(begin_with_free_flight(*resolving)).size());
+  double operations = 25.0 * left * left * left;  // of the eigenvalues [Golub & Van Loan]
   for (const Piece& piece : *resolving) {
     const double rows = options.nodes * double(piece.closed.size());
-    operations +=
-        piece.parts * rows * (2.0 / 3.0 * rows * rows + 2.0 * rows * states + 4.0 * states * states);
+    operations += piece.parts * rows * (2.0 / 3.0 * rows * rows + 2.0 * rows * left + 4.0 * states * left);
   }
   return operations;
 }
 
-Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+// From the begin of a free flight: what it leaves nothing of has columns of zeros, and so multipliers of
+// zero.
+Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                            double frequency, const MonodromyOptions& options) {
-  Eigen::MatrixXd map = monodromy_map(dynamics, stiffness, frequency, options);
-  if (!map.allFinite()) return Eigen::VectorXcd::Constant(map.rows(), std::nan(""));
-  return by_falling_modulus(std::move(map));
+  const PeriodicStiffness stiffness = checked_stiffness(dynamics, of_contacts, frequency, options);
+  const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
+  const Eigen::Index size = propagator.states().size();
+  auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
+  if (!resolving) return Eigen::VectorXcd::Constant(size, std::nan(""));
+  const auto left = propagator.states().left_after(begin_with_free_flight(*resolving));
+  Eigen::MatrixXd states = Eigen::MatrixXd::Identity(size, size)(Eigen::all, left);
+  for (const Piece& piece : *resolving) propagator.pass(piece, states);
+  if (!states.allFinite()) return Eigen::VectorXcd::Constant(size, std::nan(""));
+  Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(size);
+  multipliers.head(static_cast<Eigen::Index>(left.size())) = by_falling_modulus(states(left, Eigen::all));
+  return multipliers;
 }
 
 Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
                                  double frequency) {
   require_stability_arguments("rigid_monodromy", dynamics, contact, frequency, 1);
   require_causal("rigid_monodromy", dynamics);
-  const States states(dynamics, 1.0 / frequency);
+  const PoleStates states(dynamics, 1.0 / frequency);
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(states.size(), states.size());
   for (const Piece& piece : pieces(contact, 1.0)) {
     const double length = piece.end - piece.begin;

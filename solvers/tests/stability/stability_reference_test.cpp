@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "constants.hpp"
+#include "stability/monodromy_map.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/stability_cases.hpp"
@@ -175,6 +176,24 @@ struct OscillatorPoint {
   Complex first, second;
   double contact_fraction;
 };
+
+// Of the 50 states of the overdamped bar few are left after its free flight.
+TEST(Monodromy, HasTheEigenvaluesOfTheWholeMap) {
+  for (const testing::Jl14Case& one : {testing::jl14_case_1, testing::jl14_case_2}) {
+    CondensedProblem problem(testing::fourier_pair(63, 256), one.structure(), testing::cosine_load());
+    problem.set_frequency(one.frequency_hz);
+    const PeriodicResponse response = forced_response(problem, one.law, {});
+    ASSERT_TRUE(response.converged());
+    const ContactDynamics dynamics(problem.structure());
+    const PeriodicStiffness stiffness = contact_stiffness(problem, one.law, response);
+    const Eigen::VectorXcd all = by_falling_modulus(monodromy_map(dynamics, stiffness, one.frequency_hz, {})),
+                           found = monodromy(dynamics, stiffness, one.frequency_hz);
+    ASSERT_EQ(found.size(), all.size());
+    EXPECT_GT(std::abs(all[0]), 1e-6);
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      EXPECT_NEAR(std::abs(found[i]), std::abs(all[i]), 1e-9 * std::abs(all[0])) << i;
+  }
+}
 
 TEST(Monodromy, OfTheOscillatorWithAStopIsExactTo1e6) {
   const std::array<OscillatorPoint, 4> points{

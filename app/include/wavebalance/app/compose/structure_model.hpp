@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/compose/structure_dynamics.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
@@ -31,10 +32,14 @@ struct StructureModel {
   std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
   /// Of the condensations of problems that are made of it, as CondensedProblem::set_threads() takes them.
   int threads = 0;
+  /// Of `structure`, for all runs that share the model.
+  std::shared_ptr<StructureDynamics> dynamics = std::make_shared<StructureDynamics>();
 
   int contacts() const { return structure.contacts(); }
   int size() const { return structure.size(); }
   bool reduced() const { return recovery.size() > 0; }
+  /// Null where the structure has no modes to compute.
+  const solvers::ContactDynamics* contact_dynamics() const { return dynamics->of(structure); }
   /// unknowns x points: displacements (or velocities) of the whole structure from those of the reduced one, r
   /// x points. Throws std::invalid_argument if the rows do not fit. O(unknowns r points).
   Eigen::MatrixXd recover(const Eigen::MatrixXd& coordinates) const;

@@ -8,7 +8,8 @@ namespace wavebalance::solvers {
 
 /// How the variational equations are integrated.
 struct MonodromyOptions {
-  int nodes = 20;  ///< Gauss nodes on each piece of an interval of contact
+  int nodes =
+      20;  ///< Gauss nodes on each piece of an interval of contact, which is halved where they do not do
   /// Largest change over a piece of the phase of the highest mode and of the contact's stiffness on the mass
   /// beside it, rad.
   double max_phase = 12.0;
@@ -26,10 +27,11 @@ struct MonodromyOptions {
 ///
 /// collocated at Gauss nodes; pieces end where any contact opens or closes. It shares neither harmonics nor
 /// the determinant with unstable_multipliers() and serves to check it. Any number of contacts, massless ones
-/// too. A reduced structure has the multipliers of its reduced modes. O(pieces (nodes^2 n C^2 + (nodes C)^3 +
-/// nodes C n^2) + n^3). Throws std::invalid_argument for a frequency (Hz) that is not positive and finite, a
-/// stiffness whose status is not converged, and options out of range. NaN where the contact is so stiff that
-/// max_pieces do not resolve it.
+/// too. A reduced structure has the multipliers of its reduced modes. Of the n states, m are more than
+/// rounding after the longest free flight; the multipliers of the others are zero. O(pieces (nodes^2 n C^2 +
+/// (nodes C)^3 + nodes C n m) + m^3). Throws std::invalid_argument for a frequency (Hz) that is not positive
+/// and finite, a stiffness whose status is not converged, and options out of range. NaN where the contact is
+/// so stiff that max_pieces do not resolve it.
 Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                            double frequency, const MonodromyOptions& options = {});
 

@@ -1,0 +1,75 @@
+#include "stability/pole_states.hpp"
+
+#include <cmath>
+#include <complex>
+
+namespace wavebalance::solvers {
+
+using Complex = std::complex<double>;
+
+PoleStates::PoleStates(const ContactDynamics& dynamics, double period)
+    : dynamics_(dynamics), period_(period) {
+  for (const ContactPole& pole : dynamics.poles()) {
+    begins_.push_back(size_);
+    size_ += pole.exponent.imag() == 0.0 ? 1 : 2;
+  }
+}
+
+std::vector<Eigen::Index> PoleStates::left_after(double time) const {
+  constexpr double vanished = 1e-20;
+  std::vector<Eigen::Index> left;
+  for (std::size_t l = 0; l < begins_.size(); ++l) {
+    const Complex exponent = dynamics_.poles()[l].exponent;
+    if (std::exp(exponent.real() * time * period_) < vanished) continue;
+    left.push_back(begins_[l]);
+    if (exponent.imag() != 0.0) left.push_back(begins_[l] + 1);
+  }
+  return left;
+}
+
+Eigen::MatrixXd PoleStates::motion_of_contacts(double time, int derivative) const {
+  Eigen::MatrixXd motion(dynamics_.contacts(), size_);
+  for (std::size_t l = 0; l < begins_.size(); ++l) {
+    const ContactPole& pole = dynamics_.poles()[l];
+    const Complex rate = derivative == 0 ? 1.0 : pole.exponent;
+    const Eigen::VectorXcd shape =
+        rate * pole.residue * std::exp(pole.exponent * time * period_) * pole.shape;
+    if (pole.exponent.imag() == 0.0) {
+      motion.col(begins_[l]) = shape.real();
+    } else {
+      motion.col(begins_[l]) = 2.0 * shape.real();
+      motion.col(begins_[l] + 1) = -2.0 * shape.imag();
+    }
+  }
+  return motion;
+}
+
+Eigen::MatrixXd PoleStates::free_motion(double time) const { return motion_of_contacts(time, 0); }
+
+Eigen::MatrixXd PoleStates::free_velocity(double time) const { return motion_of_contacts(time, 1); }
+
+void PoleStates::advance(double time, Eigen::MatrixXd& states) const {
+  for (std::size_t l = 0; l < begins_.size(); ++l) {
+    const Complex growth = std::exp(dynamics_.poles()[l].exponent * time * period_);
+    if (dynamics_.poles()[l].exponent.imag() == 0.0) {
+      states.row(begins_[l]) *= growth.real();
+      continue;
+    }
+    const Eigen::RowVectorXd re = states.row(begins_[l]), im = states.row(begins_[l] + 1);
+    states.row(begins_[l]) = growth.real() * re - growth.imag() * im;
+    states.row(begins_[l] + 1) = growth.imag() * re + growth.real() * im;
+  }
+}
+
+Eigen::MatrixXd PoleStates::after_impulse(double time) const {
+  Eigen::MatrixXd states(size_, dynamics_.contacts());
+  for (std::size_t l = 0; l < begins_.size(); ++l) {
+    const ContactPole& pole = dynamics_.poles()[l];
+    const Eigen::RowVectorXcd row = std::exp(pole.exponent * time * period_) * pole.left.transpose();
+    states.row(begins_[l]) = row.real();
+    if (pole.exponent.imag() != 0.0) states.row(begins_[l] + 1) = row.imag();
+  }
+  return states;
+}
+
+}  // namespace wavebalance::solvers
