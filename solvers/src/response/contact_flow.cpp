@@ -85,7 +85,8 @@ ContactFlow::ContactFlow(const CondensedProblem& problem, const ContactLaws& law
       depends_on_velocity_(laws.depend_on_velocity()) {
   free_state_ = flow.state(free_.initial_displacement(), free_.initial_velocity());
   for (int c = 0; c < problem.contacts(); ++c)
-    if (!laws[c].unilateral()) clear_below_[c] = -std::numeric_limits<double>::infinity();
+    if (!laws[c].unilateral() || !std::isfinite(clear_below_[c]))  // a spring may have no gap
+      clear_below_[c] = -std::numeric_limits<double>::infinity();
   flows_.push_back(std::move(flow));
 }
 

@@ -203,7 +203,7 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
         better(std::move(best), try_newton(task, form, start_of(task, piece, start), Strategy::recurrence));
     if (best.ended()) return best;
   }
-  if (!motion.returns.empty()) return best;
+  if (!motion.returns.empty()) return better(std::move(best), try_residual(task, form, first));
   const Start settled = start_of(task, motion.last, start);
   best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
   if (best.ended()) return best;

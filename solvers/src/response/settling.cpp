@@ -110,16 +110,24 @@ class Settling {
 
   // After how many periods the last state repeats one since `first`, the latest of them.
   Verdict repeated(std::size_t first) const {
-    Verdict verdict{.apart = std::numeric_limits<double>::infinity()};
+    Verdict verdict;
     const std::size_t last = states_.size() - 1,
                       longest = std::min(last - first, static_cast<std::size_t>(options_.longest));
-    for (std::size_t lag = 1; lag <= longest; ++lag) {
-      const double apart = distance(states_[last], states_[last - lag]);
-      if (apart <= options_.tolerance) verdict.repeats = static_cast<int>(lag);
-      if (verdict.repeats > 0) break;
-      verdict.apart = std::min(verdict.apart, apart);
-    }
+    for (std::size_t lag = 1; lag <= longest && verdict.repeats == 0; ++lag)
+      if (distance(states_[last], states_[last - lag]) <= options_.tolerance)
+        verdict.repeats = static_cast<int>(lag);
+    verdict.apart = least_distance(static_cast<std::size_t>(verdict.repeats));
     return verdict;
+  }
+
+  // Between any two of the last states, so that it is the same whichever of them comes last.
+  double least_distance(std::size_t count) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i <= count; ++i)
+      for (std::size_t j = 1; j < i; ++j)
+        least = std::min({least, distance(states_[states_.size() - i], states_[states_.size() - j]),
+                          distance(states_[states_.size() - j], states_[states_.size() - i])});
+    return least;
   }
 
   // Of the states that nearly return after a period of the problem, the nearest first, those that differ.

@@ -35,8 +35,8 @@ class Search {
     const SettledMotion motion = settle(problem_, laws_, how);
     attractor = motion.attractor_periods;
     cancelled = motion.cancelled;
-    const bool shorter = attractor > 0 && attractor < wanted_ && wanted_ % attractor == 0;
-    if (attractor == SettledMotion::unknown || cancelled || shorter) return std::nullopt;
+    // What it does not settle to after this number of periods may be any motion.
+    if (attractor != wanted_ || cancelled) return std::nullopt;
     const double start = motion.start - problem_.pair().first_sample();
     return near(resample(motion.last.displacement, problem_.points(), start),
                 resample(motion.last.force, problem_.points(), start), Strategy::settling);
