@@ -154,7 +154,8 @@ CostEstimate estimate_cost(const Scene& scene) {
   cost.bytes += balance_bytes(sizes);
   double response = response_seconds(sizes);
   if (is_damped(scene)) {
-    const double samples = velocity_samples(scene, sizes);
+    // The coefficients of the motions are the unknowns where they are fewer.
+    const double samples = std::min(velocity_samples(scene, sizes), sizes.contacts * sizes.functions);
     cost.bytes += velocity_bytes(sizes, samples);
     response += 7e-11 * std::pow(samples, 3);
   }

@@ -30,15 +30,40 @@ VelocityMap::VelocityMap(const TimePair& pair)
 
 VelocityMap::~VelocityMap() = default;
 
+void VelocityMap::analyse(const Eigen::VectorXd& samples, int contact) {
+  fft_->forward(block_of(samples, contact, points_), span_of(spectrum_));
+  AliasMap{functions_, points_}.fold(trial_, spectrum_, translates_);
+  translates_.array() *= inverse_.array();
+}
+
+Eigen::VectorXd VelocityMap::coefficients(const Eigen::VectorXd& samples) {
+  const int contacts = static_cast<int>(samples.size()) / points_;
+  Eigen::VectorXd result(contacts * functions_);
+  for (int c = 0; c < contacts; ++c) {
+    analyse(samples, c);
+    result.segment(c * functions_, functions_) = translate_coefficients(translates_, functions_);
+  }
+  return result;
+}
+
+Eigen::VectorXd VelocityMap::motion(const Eigen::VectorXd& coefficients) {
+  const int contacts = static_cast<int>(coefficients.size()) / functions_;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(contacts * points_);
+  for (int c = 0; c < contacts; ++c) {
+    const auto own = coefficients.segment(c * functions_, functions_);
+    if (own.isZero(0.0)) continue;
+    AliasMap{functions_, points_}.replicate(trial_, translate_spectrum(own), spectrum_);
+    fft_->inverse(span_of(std::as_const(spectrum_)), block_of(result, c, points_));
+  }
+  return result / points_;
+}
+
 void VelocityMap::apply(const Eigen::VectorXd& samples, double frequency, Eigen::VectorXd& velocity) {
-  const AliasMap index{functions_, points_};
   velocity.resize(samples.size());
   const int contacts = static_cast<int>(samples.size()) / points_;
   for (int c = 0; c < contacts; ++c) {
-    fft_->forward(block_of(samples, c, points_), span_of(spectrum_));
-    index.fold(trial_, spectrum_, translates_);
-    translates_.array() *= inverse_.array();
-    index.replicate(rate_, translates_, spectrum_);
+    analyse(samples, c);
+    AliasMap{functions_, points_}.replicate(rate_, translates_, spectrum_);
     fft_->inverse(span_of(std::as_const(spectrum_)), block_of(velocity, c, points_));
   }
   velocity *= frequency / points_;

@@ -23,7 +23,17 @@ class VelocityMap {
   /// `samples` contact-major, m; the result in m/s for a frequency in Hz. O(C N log N).
   void apply(const Eigen::VectorXd& samples, double frequency, Eigen::VectorXd& velocity);
 
+  /// The number of trial functions.
+  int functions() const { return functions_; }
+  /// The coefficients of such a motion, C M and contact-major, and the samples of coefficients, m. O(C N log
+  /// N).
+  Eigen::VectorXd coefficients(const Eigen::VectorXd& samples);
+  Eigen::VectorXd motion(const Eigen::VectorXd& coefficients);
+
  private:
+  // The spectrum over translates of the coefficients of one contact.
+  void analyse(const Eigen::VectorXd& samples, int contact);
+
   int functions_, points_;
   Eigen::VectorXcd trial_, rate_;  // spectra over samples of the generator and its derivative
   Eigen::VectorXd inverse_;        // over translates, of sum |trial|^2

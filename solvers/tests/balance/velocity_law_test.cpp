@@ -1,7 +1,9 @@
 // Laws whose force depends on the velocity: R, J and its solves, and responses against independent solutions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <stdexcept>
 
@@ -41,6 +43,27 @@ struct Curved {
   double potential(double u) const { return 0.1 * u * u * u * u; }
   double gap() const { return 0.0; }
 };
+
+// The same beyond a displacement.
+struct CurvedBeyond {
+  double from = 0.0;
+  bool acts(double u) const { return u > from; }
+  double force(double u, double v) const { return acts(u) ? Curved{}.force(u, v) : 0.0; }
+  double tangent(double u, double v) const { return acts(u) ? Curved{}.tangent(u, v) : 0.0; }
+  double damping(double u, double v) const { return acts(u) ? Curved{}.damping(u, v) : 0.0; }
+  double potential(double u) const {
+    return acts(u) ? Curved{}.potential(u) - Curved{}.potential(from) : 0.0;
+  }
+  double gap() const { return from; }
+};
+
+// One that acts at all samples, more than the motions have coefficients, and one that acts at a quarter of
+// them.
+std::vector<AnyContactLaw> everywhere_and_at_few_samples(Eigen::VectorXd motion) {
+  const Eigen::Index quarter = motion.size() / 4;
+  std::sort(motion.begin(), motion.end(), std::greater<>());
+  return {Curved{}, CurvedBeyond{0.5 * (motion[quarter] + motion[quarter + 1])}};
+}
 
 std::vector<TimePair> smooth_pairs() {
   std::vector<TimePair> pairs;
@@ -100,26 +123,29 @@ class VelocitySystem : public ::testing::Test {
 TEST_F(VelocitySystem, TheSolveInvertsTheDerivativeOfTheResidual) {
   for (const TimePair& pair : smooth_pairs()) {
     CondensedProblem problem = this->problem(pair);
-    ContactSystem system(problem, Curved{});
     const Eigen::VectorXd u = motion(problem), r = testing::random_vector(problem.samples(), generator_);
-    system.evaluate(u);
-    ASSERT_TRUE(system.factorize());
-    Eigen::VectorXd x;
-    ASSERT_TRUE(system.solve(r, x));
-    const double step = 1e-5 / x.cwiseAbs().maxCoeff();
-    system.evaluate(u + step * x);
-    const Eigen::VectorXd ahead = system.residual();
-    system.evaluate(u - step * x);
-    EXPECT_LE(((ahead - system.residual()) / (2.0 * step) - r).norm(), 1e-6 * (r.norm() + x.norm()));
+    for (const AnyContactLaw& law : everywhere_and_at_few_samples(u)) {
+      ContactSystem system(problem, law);
+      system.evaluate(u);
+      ASSERT_TRUE(system.factorize());
+      Eigen::VectorXd x;
+      ASSERT_TRUE(system.solve(r, x));
+      const double step = 1e-6 / x.cwiseAbs().maxCoeff();
+      system.evaluate(u + step * x);
+      const Eigen::VectorXd ahead = system.residual();
+      system.evaluate(u - step * x);
+      EXPECT_LE(((ahead - system.residual()) / (2.0 * step) - r).norm(), 1e-6 * (r.norm() + x.norm()));
+    }
   }
 }
 
 TEST_F(VelocitySystem, TheBorderedSolveHasTheResidualAndTheSignOfTheWholeMatrix) {
   CondensedProblem problem = this->problem(testing::fourier_pair(7, 12));
-  ContactSystem system(problem, Curved{});
   const Eigen::VectorXd u = motion(problem);
+  const std::vector<AnyContactLaw> laws = everywhere_and_at_few_samples(u);
   const int size = problem.samples();
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < 12; ++trial) {
+    ContactSystem system(problem, laws[std::size_t(trial % 2)]);
     system.evaluate(u);
     Eigen::MatrixXd whole(size + 1, size + 1);
     for (int l = 0; l < size; ++l) {  // J, column by column by central differences

@@ -174,6 +174,49 @@ TEST(SettlingImpacts, AnExponentialStopThatStaysClosedIsSolvedWithAnyNumberOfFun
 
 // A mass in a clearance, whose motion of one period is unstable: Newton's method is led to it by the motion
 // that is settled to, which is aperiodic or of several periods.
+// Three stops of laws of the velocity, in contact for nearly the whole period.
+ImpactCase closed_damped_stops() {
+  ImpactCase one;
+  one.structure =
+      structure_of(Eigen::Matrix3d{{0.81104509065602937, -0.21642970430800249, 0.18611908966275201},
+                                   {-0.21642970430800249, 1.7530606253947627, -0.53997127749341034},
+                                   {0.18611908966275201, -0.53997127749341034, 1.358089385098056}},
+                   Eigen::Matrix3d{{9.2861529048050606, -0.82615204179352231, -0.67748505948193127},
+                                   {0.23695897011480638, 3.1630762072900103, 0.85473534641256588},
+                                   {-0.11295904353177683, -2.0313528042597815, 3.6452756751926523}},
+                   Eigen::Matrix3d{{31047.11720036254, 0.0, -3078.9864094969125},
+                                   {0.0, 1615.0983394445434, 0.0},
+                                   {-3078.9864094969125, 0.0, 3078.9864094969125}},
+                   Eigen::Matrix3d{{0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}, {-1.0, 0.0, 0.6}},
+                   Eigen::Vector3d(0.0, 0.7096901995947826, 0.0));
+  Eigen::VectorXcd third = Eigen::VectorXcd::Zero(4);
+  third[3] = std::polar(0.6010694728806378, -46.79134340006354 * two_pi / 360.0);
+  one.structure.forces = {{Eigen::Vector3d::UnitX(), third, 0}};
+  one.laws = ContactLaws(std::vector<AnyContactLaw>{
+      contact::HuntCrossleyLaw(561831.1382835587, 1.0, 10.154925463396308, -0.00015134796165387185),
+      contact::HuntCrossleyLaw(1796932.9694524335, 1.5, 62.04547658083764, 0.0),
+      contact::KelvinVoigtLaw(6683896.619919047, 3570.651545077029, -4.961188384634818e-05,
+                              2.8497810652946015e-06)});
+  one.frequency = 3.4765100836822973;
+  return one;
+}
+
+// All samples are active, many more than the motions have coefficients.
+TEST(SettlingImpacts, DampedStopsThatStayClosedAreSolvedWithAnyNumberOfFunctions) {
+  const ImpactCase one = closed_damped_stops();
+  for (const int functions : {127, 255}) {
+    CondensedProblem problem(testing::fourier_pair(functions, 8 * functions + 8), one.structure,
+                             testing::cosine_load());
+    problem.set_frequency(one.frequency);
+    const PeriodicResponse response = forced_response(problem, one.laws, {});
+    ASSERT_TRUE(response.converged()) << functions << " " << to_string(response.status);
+    const SettledMotion motion = settle(problem, one.laws);
+    ASSERT_EQ(motion.attractor_periods, 1);
+    const Eigen::VectorXd settled = resample(motion.last.displacement, problem.points(), motion.start);
+    EXPECT_LE((response.displacement - settled).norm(), 1e-3 * settled.norm()) << functions;
+  }
+}
+
 TEST(SettlingImpacts, AnUnstableMotionIsFoundNearAReturn) {
   const testing::Oscillator mass{.mass = 1.0, .damping = 0.1, .stiffness = 1.0, .load = 1.0};
   const LinearContact stop{100.0, 0.0};
