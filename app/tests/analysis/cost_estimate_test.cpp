@@ -28,8 +28,10 @@ TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
 }
 
 TEST(CostEstimate, CountsTheDenseMatricesOfLawsOfTheVelocityAtTheSamplesInContact) {
-  const auto bytes = [](const std::string& points, const std::string& frequency) {
-    Scene scene = scene_of({"time.quadrature_points=" + points, "forcing.frequency=" + frequency});
+  const auto bytes = [](const std::string& points, const std::string& frequency,
+                        const std::string& functions = "16383") {
+    Scene scene = scene_of({"time.quadrature_points=" + points, "forcing.frequency=" + frequency,
+                            "time.functions=" + functions});
     const double without = estimate_cost(scene).bytes;
     scene.contact.law = ContactLawType::hunt_crossley;
     scene.contact.more.hertz_stiffness = 1e9;
@@ -40,6 +42,7 @@ TEST(CostEstimate, CountsTheDenseMatricesOfLawsOfTheVelocityAtTheSamplesInContac
   EXPECT_LT(bytes("16384", "150"), 10.0 * 16384.0 * 16384.0);
   EXPECT_GT(bytes("32768", "150"), 3.9 * bytes("16384", "150"));
   EXPECT_LT(bytes("16384", "20"), bytes("16384", "150"));
+  EXPECT_LT(bytes("16384", "150", "63"), 0.01 * bytes("16384", "150"));  // solved for 63 coefficients
 }
 
 TEST(AvailableMemory, IsThatOfTheMachineAtMost) {

@@ -202,19 +202,19 @@ ImpactCase closed_damped_stops() {
 }
 
 // All samples are active, many more than the motions have coefficients.
-TEST(SettlingImpacts, DampedStopsThatStayClosedAreSolvedWithAnyNumberOfFunctions) {
+TEST(SettlingImpacts, DampedStopsThatStayClosedAreSolvedFromTheSettledMotion) {
   const ImpactCase one = closed_damped_stops();
-  for (const int functions : {127, 255}) {
-    CondensedProblem problem(testing::fourier_pair(functions, 8 * functions + 8), one.structure,
-                             testing::cosine_load());
-    problem.set_frequency(one.frequency);
-    const PeriodicResponse response = forced_response(problem, one.laws, {});
-    ASSERT_TRUE(response.converged()) << functions << " " << to_string(response.status);
-    const SettledMotion motion = settle(problem, one.laws);
-    ASSERT_EQ(motion.attractor_periods, 1);
-    const Eigen::VectorXd settled = resample(motion.last.displacement, problem.points(), motion.start);
-    EXPECT_LE((response.displacement - settled).norm(), 1e-3 * settled.norm()) << functions;
-  }
+  CondensedProblem problem = problem_of(one, 127, 1024);
+  const SettledMotion motion = settle(problem, one.laws);
+  ASSERT_EQ(motion.attractor_periods, 1);
+  const Eigen::VectorXd settled = resample(motion.last.displacement, problem.points(), motion.start);
+  ForcedResponseOptions newton_alone;
+  newton_alone.fallbacks = false;
+  newton_alone.newton.max_operations = newton_alone.max_fallback_operations;
+  const PeriodicResponse response = forced_response(problem, one.laws, newton_alone, settled);
+  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  // The truncation by 127 functions, of forces that jump.
+  EXPECT_LE((response.displacement - settled).norm(), 5e-3 * settled.norm());
 }
 
 TEST(SettlingImpacts, AnUnstableMotionIsFoundNearAReturn) {

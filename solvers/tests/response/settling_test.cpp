@@ -91,10 +91,8 @@ TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
   int subharmonic = 0;
   for (double omega = 2.2; omega < 4.4; omega += 0.2) {
     problem.set_frequency(omega / (2.0 * std::numbers::pi));
-    SettlingOptions options;
-    options.max_periods = 200;
-    options.max_operations = 1e11;
-    const SettledMotion motion = settle(problem, LinearContact{100.0, 0.0}, options);
+    const SettledMotion motion = settle(problem, LinearContact{100.0, 0.0}, {});
+    EXPECT_GE(motion.attractor_periods, 0) << omega;
     if (motion.attractor_periods > 1) ++subharmonic;
   }
   EXPECT_GE(subharmonic, 2);
