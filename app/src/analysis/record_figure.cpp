@@ -204,8 +204,9 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Velocity", "m/s", response.velocity(), response);
   add_motion(figure, "Contact force", "N", response.force(), response);
   if (has_gap(scene.contact.law)) {
-    const double factor = scale_of(response.displacement().cwiseAbs().maxCoeff()).factor;
-    figure.panels.front().mark_y(factor * scene.contact.gap_of(response.contact), "gap");
+    const Scale scale = scale_of(response.displacement().cwiseAbs().maxCoeff());
+    figure.panels.front().mark_level(scale.factor * scene.contact.gap_of(response.contact), "gap",
+                                     scale.prefix + "m");
   }
   return figure;
 }
@@ -285,8 +286,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   draw_special_points(panel, marks);
   make_room_for_legend(figure);
   const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
-  if (has_gap(scene.contact.law) && one_gap) panel.mark_y(scale.factor * scene.contact.gap_of(0), "gap");
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
+  if (has_gap(scene.contact.law) && one_gap)
+    panel.mark_level(scale.factor * scene.contact.gap_of(0), "gap", scale.prefix + "m");
   return figure;
 }
 

@@ -259,7 +259,7 @@ Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
   }
   figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
   if (std::isfinite(overlay.gap) && quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min)
-    panel.mark_y(factor * overlay.gap, "gap");
+    panel.mark_level(factor * overlay.gap, "gap", micro ? "µm" : milli ? "mm" : "m");
   return figure;
 }
 

@@ -1,6 +1,11 @@
 #include "wavebalance/app/plot/plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "plot/gnuplot_process.hpp"
 
@@ -37,6 +42,37 @@ Panel& Panel::mark_x(double x_value) {
 Panel& Panel::mark_y(double y_value, const std::string& label) {
   segments.push_back({{}, y_value, {}, y_value, false, Dash::dotted, Colour::grey, 1.2, label});
   return *this;
+}
+
+namespace {
+
+/// The lowest and the highest ordinate of the axis: its limits, or those of the curves.
+std::pair<double, double> range_of(const Panel& panel) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Series& series : panel.series)
+    for (const double y : series.y)
+      if (std::isfinite(y)) {
+        low = std::min(low, y);
+        high = std::max(high, y);
+      }
+  return {panel.y.lower.value_or(low), panel.y.upper.value_or(high)};
+}
+
+}  // namespace
+
+Panel& Panel::mark_level(double y_value, const std::string& label, const std::string& unit) {
+  constexpr double near = 0.5, margin = 0.05;  // of the range
+  const auto [low, high] = range_of(*this);
+  if (!(low <= high)) return mark_y(y_value, label);
+  const double range = high - low;
+  if (y_value < low - near * range || y_value > high + near * range) {
+    title +=
+        fmt::format("{}{} {:.4g} {}, outside of the axis", title.empty() ? "" : ", ", label, y_value, unit);
+    return *this;
+  }
+  if (y_value < low) y.lower = y_value - margin * range;
+  if (y_value > high) y.upper = y_value + margin * range;
+  return mark_y(y_value, label);
 }
 
 Panel& Figure::add_panel(std::string panel_title) {

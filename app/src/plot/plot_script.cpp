@@ -158,7 +158,7 @@ std::string legend_text(const Panel& panel) {
     case Legend::top_centre:
       return "set key inside center top Left reverse" + style;
     case Legend::right_of_panel:
-      return "set key outside right top Left reverse" + style;
+      return "set key outside right top vertical maxcols 1 Left reverse" + style;
     case Legend::below_panel:
       return "set key outside center bottom horizontal Left reverse height 1.2" + style;
     default:

@@ -52,6 +52,24 @@ TEST(Render, MissingValuesInterruptALine) {
   EXPECT_EQ(moves(render(broken, PictureFormat::svg)), 2);
 }
 
+TEST(MarkLevel, StaysOnItsAxisOrIsNamedInTheTitle) {
+  const auto marked = [](double level) {
+    Figure figure = simple_figure();  // ordinates from 0 to 1
+    figure.panels[0].mark_level(level, "gap", "mm");
+    return figure.panels[0];
+  };
+  const Panel inside = marked(0.5), near_above = marked(1.4), near_below = marked(-0.4), far = marked(-0.6);
+  for (const Panel& panel : {inside, near_above, near_below}) {
+    ASSERT_EQ(panel.segments.size(), 1u);
+    EXPECT_EQ(panel.title, "Tip");
+  }
+  EXPECT_FALSE(inside.y.lower || inside.y.upper);
+  EXPECT_GT(near_above.y.upper.value(), 1.4);
+  EXPECT_LT(near_below.y.lower.value(), -0.4);
+  EXPECT_TRUE(far.segments.empty());
+  EXPECT_EQ(far.title, "Tip, gap -0.6 mm, outside of the axis");
+}
+
 TEST(Render, CurveWithoutAnyValueKeepsItsPlaceInTheLegend) {
   Figure figure = simple_figure();
   figure.panels[0].series[0].y = {nan, nan, nan};

@@ -110,7 +110,7 @@ void add_panels(app::Figure& figure, const Study& study) {
       motion.x.label.clear();
       force.x.label.clear();
     }
-    force.y.upper = 1.7 * *force.y.upper;  // room for the legend above the curves
+    force.y.upper = 2.0 * *force.y.upper;  // room for the legend above the curves
     force.legend = app::Legend::top_right;
     figure.panels.push_back(std::move(motion));
     figure.panels.push_back(std::move(force));

@@ -137,6 +137,9 @@ struct Panel {
   /// A dotted line across the panel at an abscissa or an ordinate, such as the gap, named at its right end.
   Panel& mark_x(double x_value);
   Panel& mark_y(double y_value, const std::string& label = "");
+  /// The same of a level of the `unit` of a linear axis, after all curves are added. The axis is extended to a
+  /// level within half the range of the curves; a farther one is named with its value in the title.
+  Panel& mark_level(double y_value, const std::string& label, const std::string& unit);
 };
 
 /// Panels in rows, filled from the left; several are lettered (a), (b), ...
