@@ -53,6 +53,7 @@ class Settling {
     Verdict before{.known = false};
     double tolerance = options_.tolerance;
     for (const double share : {0.5, 1.0, 1.5}) {
+      limit_ = std::min(share, 1.0) * options_.max_operations;  // each accuracy has its part
       const Verdict now =
           settled(tolerance, static_cast<int>(std::ceil(share * options_.max_periods)), result);
       result.cancelled = now.cancelled;
@@ -74,10 +75,11 @@ class Settling {
     constexpr int transient = 50;  // before a motion is taken for one of several periods
     // A spiral towards a motion of fewer periods comes near past states too, and nearly as near later ones.
     constexpr double apart = 100.0;
+    constexpr std::size_t enough = 100;  // periods without a repetition, where the operations run out
     const std::size_t first = states_.size() - 1;
     Verdict verdict;
     while (result.periods < max_periods) {
-      if (!add_period(tolerance, result)) return {.known = false};
+      if (!add_period(tolerance, result)) return {.known = states_.size() - first > enough};
       verdict = repeated(first);
       const bool subharmonic = verdict.repeats > 1 && verdict.apart > apart * options_.tolerance;
       if (verdict.repeats == 1 || (subharmonic && states_.size() - first > transient)) return verdict;
@@ -93,7 +95,7 @@ class Settling {
   bool add_period(double tolerance, SettledMotion& result) {
     constexpr double accuracy = 10.0;  // of a step before it is extrapolated, over the tolerance
     ContactFlow::Period period =
-        flow_.period_from(states_.back(), accuracy * tolerance, options_.max_operations - flow_.operations());
+        flow_.period_from(states_.back(), accuracy * tolerance, limit_ - flow_.operations());
     if (!period.complete) return false;
     if (!result.integrated())
       result.last = {period.displacement.replicate(1, load_periods()),
@@ -229,8 +231,8 @@ class Settling {
 
   const SettlingOptions& options_;
   ContactFlow flow_;
-  double return_limit_ = 0.0;               // of operations
-  std::vector<ContactFlow::State> states_;  // at the starts of the periods of the load
+  double limit_ = 0.0, return_limit_ = 0.0;  // of operations
+  std::vector<ContactFlow::State> states_;   // at the starts of the periods of the load
 };
 
 }  // namespace

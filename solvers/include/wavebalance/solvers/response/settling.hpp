@@ -33,8 +33,9 @@ struct ContactPeriod {
 struct SettledMotion {
   static constexpr int unknown = -1;
   /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for
-  /// subharmonic ones, 0 for none within the options' limits. -1 where it is not known: nothing could be
-  /// integrated, the operations ran out, or integrations of different accuracy say different numbers.
+  /// subharmonic ones, 0 for none within the options' limits, in at least a hundred periods of each accuracy.
+  /// -1 where it is not known: nothing could be integrated, the operations ran out before, or integrations of
+  /// different accuracy say different numbers.
   int attractor_periods = unknown;
   int periods = 0;         ///< integrated
   bool cancelled = false;  ///< the observer asked to stop
