@@ -7,7 +7,6 @@
 
 using namespace wavebalance;
 using app::Colour;
-using app::Legend;
 using app::Panel;
 using app::Series;
 using app::SeriesStyle;
@@ -37,7 +36,7 @@ constexpr Curve rigid_curves[] = {
 
 template <std::size_t Count>
 void add_error_panel(app::Figure& figure, const std::string& title, const app::Table& table,
-                     const std::string& study, const Curve (&curves)[Count], Legend legend) {
+                     const std::string& study, const Curve (&curves)[Count]) {
   Panel& panel = figure.add_panel(title);
   const auto of_study = table.where("study", study).where("converged", "true");
   for (const Curve& curve : curves) {
@@ -57,8 +56,6 @@ void add_error_panel(app::Figure& figure, const std::string& title, const app::T
   panel.y.label = "Relative rms error";
   panel.y.logarithmic = true;
   panel.y.tick_format = "10^{%L}";
-  panel.legend = legend;
-  if (legend != Legend::none) panel.y.upper = 10.0;  // room for it above the curves
 }
 
 void mark_instants(Panel& panel, const bench::Study& study) {
@@ -66,7 +63,6 @@ void mark_instants(Panel& panel, const bench::Study& study) {
   panel.x.label = "Time (fraction of a period); dotted: contact closes, opens";
   panel.x.lower = 0.0;
   panel.x.upper = 1.0;
-  panel.legend = Legend::none;
 }
 
 void add_selection_panel(app::Figure& figure, const bench::Study& study, const app::Table& selection) {
@@ -150,10 +146,10 @@ void run(const bench::Program& program) {
   figure.panel_width = 520;
   figure.panel_height = 380;
   figure.title = "Adaptive wavelet balance: error over unknowns";
-  add_error_panel(figure, "case 1, exponential law", table, "case1", wavelet_curves, Legend::none);
-  add_error_panel(figure, "case 2, exponential law", table, "case2", wavelet_curves, Legend::top_right);
-  add_error_panel(figure, "case 1, rigid", table, "case1_rigid", rigid_curves, Legend::none);
-  add_error_panel(figure, "case 2, rigid", table, "case2_rigid", rigid_curves, Legend::top_right);
+  add_error_panel(figure, "case 1, exponential law", table, "case1", wavelet_curves);
+  add_error_panel(figure, "case 2, exponential law", table, "case2", wavelet_curves);
+  add_error_panel(figure, "case 1, rigid", table, "case1_rigid", rigid_curves);
+  add_error_panel(figure, "case 2, rigid", table, "case2_rigid", rigid_curves);
   add_selection_panel(figure, case2, selection);
   add_cell_panel(figure, rigid2,
                  first_below(cells.rounds, 1e-4, [&](const auto& u) { return rigid2.error(u); }));

@@ -194,7 +194,6 @@ void draw(app::Panel& panel, const std::vector<SizeSeries>& all, const Results& 
   panel.x.label = variable == "functions" ? "Functions M, 4M points" : "Elements, 63 functions, 256 points";
   panel.y.label = label;
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = app::Legend::top_left;
   for (const SizeSeries& one : all) {
     if (one.variable != variable) continue;
     const auto rows = results.points.where("ladder", one.name).where("converged", "true");

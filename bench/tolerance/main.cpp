@@ -96,12 +96,10 @@ app::Figure picture(const app::Table& table) {
   app::Panel& errors = add_panel(figure, "True error", "Relative rms error of the tip displacement");
   errors.y.tick_format = "10^{%L}";
   errors.y.lower = 1e-15;
-  errors.legend = app::Legend::top_left;
   errors.add(line("three times the tolerance", 1e-8, 1e-1, true, allowed));
   errors.add(line("tolerance", 1e-8, 1e-1, true, 1.0));
   errors.add(marks("true", met, "true_error", app::Colour::blue, 1));
   app::Panel& costs = add_panel(figure, "Cost", "Cost over the cheapest fixed choice");
-  costs.legend = app::Legend::none;
   costs.add(line("", 1e-8, 1e-1, false, allowed));
   costs.add(line("", 1e-8, 1e-1, false, 1.0));
   costs.add(marks("", met, "cost_ratio", app::Colour::vermillion, 1));

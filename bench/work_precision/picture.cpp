@@ -35,7 +35,6 @@ void WorkPrecisionPicture::add(const Study& study, const std::vector<Point>& poi
   panel.x.label = "Solve time (processor seconds)";
   panel.y.label = "Relative rms error of the tip displacement";
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = app::Legend::right_of_panel;
   panel.add(app::pareto_front(points));
   constexpr std::size_t most = 5;
   for (const app::BasisPair& pair : app::leading_pairs(pairs(), points, most))

@@ -88,7 +88,6 @@ app::Figure drawn(const app::Table& table) {
   panel.y.label = "Frequency (Hz)";
   panel.y.lower = lowest;
   panel.y.upper = highest;
-  panel.legend = app::Legend::below_panel;
   for (const double energy : energies) {
     app::Series series("energy " + report::number(energy) + (energy == 1.0 ? " (linear)" : ""), table,
                        "rotation_rpm", column(energy), app::SeriesStyle::line_points);

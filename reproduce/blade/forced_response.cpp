@@ -99,9 +99,6 @@ void add_curves(app::Figure& figure, const Study& study) {
   panel.x.ticks = frequency_ticks;
   panel.y.lower = 0.0;
   panel.y.upper = 9.0;
-  panel.legend = app::Legend::none;  // it would hide the peak
-  using enum app::TextMark::Align;
-  panel.texts = {{582.0, 7.5, "without contact", left}, {650.0, 3.0, "steps up", centre}};
   app::Series straight("without contact", frequencies(study.linear),
                        over_gap(largest_displacements(study.linear), study.gap()));
   straight.colour = Colour::grey;
@@ -122,7 +119,6 @@ void add_differences(app::Figure& figure, const Study& study) {
   panel.x.upper = study.linear.back().frequency;
   panel.x.ticks = frequency_ticks;
   panel.y.label = "Difference over the gap";
-  panel.legend = app::Legend::top_left;
   const auto fourier = largest_displacements(study.curves[0]);
   for (std::size_t i = 1; i < study.curves.size(); ++i) {
     auto values = largest_displacements(study.curves[i]);
@@ -162,7 +158,6 @@ void add_map(app::Figure& figure, const std::string& pair, const BladeResponse& 
   map.largest = largest;
   map.from_zero = true;
   map.label = "N";
-  panel.legend = app::Legend::none;
 }
 
 /// Common limits of the histories of both edges in all pairs, rounded outwards.
@@ -191,7 +186,6 @@ void add_history(app::Figure& figure, const std::vector<Responses>& curves, doub
   panel.y.label = force ? "Contact force (N)" : "u_z over the gap";
   panel.y.lower = limits.first;
   panel.y.upper = limits.second;
-  panel.legend = force && leading ? app::Legend::top_centre : app::Legend::none;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& response = at(curves[i], frequency);
     const Eigen::MatrixXd& samples = force ? response.force : response.displacement;

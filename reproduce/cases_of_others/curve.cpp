@@ -155,7 +155,6 @@ std::string branches_text(const Curve& curve) {
 app::Panel curve_panel(const Curve& curve, const std::string& label, double scale, const Ordinate& ordinate) {
   app::Panel panel;
   panel.x.label = std::string("Frequency (") + curve.unit_name() + ")";
-  panel.legend = app::Legend::below_panel;
   std::vector<double> x, y;
   for (const auto& point : curve.sweep.curve.points) {
     x.push_back(curve.unit * point.frequency);

@@ -184,7 +184,6 @@ std::vector<app::Panel> Convergence::panels(Measure measure, const std::string& 
     panel.x.logarithmic = true;
     panel.x.ticks = {8, 16, 32, 64, 128};
     panel.x.tick_format = "%g";
-    panel.legend = app::Legend::none;
   }
   for (app::Panel& panel : panels) {
     const double margin = 0.05 * (upper - lower);

@@ -9,7 +9,6 @@ namespace wavebalance::jl14 {
 
 using app::Colour;
 using app::Figure;
-using app::Legend;
 using app::Panel;
 using app::plain;
 using app::SeriesStyle;
@@ -77,7 +76,7 @@ std::vector<Panel> pair_view(const PairView& view, bool haar_apart) {
     panel.add(series).add(reference_series(view.reference, std::min(view.from, 0.0)));
     panel.x = axis(time_label, view.from, view.to);
     panel.y = fitted_axis(view.label, shown);
-    panel.legend = Legend::none;
+    panel.legend = false;
     if (view.level) panel.mark_y(*view.level);
   }
   return panels;

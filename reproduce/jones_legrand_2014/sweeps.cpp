@@ -188,7 +188,6 @@ app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
   panel.x.label = "Forcing frequency (Hz)";
   panel.y.label = "Largest displacement (mm)";
   panel.y.lower = 0.0;
-  panel.legend = app::Legend::right_of_panel;
   return panel;
 }
 

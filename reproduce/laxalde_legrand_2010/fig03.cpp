@@ -95,7 +95,6 @@ void add_panel(app::Figure& figure, const RodCurves& curves, const Table& table,
                                        : "frequency ω, " + discretisation(curves.study.scene()));
   panel.x = axis("Energy γ over its value at linear grazing", onset ? 0.6 : 0.0, onset ? 2.0 : 10.0);
   panel.y = axis("Frequency over the linear one", 0.98, onset ? 1.14 : 1.28);
-  panel.legend = app::Legend::none;
   for (const Look& look : looks) {
     auto series = curve(look, table, "frequency_ratio", step_of(curves.study.scene()));
     if (!onset) series.marker_every = 4;
@@ -109,7 +108,6 @@ void add_quotient(app::Figure& figure, const Table& table, double step) {
   auto& panel = figure.add_panel("root of the Rayleigh quotient, √r");
   panel.x = axis("Energy γ over its value at linear grazing", 0.0, 10.0);
   panel.y = axis("√r over the linear frequency", 0.98, 1.20);
-  panel.legend = app::Legend::bottom_right;
   for (const Look& look : looks) {
     auto series = curve(look, table, "rayleigh_frequency_ratio", step);
     series.marker_every = 4;

@@ -81,7 +81,6 @@ void add_panel(app::Figure& figure, const std::string& title, const std::vector<
   panel.y.label = "Relative error of ω";
   panel.y.lower = over_elements ? 1e-10 : 1e-3;
   panel.y.upper = over_elements ? 1.0 : 1e-1;
-  panel.legend = app::Legend::below_panel;
   using enum app::SeriesStyle;
   panel.add({"largest", column(rows, size), column(rows, largest), line_points});
   panel.add({"median", column(rows, size), column(rows, median), line_points});

@@ -80,8 +80,6 @@ void add_panel(app::Figure& figure, const std::string& title, const std::string&
   panel.x.tick_format = "%g";
   panel.y = std::move(ordinate);
   panel.y.label = label;
-  const bool last = figure.panels.size() == 3;
-  panel.legend = last ? app::Legend::below_panel : app::Legend::none;
   int marker = 0;
   for (const int harmonics : harmonics_shown) {
     std::vector<double> x, y;
@@ -127,7 +125,6 @@ app::Figure drawn(const std::vector<Sampled>& rows, const ExactContact& exact) {
   figure.panels[0].mark_y(0.0);
   figure.panels[1].mark_y(1.0);
   figure.panels[2].mark_y(1.0);
-  figure.panels[2].legend = app::Legend::below_panel;
   return figure;
 }
 

@@ -94,7 +94,6 @@ app::Figure drawn(const Motions& motions) {
     panel.z->ticks = last ? std::vector<double>{-1.0, 0.0, 1.0} : std::vector<double>{-0.1, 0.0, 0.1};
     panel.z->lower = last ? -2.0 : -0.2;
     panel.z->upper = last ? 1.2 : 0.2;
-    panel.legend = app::Legend::below_panel;
     const Eigen::Index node = last ? motions.low.position.size() - 1 : 1;
     const auto add = [&](const char* name, const Motion& motion, Colour colour, Dash dash, double width) {
       auto series = orbit(name, motion, node, colour, dash);

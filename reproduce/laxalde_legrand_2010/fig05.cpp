@@ -45,7 +45,7 @@ void add_pair(app::Figure& figure, const std::string& title, const Motion& motio
     panel.x.ticks = panel.y.ticks = {0.0, 0.5, 1.0};
     panel.heat_map = map_of(motion, velocity ? motion.velocity : motion.displacement, velocity ? v : u);
     panel.heat_map->label = velocity ? "u̇ / g_0 ω_1" : "u / g_0";
-    panel.legend = app::Legend::none;
+    panel.legend = false;
     mark_contact(panel, motion, exact);
   }
 }

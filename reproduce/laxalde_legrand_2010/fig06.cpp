@@ -49,7 +49,6 @@ app::Panel& add_view(app::Figure& figure, const std::string& title, const fem::B
   view.surfaces = {blade::surface(blade)};
   view.azimuth = azimuth;
   view.elevation = elevation;
-  panel.legend = app::Legend::below_panel;
   return panel;
 }
 
@@ -75,13 +74,14 @@ app::Figure drawn(const fem::Blade& blade) {
   app::Figure figure;
   figure.columns = 2;
   figure.panel_width = 350;
-  figure.panel_height = 400;
+  figure.panel_height = 330;
   const auto held = held_nodes(blade);
   const std::string contacts = std::to_string(blade.contact_nodes.size()) + " contact nodes";
+  const std::string clamped = std::to_string(held.size()) + " clamped nodes";
   auto& whole = add_view(figure, "the mesh", blade, -55.0, 28.0);
   whole.surface->axes = arrow_length;
-  mark(whole, "contact", blade.contact_nodes, app::Colour::vermillion, 1);
-  mark(whole, "clamped, in view", held, app::Colour::blue, 3);
+  mark(whole, contacts, blade.contact_nodes, app::Colour::vermillion, 1);
+  mark(whole, clamped, held, app::Colour::blue, 3);
   auto& tip = add_view(figure, "the tip, from above", blade, -60.0, 50.0);
   tip.surface->shading = 0.15;
   mark(tip, contacts, blade.contact_nodes, app::Colour::vermillion, 1);
@@ -89,7 +89,7 @@ app::Figure drawn(const fem::Blade& blade) {
   add_contact_direction(tip, blade.contact_nodes);
   auto& root = add_view(figure, "the root, from below", blade, -55.0, -40.0);
   root.surface->shading = 0.15;
-  mark(root, std::to_string(held.size()) + " clamped nodes", held, app::Colour::blue, 3);
+  mark(root, clamped, held, app::Colour::blue, 3);
   frame(root, *root.surface, held, 0.1, 0.35);
   return figure;
 }

@@ -29,7 +29,6 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::
                                    study.scene().analysis.samples));
   panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = axis("Frequency over the linear one", 0.98, 1.38);
-  panel.legend = app::Legend::top_left;
   const auto consistent = table.where("formulation", "consistent");
   panel.add(drawn("corrected equations, ω", consistent, "frequency_ratio", Colour::blue, Dash::solid));
   panel.add(
@@ -66,7 +65,6 @@ void add_torsion(app::Figure& figure, const Table& measures) {
   auto& panel = figure.add_panel("torsion");
   panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = axis("Share of kinetic energy in torsion modes", 0.0, 0.05);
-  panel.legend = app::Legend::none;
   app::Series share("", measures, "energy_ratio", "torsion_share");
   share.colour = Colour::green;
   panel.add(share).mark_x(1.0);

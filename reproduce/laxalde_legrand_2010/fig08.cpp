@@ -49,7 +49,6 @@ void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape,
   view.colours = {app::ColourBands::Map::sequential, 0.0, upper, 10, "|u| / g_0", true};
   view.surfaces[1].marks.push_back(
       {"in contact", touching(blade, shape.point, half_period ? 0.5 : 0.0), app::Colour::vermillion, 1});
-  panel.legend = app::Legend::none;
   view.azimuth = -35.0;
   view.elevation = 22.0;
   view.axes = axes_length;

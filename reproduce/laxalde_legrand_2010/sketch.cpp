@@ -21,7 +21,7 @@ app::Figure sketch(const std::vector<Polyline>& lines, const app::Axis& x, const
   panel.frame = false;
   panel.x = x;
   panel.y = y;
-  panel.legend = app::Legend::none;
+  panel.legend = false;
   for (const auto& line : lines) {
     std::vector<double> xs, ys;
     for (const auto& point : line.points) {

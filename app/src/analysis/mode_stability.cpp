@@ -109,7 +109,6 @@ void draw_stability(Figure& figure, const Table& backbone, const ModeStudy& stud
   dashed.dash = Dash::dashed;
   Series unknown("ω, stability unknown", energy, selected(solved, is_unknown, false), SeriesStyle::points);
   unknown.colour = Colour::blue;
-  panel.legend = Legend::below_panel;
   panel.series.front() = std::move(stable);
   auto next = panel.series.begin() + 1;
   if (any_unstable) next = panel.series.insert(next, std::move(dashed)) + 1;

@@ -168,13 +168,6 @@ std::vector<PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points
   return marks;
 }
 
-/// A legend below the panel has rows of two names; those beyond the first would take the panel's height.
-void make_room_for_legend(Figure& figure) {
-  constexpr int row_height = 24;
-  const auto rows = static_cast<int>((figure.panels.front().series.size() + 1) / 2);
-  figure.panel_height += row_height * std::max(0, rows - 1);
-}
-
 /// A stable curve of many points is thinned.
 void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
                const std::vector<PlacedPoint>& special) {
@@ -184,6 +177,15 @@ void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::Poi
     draw_by_stability(panel, curve, points, special);
   else
     panel.add(thinned(curve));
+}
+
+/// The end of the axis of energies: that of linear grazing is shown, and `largest` only where the curve comes
+/// near.
+double shown_energy(const std::vector<double>& energies, double largest) {
+  double reached = 1.0;
+  for (const double one : energies) reached = std::fmax(reached, one);
+  constexpr double margin = 1.05;
+  return std::min(largest, margin * reached);
 }
 
 }  // namespace
@@ -228,9 +230,8 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
   Panel& panel = figure.add_panel();
   panel.x.label = "Energy over that of linear grazing";
   panel.x.lower = 0.0;
-  panel.x.upper = scene.analysis.largest_energy;
+  panel.x.upper = shown_energy(column("energy_ratio", false), scene.analysis.largest_energy);
   panel.y.label = "Frequency over the linear one";
-  panel.legend = Legend::bottom_right;
   // Points: neighbours may lie either side of an internal resonance.
   panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false), SeriesStyle::points});
   panel.add({"√r, Rayleigh quotient", column("energy_ratio", false),
@@ -266,7 +267,6 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const SweepAxis axis = sweep_axis(sweep);
   panel.x.label = axis.label();
   panel.y.label = "Displacement (" + scale.prefix + "m)";
-  panel.legend = Legend::below_panel;
   for (const auto& [label, column, colour] : {std::tuple{"largest", "max_displacement_m", Colour::blue},
                                               {"rms", "rms_displacement_m", Colour::orange}}) {
     Series series(label, scaled(axis.column(), 1.0), scaled(column, scale.factor));
@@ -284,9 +284,8 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
          placed(branch.stability.special_points, scale.factor, branch.curve.parameter))
       marks.push_back(one);
   draw_special_points(panel, marks);
-  make_room_for_legend(figure);
-  const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
+  const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
   if (has_gap(scene.contact.law) && one_gap)
     panel.mark_level(scale.factor * scene.contact.gap_of(0), "gap", scale.prefix + "m");
   return figure;

@@ -86,15 +86,20 @@ std::vector<Piece> pieces_of(const Series& curve, const std::vector<solvers::Poi
     std::size_t end = first;
     while (end < lines.size() && lines[end] == i) ++end;
     const bool before = unstable_at(i), after = unstable_at(i + 1);
+    // Where contact alone begins or ends, stability may change with it.
+    const bool ends_at_grazing = end > first && all_grazings(special, first, end) && before != after;
     Vertex from = vertex(curve, i);
     for (; next <= end; ++next) {
       const bool last = next == end;
       const Vertex to = last ? vertex(curve, i + 1) : Vertex{special[next].x, special[next].y};
       const bool as_before = all_grazings(special, first, next), as_after = all_grazings(special, next, end);
-      const bool unstable = as_before && as_after ? before || after
-                            : as_before           ? before
-                            : as_after            ? after
-                                                  : before || after;
+      const bool unstable = ends_at_grazing         ? next == first ? before
+                                                      : last        ? after
+                                                                    : true
+                            : as_before && as_after ? before || after
+                            : as_before             ? before
+                            : as_after              ? after
+                                                    : before || after;
       append(pieces, from, to, unstable);
       from = to;
       if (last) break;

@@ -251,13 +251,11 @@ Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
   Panel& panel = figure.add_panel();
   panel.x.label = "Frequency (Hz)";
   panel.y.label = fmt::format("{} ({}m)", names_of(quantity).words, micro ? "µ" : milli ? "m" : "");
-  panel.legend = Legend::below_panel;
   std::size_t next = 0;
   for (const OverlayCurve& curve : overlay.curves) {
     const bool mode = curve.kind == "nonlinear_mode";
     draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], factor);
   }
-  figure.panel_height += 24 * static_cast<int>(panel.series.size() > 4 ? panel.series.size() - 4 : 0);
   if (std::isfinite(overlay.gap) && quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min)
     panel.mark_level(factor * overlay.gap, "gap", micro ? "µm" : milli ? "mm" : "m");
   return figure;

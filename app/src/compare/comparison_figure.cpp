@@ -41,7 +41,6 @@ Panel& add_error_panel(Figure& figure, const std::string& abscissa) {
   panel.x.label = abscissa;
   panel.y.label = "Relative rms error of the contact displacement";
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = Legend::right_of_panel;
   return panel;
 }
 
@@ -51,7 +50,6 @@ void add_distances(Figure& figure, const SweepComparison& comparison) {
   panel.x.label = "Functions";
   panel.y.label = "Distance from the finest curve";
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.legend = Legend::none;
   std::map<std::string, Series> pairs;
   for (const ComparedCurve& curve : comparison.curves) {
     if (!(curve.distance > 0.0)) continue;
@@ -133,7 +131,6 @@ Figure curves_figure(const SweepComparison& comparison) {
   Panel& panel = figure.add_panel();
   panel.x.label = comparison.axis;
   panel.y.label = "Largest displacement (mm)";
-  panel.legend = Legend::right_of_panel;
   std::set<std::string> drawn;
   for (auto curve = comparison.curves.rbegin(); curve != comparison.curves.rend(); ++curve) {
     if (!curve->converged() || !drawn.insert(name_of(curve->pair)).second) continue;

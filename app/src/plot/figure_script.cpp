@@ -126,10 +126,8 @@ Json segment_data(const Segment& s) {
 }
 
 Json panel_data(const Panel& panel) {
-  Json data{{"title", panel.title},
-            {"x", axis_data(panel.x)},
-            {"y", axis_data(panel.y)},
-            {"legend", panel.legend != Legend::none}};
+  Json data{
+      {"title", panel.title}, {"x", axis_data(panel.x)}, {"y", axis_data(panel.y)}, {"legend", panel.legend}};
   for (const char* list : {"series", "segments", "rectangles", "texts"}) data[list] = Json::array();
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     data["series"].push_back(series_data(panel.series[i], i, panel));

@@ -7,21 +7,16 @@
 #include <limits>
 #include <utility>
 
+#include "plot/figure_layout.hpp"
 #include "plot/gnuplot_process.hpp"
 
 namespace wavebalance::app {
 namespace {
 
-constexpr int title_height = 34;  // pixels
-
 std::string terminal(const Figure& figure, PictureFormat format) {
-  const int count = std::max(1, static_cast<int>(figure.panels.size()));
-  const int columns = std::clamp(figure.columns, 1, count);
-  const int rows = (count + columns - 1) / columns;
-  const int width = columns * figure.panel_width;
-  const int height = rows * figure.panel_height + (count > 1 && !figure.title.empty() ? title_height : 0);
+  const FigureLayout layout(figure);
   const auto size = [&](int scale) {
-    return std::to_string(scale * width) + "," + std::to_string(scale * height);
+    return std::to_string(scale * layout.width) + "," + std::to_string(scale * layout.height);
   };
   if (format == PictureFormat::svg)
     return "set terminal svg enhanced background rgb 'white' font 'Arial,13.5' size " + size(1) + "\n";

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "files/number_text.hpp"
+#include "plot/figure_layout.hpp"
 #include "plot/plot_surface.hpp"
 #include "plot/plot_text.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -13,49 +15,6 @@ namespace wavebalance::app {
 namespace {
 
 constexpr const char* text_colour = "#222222";
-
-std::string dash_text(Dash dash) {
-  switch (dash) {
-    case Dash::dashed:
-      return "(9,5)";
-    case Dash::dotted:
-      return "(2,4)";
-    case Dash::dash_dotted:
-      return "(10,4,2,4)";
-    case Dash::solid:
-      break;
-  }
-  return "1";
-}
-
-std::string stroke(Colour colour, Dash dash, double width) {
-  return fmt::format("lc rgb '{}' lw {} dt {}", colour_code(colour), number_text(width), dash_text(dash));
-}
-
-std::string symbol(const Series& series, std::size_t index) {
-  const std::size_t number = series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index;
-  std::string text = symbol_text(number);
-  if (series.marker_every) text += " pi " + std::to_string(*series.marker_every);
-  return text;
-}
-
-std::string style_text(const Series& series, std::size_t index) {
-  const Colour colour = series.colour == Colour::automatic ? automatic_colour(index) : series.colour;
-  const std::string drawn = stroke(colour, series.dash, series.width);
-  switch (series.style) {
-    case SeriesStyle::points:
-      return "points lc rgb '" + colour_code(colour) + "'" + symbol(series, index);
-    case SeriesStyle::line_points:
-      return "linespoints " + drawn + symbol(series, index);
-    case SeriesStyle::steps:
-      return "steps " + drawn;
-    case SeriesStyle::impulses:
-      return "impulses " + drawn;
-    case SeriesStyle::line:
-      break;
-  }
-  return "lines " + drawn;
-}
 
 bool shown(double value, const Axis& axis) {
   return std::isfinite(value) && (!axis.logarithmic || value > 0);
@@ -129,7 +88,7 @@ std::string axis_text(const std::string& name, const Axis& axis, bool empty) {
     return value ? number_text(*value) : std::string(empty ? otherwise : "*");
   };
   std::string text = (axis.logarithmic ? "set logscale " : "unset logscale ") + name + "\n";
-  text += "set " + name + "label " + quoted(axis.label) + "\n";
+  text += "set " + name + "label " + quoted(axis.label) + (name == "x" ? " offset 0,0.4\n" : "\n");
   text += "set " + name + "range [" + limit(axis.lower, axis.logarithmic ? "0.1" : "0") + ":" +
           limit(axis.upper, "1") + "]\n";
   const std::string otherwise = axis.logarithmic && axis.ticks.empty() ? "10^{%L}" : "%g";
@@ -141,29 +100,48 @@ std::string axis_text(const std::string& name, const Axis& axis, bool empty) {
   return text + ")\n";
 }
 
-std::string legend_text(const Panel& panel) {
-  bool named =
-      std::any_of(panel.series.begin(), panel.series.end(), [](const Series& s) { return !s.label.empty(); });
-  if (panel.surface)
-    for (const Surface& surface : panel.surface->surfaces) named = named || !surface.marks.empty();
-  if (!named || panel.legend == Legend::none) return "unset key\n";
-  const std::string style = " samplen 2.2 spacing 1.15 noautotitle\n";
-  switch (panel.legend) {
-    case Legend::top_left:
-      return "set key inside left top Left reverse" + style;
-    case Legend::bottom_left:
-      return "set key inside left bottom Left reverse" + style;
-    case Legend::bottom_right:
-      return "set key inside right bottom Left reverse" + style;
-    case Legend::top_centre:
-      return "set key inside center top Left reverse" + style;
-    case Legend::right_of_panel:
-      return "set key outside right top vertical maxcols 1 Left reverse" + style;
-    case Legend::below_panel:
-      return "set key outside center bottom horizontal Left reverse height 1.2" + style;
-    default:
-      return "set key inside right top Left reverse" + style;
+/// A number of a logarithmic axis, "0.5", "20" or "2·10^{5}".
+std::string tick_text(double value) {
+  const double exponent = std::floor(std::log10(value) + 1e-9), mantissa = value / std::pow(10.0, exponent);
+  if (std::abs(exponent) < 4.0) return fmt::format("{:.3g}", value);
+  const std::string power = fmt::format("10^{{{}}}", exponent);
+  return std::abs(mantissa - 1.0) < 1e-9 ? power : fmt::format("{:.3g}·{}", mantissa, power);
+}
+
+/// Numbers of a logarithmic axis from `lower` to `upper` on which fewer than three powers of ten lie: 1, 2
+/// and 5 of each decade, or more where these are too few. Empty where gnuplot's own do.
+std::vector<double> ticks_of_short_axis(double lower, double upper) {
+  for (const std::vector<double>& digits :
+       {std::vector{1.0}, std::vector{1.0, 2.0, 5.0}, std::vector{1.0, 2.0, 3.0, 5.0, 7.0},
+        std::vector{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}}) {
+    std::vector<double> ticks;
+    for (double decade = std::pow(10.0, std::floor(std::log10(lower))); decade <= upper; decade *= 10.0)
+      for (const double digit : digits)
+        if (digit * decade >= lower * (1.0 - 1e-9) && digit * decade <= upper * (1.0 + 1e-9))
+          ticks.push_back(digit * decade);
+    if (ticks.size() >= 3) return digits.size() == 1 ? std::vector<double>() : ticks;
   }
+  return {};
+}
+
+/// Commands that number a logarithmic axis of the panel whose values are `member`s of its series.
+std::string short_axis_text(const std::string& name, const Axis& axis, const Panel& panel,
+                            std::vector<double> Series::*member) {
+  if (!axis.logarithmic || !axis.ticks.empty()) return "";
+  double lower = std::numeric_limits<double>::infinity(), upper = 0.0;
+  for (const Series& series : panel.series)
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      if (!shown(series.x[i], panel.x) || !shown(series.y[i], panel.y)) continue;
+      lower = std::min(lower, (series.*member)[i]);
+      upper = std::max(upper, (series.*member)[i]);
+    }
+  lower = axis.lower.value_or(lower);
+  upper = axis.upper.value_or(upper);
+  if (!(lower < upper)) return "";
+  std::string text;
+  for (const double tick : ticks_of_short_axis(lower, upper))
+    text += (text.empty() ? "" : ", ") + quoted(tick_text(tick)) + " " + number_text(tick);
+  return text.empty() ? "" : "set " + name + "tics (" + text + ")\n";
 }
 
 std::string end_text(const std::optional<double>& value, int edge) {
@@ -173,7 +151,7 @@ std::string end_text(const std::optional<double>& value, int edge) {
 std::string segment_text(const Segment& s) {
   return "set arrow from " + end_text(s.x1, 0) + "," + end_text(s.y1, 0) + " to " + end_text(s.x2, 1) + "," +
          end_text(s.y2, 1) + (s.arrow ? " head filled size screen 0.012,20 " : " nohead ") +
-         stroke(s.colour, s.dash, s.width) + (s.arrow ? " front\n" : " back\n") +
+         stroke_text(s.colour, s.dash, s.width) + (s.arrow ? " front\n" : " back\n") +
          (s.label.empty()
               ? ""
               : "set label " + quoted(s.label) + " at graph 1.01," + end_text(s.y2, 1) + " left\n");
@@ -200,26 +178,47 @@ std::string mark_text(const TextMark& mark) {
                      number_text(mark.y), align);
 }
 
-/// `aligned` panels have one left margin, so that axes stand below each other; 9 characters hold labels like
-/// 0.0005. Labels of segments stand right of the panel, in 6 characters.
-std::string frame_text(bool frame, bool aligned, bool labelled) {
-  if (!frame) return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\n";
-  std::string text = "set border 3 lc rgb " + quoted(text_colour);
-  text +=
-      " lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
-      "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n";
-  text += aligned ? "set lmargin 9\n" : "unset lmargin\n";
-  text += labelled ? "set rmargin 6\n" : "unset rmargin\n";
+/// Edges of the axes of a diagram in shares of the picture. In SVG gnuplot takes letters for higher than they
+/// are, and would leave half of a low panel to its margins. `aligned` panels stand below each other: 88 px
+/// hold labels like 0.0005. Labels of segments stand right of the panel.
+std::string margins_text(const Panel& panel, const FigureLayout& layout, const Box& box, bool heading,
+                         bool aligned, bool labelled) {
+  const double below = panel.x.label.empty() ? 32.0 : 58.0, above = heading ? 30.0 : 12.0;
+  const auto at = [](const char* edge, double share) {
+    return fmt::format("set {}margin at screen {}\n", edge, number_text(share));
+  };
+  std::string text = at("b", (box.bottom + below) / layout.height) +
+                     at("t", (box.bottom + box.height - above) / layout.height);
+  text += aligned ? at("l", (box.left + 88.0) / layout.width) : "unset lmargin\n";
+  text += panel.heat_map ? "unset rmargin\n"
+                         : at("r", (box.left + box.width - (labelled ? 60.0 : 24.0)) / layout.width);
   return text;
+}
+
+/// Labels of ordinates below each other. gnuplot would place each by the length that it takes its axis's
+/// numbers for, and beyond the edge where they are long.
+std::string aligned_label_text(const Panel& panel, const FigureLayout& layout, const Box& box) {
+  return "set ylabel ''\nset label " + quoted(panel.y.label) +
+         fmt::format(" at screen {},graph 0.5 center rotate by 90\n",
+                     number_text((box.left + 14.0) / layout.width));
+}
+
+std::string frame_text(bool frame) {
+  if (!frame)
+    return "unset border\nunset xtics\nunset ytics\nunset grid\nset lmargin 1\nset rmargin 1\nunset bmargin\n"
+           "set tmargin 2.2\n";
+  return "set border 3 lc rgb " + quoted(text_colour) +
+         " lw 0.9\nset xtics nomirror scale 0.6\nset ytics nomirror scale 0.6\n"
+         "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n";
 }
 
 /// The heading stands at the left so that letters of panels line up.
 std::string heading_text(const std::string& letter, const std::string& title, bool perspective) {
   const std::string text =
       letter.empty() ? title : "{/:Bold " + letter + "}" + (title.empty() ? "" : "  " + title);
-  if (text.empty()) return "set tmargin 1\n";
-  if (perspective) return "set tmargin 2.2\nset title " + quoted(text) + "\n";
-  return "set tmargin 2.2\nset label " + quoted(text) + " at graph 0,graph 1 left offset 0,0.9\n";
+  if (text.empty()) return "";
+  if (perspective) return "set title " + quoted(text) + "\n";
+  return "set label " + quoted(text) + " at graph 0,graph 1 left offset 0,0.9\n";
 }
 
 std::string plot_command(const Panel& panel, std::size_t panel_index, const SurfaceScript& surface) {
@@ -232,32 +231,52 @@ std::string plot_command(const Panel& panel, std::size_t panel_index, const Surf
             " using 1:2:3:4:5:6:7 with boxxyerror lc palette fs solid noborder notitle";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
-    // A curve without points is kept in the legend.
     const std::string data = has_points(series, panel)
                                  ? block_name(panel_index, i) + (panel.z ? " using 1:2:3" : " using 1:2")
                                  : "NaN";
-    text += (text.empty() ? command : ", ") + data + " with " + style_text(series, i) +
-            (series.label.empty() ? " notitle" : " title " + quoted(series.label));
+    text += (text.empty() ? command : ", ") + data + " with " + style_text(series, i) + " notitle";
   }
   return (text.empty() ? "plot NaN notitle" : text) + "\n";
 }
 
-std::string panel_text(const Panel& panel, std::size_t index, const std::string& letter,
-                       const std::string& title, bool aligned, bool labelled) {
+/// One legend for all panels, below them, where it lies on no curve.
+std::string legend_text(const Figure& figure, const FigureLayout& layout) {
+  const auto entries = legend_entries(figure);
+  if (entries.empty()) return "";
+  std::string text =
+      "unset title\nunset label\nunset arrow\nunset object\nunset border\nunset xtics\nunset ytics\n"
+      "unset grid\nunset xlabel\nunset ylabel\nunset colorbox\nunset logscale\nset size noratio\n"
+      "set lmargin 0\nset rmargin 0\nset tmargin 0\nset bmargin 0\nset xrange [0:1]\nset yrange [0:1]\n" +
+      layout.place_text(layout.legend());
+  text += fmt::format("set key inside center center horizontal maxcols {} Left reverse samplen 2.2\n",
+                      layout.legend_columns);
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    text += (i == 0 ? "plot " : ", ") +
+            fmt::format("NaN with {} title {}", entries[i].style, quoted(entries[i].label));
+  return text + "\n";
+}
+
+std::string panel_text(const Panel& panel, std::size_t index, const FigureLayout& layout,
+                       const std::string& letter, const std::string& title, bool aligned, bool labelled) {
   const bool framed = panel.frame && !panel.surface;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
-  std::string text =
-      "unset bmargin\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
-      frame_text(framed, aligned, labelled);
+  std::string text = "unset key\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
+                     layout.place_text(layout.panel(index)) + frame_text(framed);
+  if (framed)
+    text += margins_text(panel, layout, layout.panel(index), !(letter + title).empty(), aligned, labelled);
   text += axis_text("x", panel.x, empty) + axis_text("y", panel.y, empty);
+  text += short_axis_text("x", panel.x, panel, &Series::x) + short_axis_text("y", panel.y, panel, &Series::y);
+  if (framed && aligned && !panel.z && !panel.y.label.empty())
+    text += aligned_label_text(panel, layout, layout.panel(index));
   if (panel.z)
-    text += axis_text("z", *panel.z, empty) +
-            "set view 60,325,1,1.2\nset xyplane relative 0\nset border 895\nset zlabel rotate\n"
-            "set lmargin 7\nset rmargin 2\nset bmargin 6\nset xlabel offset 3,0.4\nset ylabel offset 0,0.2\n";
+    text +=
+        axis_text("z", *panel.z, empty) +
+        "set view 60,325,1,1.2\nset xyplane relative 0\nset border 895\nset zlabel rotate\n"
+        "set lmargin 7\nset rmargin 2\nset bmargin 6\nset tmargin 2.2\nset xlabel offset 3,0.4\nset ylabel offset 0,0.2\n";
   if (panel.heat_map) text += map_text(*panel.heat_map) + "unset grid\n";
   if (!framed) text += "unset xtics\nunset ytics\n";
-  text += legend_text(panel) + heading_text(letter, title, panel.z.has_value());
+  text += heading_text(letter, title, panel.z.has_value());
   for (const auto& rectangle : panel.rectangles) text += rectangle_text(rectangle);
   for (const auto& segment : panel.segments) text += segment_text(segment);
   for (const auto& mark : panel.texts) text += mark_text(mark);
@@ -324,21 +343,16 @@ std::string gnuplot_script(const Figure& figure) {
     for (std::size_t s = 0; s < figure.panels[p].series.size(); ++s)
       text += data_block(figure.panels[p].series[s], block_name(p, s));
   const std::size_t count = figure.panels.size();
-  const bool labelled = has_labelled_segments(figure);
-  if (count == 1) {
-    const std::string& title = figure.panels[0].title;
-    const bool both = !title.empty() && !figure.title.empty();
-    return text +
-           panel_text(figure.panels[0], 0, "", figure.title + (both ? ": " : "") + title, false, labelled);
-  }
-  const std::size_t columns = std::min(count, static_cast<std::size_t>(figure.columns));
-  const std::size_t rows = (count + columns - 1) / columns;
-  text += fmt::format("set multiplot layout {},{}{}\n", rows, columns,
-                      figure.title.empty() ? "" : " title " + quoted(figure.title) + " font ',15'");
+  const bool labelled = has_labelled_segments(figure), several = count > 1;
+  const FigureLayout layout(figure);
+  text += "set multiplot" +
+          (several && !figure.title.empty() ? " title " + quoted(figure.title) + " font ',15'" : "") + "\n";
+  const std::string& first = figure.panels[0].title;
+  const std::string alone = figure.title + (!first.empty() && !figure.title.empty() ? ": " : "") + first;
   for (std::size_t p = 0; p < count; ++p)
-    text += panel_text(figure.panels[p], p, figure.letters ? letter_of(p) : "", figure.panels[p].title, true,
-                       labelled);
-  return text + "unset multiplot\n";
+    text += panel_text(figure.panels[p], p, layout, several && figure.letters ? letter_of(p) : "",
+                       several ? figure.panels[p].title : alone, several, labelled);
+  return text + legend_text(figure, layout) + "unset multiplot\n";
 }
 
 }  // namespace wavebalance::app

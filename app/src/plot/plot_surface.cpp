@@ -345,8 +345,7 @@ SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis&
       add(script, name + "_marks" + std::to_string(i) + "_" + std::to_string(j),
           marked(view.surfaces[i], marks, rotation),
           "using 1:2 with points lc rgb '" + colour_code(marks.colour) + "'" +
-              symbol_text(static_cast<std::size_t>(std::max(marks.marker, 1) - 1)) + " title " +
-              quoted(marks.label));
+              symbol_text(static_cast<std::size_t>(std::max(marks.marker, 1) - 1)) + " notitle");
     }
   const Eigen::Vector2d lower = extent.lower.array() - margin - 0.8 * view.axes;
   const Eigen::Vector2d upper = extent.upper.array() + margin;

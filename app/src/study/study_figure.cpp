@@ -212,16 +212,13 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   panel.x.label = labelled(x.key);
   panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
   panel.y.label = shown_as(quantity).label;
-  panel.legend = varying.size() > 1 ? Legend::below_panel : Legend::none;
+  panel.legend = varying.size() > 1;
   std::set<std::string> shown;
   for (const Varying& one : varying) shown.insert(one.key);
   std::map<std::string, std::map<double, double>> curves;
   for (std::size_t i = 0; i < values.size(); ++i)
     curves[others_text(study, table, i, x.key, shown)][x.numbers[i]] = values[i];
   if (curves.size() > most_curves) return add_quantile_curves(panel, x, values);
-  constexpr int legend_line = 24;  // pixels
-  if (panel.legend == Legend::below_panel)
-    figure.panel_height += legend_line * static_cast<int>(curves.size());
   for (const auto& [text, curve] : curves) {
     Series series(plain(text), std::vector<double>(), std::vector<double>(), SeriesStyle::line_points);
     for (const auto& [at, value] : curve) {
@@ -242,8 +239,21 @@ void add_distribution(Figure& figure, std::vector<double> values, const std::str
   Panel& panel = figure.add_panel("Distribution");
   panel.x.label = shown_as(quantity).label;
   panel.y.label = "Runs with at most this value (%)";
-  panel.legend = Legend::none;
   panel.add({"", values, shares, SeriesStyle::steps});
+}
+
+/// Limits a little beyond the values, so that no symbol is cut.
+void set_limits(Axis& axis, double lowest, double highest) {
+  constexpr double margin = 0.03;  // of the range
+  if (axis.logarithmic) {
+    const double factor = std::pow(highest / lowest, margin);
+    axis.lower = lowest / factor;
+    axis.upper = highest * factor;
+    return;
+  }
+  axis.lower = lowest - margin * (highest - lowest);
+  axis.upper = highest + margin * (highest - lowest);
+  axis.ticks = few_ticks(*axis.lower, *axis.upper);
 }
 
 void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
@@ -262,9 +272,8 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
     Panel& panel = figure.add_panel("Over " + plain(one.key));
     panel.x.label = labelled(one.key);
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
-    if (!panel.x.logarithmic) panel.x.ticks = few_ticks(one.distinct.front(), one.distinct.back());
+    set_limits(panel.x, one.distinct.front(), one.distinct.back());
     panel.y.label = shown_as(quantity).label;
-    panel.legend = Legend::none;
     panel.add(std::move(series));
   }
 }

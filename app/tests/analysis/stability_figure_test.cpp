@@ -44,6 +44,15 @@ TEST(StabilityFigure, AGrazingBeforeAPeriodDoublingDoesNotEndTheStablePart) {
   EXPECT_EQ(abscissas(panel.series[1]), (std::vector{0.5, 1.0}));
 }
 
+TEST(StabilityFigure, DashesEndAtAGrazingWhereNoOtherPointEndsThem) {
+  Panel panel;
+  const Series curve("u", std::vector{0.0, 1.0, 2.0, 3.0}, std::vector{0.0, 1.0, 2.0, 3.0});
+  draw_by_stability(panel, curve, counts({0, 1, 1, 0}),
+                    {{Type::grazing, 0.75, 0.75}, {Type::grazing, 2.25, 2.25}});
+  EXPECT_EQ(abscissas(panel.series[0]), (std::vector{0.0, 0.75, -1.0, 2.25, 3.0}));
+  EXPECT_EQ(abscissas(panel.series[1]), (std::vector{0.75, 1.0, 2.0, 2.25}));
+}
+
 TEST(StabilityFigure, SpecialPointsOfACurveThatFoldsBackLieOnTheirOwnPart) {
   Panel panel;
   const Series curve("u", std::vector{0.0, 2.0, 0.0}, std::vector{0.0, 1.0, 2.0});

@@ -77,7 +77,7 @@ void fig01(report::Artefact& artefact) {
   panel.frame = false;
   panel.x = axis("", -0.1, 1.52);
   panel.y = axis("", -0.26, 0.27);
-  panel.legend = app::Legend::none;
+  panel.legend = false;
   for (const Polyline& line : lines) {
     Eigen::VectorXd x(line.points.size()), y(line.points.size());
     for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = line.points[i][0], y[i] = line.points[i][1];

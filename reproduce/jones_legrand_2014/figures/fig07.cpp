@@ -140,7 +140,7 @@ app::Figure case2_figure(const Case& study, const Values& u) {
     panel.y = axis("Distance (mm)", std::pow(10.0, std::floor(std::log10(lowest))),
                    std::pow(10.0, std::ceil(std::log10(highest))));
     panel.y.logarithmic = true;
-    panel.legend = app::Legend::none;
+    panel.legend = false;
   }
   return pair_rows("Tip displacement at 1275 Hz, 64 functions", {0.62, 8.0, {}}, pair_view(view, false),
                    std::move(differences), "distance from time stepping");

@@ -271,7 +271,6 @@ app::Figure drawn_figure(const Convergence& drawn) {
   figure.panels = drawn.panels(&Measures::energy_ratio, "Energy norm ratio (-)", false);
   auto below = drawn.panels(deviation, "|ratio − 1| (-)", true);
   figure.panels.insert(figure.panels.end(), below.begin(), below.end());
-  for (auto& panel : figure.panels) panel.legend = app::Legend::right_of_panel;
   return figure;
 }
 

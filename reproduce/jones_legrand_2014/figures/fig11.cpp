@@ -14,7 +14,6 @@ void fig11(report::Artefact& artefact) {
   figure.panel_width = 600;
   figure.panel_height = 330;
   figure.panels = drawn.panels(&Measures::rms, "Relative rms error (-)", true);
-  for (auto& panel : figure.panels) panel.legend = app::Legend::right_of_panel;
   artefact.picture(figure);
   artefact.caption(
       "rms of u − u_ref over a period divided by the rms of u_ref, tip. Both panels have one ordinate. Curves "

@@ -94,7 +94,6 @@ app::Panel group_panel(const Study& study, const Group& group, double scale,
   panel.add(std::move(soft));
   panel.x = axis(time_label, from, to);
   panel.y = fitted_axis(label, shown);
-  panel.legend = app::Legend::none;
   return panel;
 }
 
@@ -110,8 +109,6 @@ void add_panels(app::Figure& figure, const Study& study) {
       motion.x.label.clear();
       force.x.label.clear();
     }
-    force.y.upper = 2.0 * *force.y.upper;  // room for the legend above the curves
-    force.legend = app::Legend::top_right;
     figure.panels.push_back(std::move(motion));
     figure.panels.push_back(std::move(force));
   }

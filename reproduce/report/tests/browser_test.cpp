@@ -1,7 +1,6 @@
 // The pages in a real browser: chromium without a window opens them in frames, and what it finds is compared
 // with the data.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "chromium.hpp"
 #include "paper_results.hpp"
 #include "wavebalance/app/page/assets.hpp"
 #include "wavebalance/report/page.hpp"
@@ -21,30 +21,7 @@ using Path = std::filesystem::path;
 /// What `pages` show in frames of 400, 800 and 1400 px: one object for each of both. `log` has the browser's
 /// messages.
 nlohmann::json probed(const std::vector<Path>& pages, const Path& folder, std::string& log) {
-  std::string names;
-  for (const Path& page : pages) names += "\"file://" + page.string() + "\",";
-  app::write_file(folder / "probe.html", "<!DOCTYPE html><title>probe</title><body><script>const pages = [" +
-                                             names + "];</script><script src=\"probe.js\"></script></body>");
-  app::write_file(folder / "probe.js", app::read_file(WAVEBALANCE_PROBE));
-  const std::string command =
-      "'" WAVEBALANCE_CHROMIUM
-      "' --headless=new --no-sandbox --disable-gpu --allow-file-access-from-files "
-      "--enable-logging=stderr --window-size=1600,1100 --virtual-time-budget=600000 --user-data-dir='" +
-      (folder / "profile").string() + "' --dump-dom 'file://" + (folder / "probe.html").string() + "' > '" +
-      (folder / "dom").string() + "' 2> '" + (folder / "log").string() + "'";
-  const int status = std::system(("timeout 150 " + command).c_str());
-  log = app::read_file(folder / "log");
-  const std::string dom = app::read_file(folder / "dom");
-  const std::string begin = "<pre id=\"found\">";
-  const std::size_t first = dom.find(begin);
-  if (status != 0 || first == dom.npos)
-    throw std::runtime_error("chromium ended with status " + std::to_string(WEXITSTATUS(status)) + "\n" +
-                             log + dom);
-  std::string text = dom.substr(first + begin.size(), dom.find("</pre>", first) - first - begin.size());
-  for (const auto& [entity, sign] : {std::pair{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}})
-    for (std::size_t at = text.find(entity); at != text.npos; at = text.find(entity, at + 1))
-      text.replace(at, std::string(entity).size(), sign);
-  return nlohmann::json::parse(text);
+  return found_by(WAVEBALANCE_PROBE, pages, folder, log);
 }
 
 /// Messages of scripts that failed and of files that were not found.
@@ -174,13 +151,7 @@ void write_results(const Path& results) {
   table.write(0.1);
 }
 
-class Browser : public testing::Test {
- protected:
-  void SetUp() override {
-    if (std::string(WAVEBALANCE_CHROMIUM).empty())
-      GTEST_SKIP() << "chromium is not installed (setup installs it)";
-  }
-};
+class Browser : public NeedsChromium {};
 
 TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
   const TemporaryFolder folder;

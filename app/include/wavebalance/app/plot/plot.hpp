@@ -77,18 +77,6 @@ struct HeatMap {
   bool from_zero = false;      ///< for values >= 0: white for zero, dark blue for the largest
 };
 
-/// Where the legend of a panel stands.
-enum class Legend {
-  none,
-  top_left,
-  top_right,
-  bottom_left,
-  bottom_right,
-  top_centre,
-  right_of_panel,
-  below_panel
-};
-
 /// A straight line from (x1, y1) to (x2, y2); unset ends run to the panel's edge.
 struct Segment {
   std::optional<double> x1, y1, x2, y2;
@@ -124,8 +112,8 @@ struct Panel {
   /// the coordinates of projected().
   std::optional<SurfaceView> surface;
   std::vector<Series> series;
-  Legend legend = Legend::top_right;
-  bool frame = true;  ///< false leaves axes, ticks and grid out, for sketches
+  bool legend = true;  ///< its series are named in the legend of the figure
+  bool frame = true;   ///< false leaves axes, ticks and grid out, for sketches
   std::vector<Segment> segments;
   std::vector<Rectangle> rectangles;
   std::vector<TextMark> texts;
@@ -137,18 +125,19 @@ struct Panel {
   /// A dotted line across the panel at an abscissa or an ordinate, such as the gap, named at its right end.
   Panel& mark_x(double x_value);
   Panel& mark_y(double y_value, const std::string& label = "");
-  /// The same of a level of the `unit` of a linear axis, after all curves are added. The axis is extended to a
-  /// level within half the range of the curves; a farther one is named with its value in the title.
+  /// The same of a level of the `unit` of a linear axis, after all curves are added. The axis is extended to
+  /// a level within half the range of the curves; a farther one is named with its value in the title.
   Panel& mark_level(double y_value, const std::string& label, const std::string& unit);
 };
 
-/// Panels in rows, filled from the left; several are lettered (a), (b), ...
+/// Panels in rows, filled from the left; several are lettered (a), (b), ... One legend stands below them all:
+/// it names each label and look once. The picture is higher than its panels by the title and the legend.
 struct Figure {
   std::string title;
   std::vector<Panel> panels;
   int columns = 1;
   int panel_width = 480;   ///< pixels at 96 per inch, text is 11 points
-  int panel_height = 320;  ///< pixels
+  int panel_height = 320;  ///< pixels, with the numbers and labels of the axes
   bool letters = true;     ///< letter the panels when there are several
 
   Panel& add_panel(std::string panel_title = "");

@@ -1,0 +1,148 @@
+#include "plot/figure_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "files/number_text.hpp"
+#include "plot/plot_text.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr int title_height = 34;  // px
+// gnuplot takes all letters of an SVG for 0.7 of the size of the font, 13.5 px, and lines for 1.5 of it.
+constexpr double letter_width = 0.7 * 13.5, line_height = 1.5 * 13.5;
+constexpr double sample_width = 7 * letter_width;  // of the line before a name, and the space between columns
+
+std::string dash_text(Dash dash) {
+  switch (dash) {
+    case Dash::dashed:
+      return "(9,5)";
+    case Dash::dotted:
+      return "(2,4)";
+    case Dash::dash_dotted:
+      return "(10,4,2,4)";
+    case Dash::solid:
+      break;
+  }
+  return "1";
+}
+
+Colour colour_of(const Series& series, std::size_t index) {
+  return series.colour == Colour::automatic ? automatic_colour(index) : series.colour;
+}
+
+std::string symbol(const Series& series, std::size_t index) {
+  const std::size_t number = series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index;
+  std::string text = symbol_text(number);
+  if (series.marker_every) text += " pi " + std::to_string(*series.marker_every);
+  return text;
+}
+
+/// Letters that are drawn: without marks of sub- and superscripts, each UTF-8 sequence once.
+std::size_t letters_in(const std::string& label) {
+  return static_cast<std::size_t>(std::count_if(label.begin(), label.end(), [](char c) {
+    return std::string_view("{}^_\\").find(c) == std::string_view::npos &&
+           (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+/// What the looks of a name differ in; widths and the number of symbols on a curve do not matter.
+using Look = std::tuple<std::string, Colour, Dash, SeriesStyle>;
+
+void add_series(const Panel& panel, std::map<Look, bool>& named, std::vector<LegendEntry>& entries) {
+  for (std::size_t i = 0; i < panel.series.size(); ++i) {
+    const Series& one = panel.series[i];
+    if (one.label.empty()) continue;
+    if (!named.try_emplace({one.label, colour_of(one, i), one.dash, one.style}, true).second) continue;
+    Series every = one;
+    every.marker_every.reset();
+    entries.push_back({one.label, style_text(every, i)});
+  }
+}
+
+void add_marks(const Panel& panel, std::map<Look, bool>& named, std::vector<LegendEntry>& entries) {
+  if (!panel.surface) return;
+  for (const Surface& surface : panel.surface->surfaces)
+    for (const SurfaceMarks& marks : surface.marks) {
+      Series series;
+      series.style = SeriesStyle::points;
+      series.colour = marks.colour;
+      series.marker = std::max(marks.marker, 1);
+      if (!marks.label.empty() &&
+          named.try_emplace({marks.label, marks.colour, Dash::solid, series.style}, true).second)
+        entries.push_back({marks.label, style_text(series, 0)});
+    }
+}
+
+}  // namespace
+
+std::string stroke_text(Colour colour, Dash dash, double width) {
+  return fmt::format("lc rgb '{}' lw {} dt {}", colour_code(colour), number_text(width), dash_text(dash));
+}
+
+std::string style_text(const Series& series, std::size_t index) {
+  const std::string drawn = stroke_text(colour_of(series, index), series.dash, series.width);
+  switch (series.style) {
+    case SeriesStyle::points:
+      return "points lc rgb '" + colour_code(colour_of(series, index)) + "'" + symbol(series, index);
+    case SeriesStyle::line_points:
+      return "linespoints " + drawn + symbol(series, index);
+    case SeriesStyle::steps:
+      return "steps " + drawn;
+    case SeriesStyle::impulses:
+      return "impulses " + drawn;
+    case SeriesStyle::line:
+      break;
+  }
+  return "lines " + drawn;
+}
+
+std::vector<LegendEntry> legend_entries(const Figure& figure) {
+  std::map<Look, bool> named;
+  std::vector<LegendEntry> entries;
+  for (const Panel& panel : figure.panels) {
+    if (!panel.legend) continue;
+    add_marks(panel, named, entries);
+    add_series(panel, named, entries);
+  }
+  return entries;
+}
+
+FigureLayout::FigureLayout(const Figure& figure)
+    : panel_width(figure.panel_width), panel_height(figure.panel_height) {
+  const int count = std::max(1, static_cast<int>(figure.panels.size()));
+  columns = std::clamp(figure.columns, 1, count);
+  rows = (count + columns - 1) / columns;
+  width = columns * panel_width;
+  height = rows * panel_height + (count > 1 && !figure.title.empty() ? title_height : 0);
+  const auto entries = legend_entries(figure);
+  if (entries.empty()) return;
+  std::size_t longest = 0;
+  for (const LegendEntry& entry : entries) longest = std::max(longest, letters_in(entry.label));
+  const double column = sample_width + letter_width * static_cast<double>(longest);
+  const int all = static_cast<int>(entries.size());
+  legend_columns = std::clamp(static_cast<int>(width / column), 1, all);
+  const int lines = (all + legend_columns - 1) / legend_columns;
+  legend_columns = (all + lines - 1) / lines;  // rows of nearly equal length
+  legend_height = static_cast<int>(line_height * (lines + 0.8));
+  height += legend_height;
+}
+
+Box FigureLayout::panel(std::size_t index) const {
+  const int row = static_cast<int>(index) / columns, column = static_cast<int>(index) % columns;
+  return {double(column * panel_width), double(legend_height + (rows - 1 - row) * panel_height),
+          double(panel_width), double(panel_height)};
+}
+
+std::string FigureLayout::place_text(const Box& box) const {
+  return fmt::format("set origin {},{}\nset size {},{}\n", number_text(box.left / width),
+                     number_text(box.bottom / height), number_text(box.width / width),
+                     number_text(box.height / height));
+}
+
+}  // namespace wavebalance::app
