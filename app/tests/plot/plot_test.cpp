@@ -70,6 +70,38 @@ TEST(MarkLevel, StaysOnItsAxisOrIsNamedInTheTitle) {
   EXPECT_EQ(far.title, "Tip, gap -0.6 mm, outside of the axis");
 }
 
+TEST(Legend, NamesEachLookOnceBelowAllPanels) {
+  Figure figure = simple_figure();
+  figure.panels.push_back(figure.panels[0]);
+  figure.panels[1].series[0].width = 3.0;
+  EXPECT_EQ(
+      occurrences(render(figure, PictureFormat::svg), "<text><tspan font-family=\"Arial\" >Haar:Fourier<"),
+      1);
+  figure.panels[1].series[0].dash = Dash::dashed;
+  EXPECT_EQ(
+      occurrences(render(figure, PictureFormat::svg), "<text><tspan font-family=\"Arial\" >Haar:Fourier<"),
+      2);
+  for (Panel& panel : figure.panels) panel.legend = false;
+  EXPECT_EQ(occurrences(render(figure, PictureFormat::svg), "Haar:Fourier"), 0);
+}
+
+TEST(Axis, LogarithmicOnesOfOneDecadeHaveSeveralNumbers) {
+  const auto numbered = [](double lower, double upper, std::vector<double> ticks = {}) {
+    Figure figure = simple_figure();
+    Panel& panel = figure.panels[0];
+    panel.x.logarithmic = true;
+    panel.x.ticks = std::move(ticks);
+    panel.series[0].x = {lower, std::sqrt(lower * upper), upper};
+    return gnuplot_script(figure);
+  };
+  EXPECT_NE(numbered(3, 16).find("set xtics ('3' 3, '5' 5, '7' 7, '10' 10)"), std::string::npos)
+      << numbered(3, 16);
+  EXPECT_NE(numbered(1.2e7, 3.8e8).find("set xtics ('2·10^{7}' 2e7"), std::string::npos)
+      << numbered(1.2e7, 3.8e8);
+  EXPECT_EQ(numbered(1, 1000).find("'10' 10"), std::string::npos);
+  EXPECT_NE(numbered(3, 16, {4, 8}).find("set xtics (4, 8)"), std::string::npos);
+}
+
 TEST(Render, CurveWithoutAnyValueKeepsItsPlaceInTheLegend) {
   Figure figure = simple_figure();
   figure.panels[0].series[0].y = {nan, nan, nan};

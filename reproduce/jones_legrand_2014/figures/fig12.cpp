@@ -31,13 +31,13 @@ std::string gap_text(const Resonance& resonance) {
 app::Panel first_panel(const Curves& curves, const std::string& title, bool enlarged) {
   app::Panel panel = sweep_panel(title, curves.first);
   if (!enlarged) {
-    Series modulus = modulus_curve("Fourier:Fourier, 63 functions, max |u|", curves.full);
+    Series modulus = modulus_curve("Fourier, 63 functions, max |u|", curves.full);
     modulus.colour = app::Colour::green;
     modulus.dash = app::Dash::dash_dotted;
     panel.add(std::move(modulus));
   }
   Series style;
-  style.label = "Fourier:Fourier, 63 functions";
+  style.label = "Fourier, 63 functions";
   style.colour = app::Colour::black;
   add_stable_sweep(panel, style, curves.full);
   // Every other point of either, so that the symbols do not cover each other.
@@ -52,7 +52,7 @@ app::Panel first_panel(const Curves& curves, const std::string& title, bool enla
 app::Panel second_panel(const Resonance& resonance) {
   app::Panel panel = sweep_panel("second resonance, " + gap_text(resonance), resonance);
   Series style;
-  style.label = resonance.pairs[0].label + " in (c), (d)";
+  style.label = "Fourier, (c), (d)";
   style.colour = app::Colour::black;
   add_stable_sweep(panel, style, resonance.sweeps[0]);
   constexpr int every = 8;

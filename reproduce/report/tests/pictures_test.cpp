@@ -116,7 +116,7 @@ TEST_F(Pictures, OfThePapersAreLegible) {
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";
   const auto pictures = pictures_below(results);
   for (const Path& picture : pictures)
-    if (std::filesystem::last_write_time(picture) < std::filesystem::last_write_time(WAVEBALANCE_COMMAND))
+    if (std::filesystem::last_write_time(picture) < std::filesystem::last_write_time(WAVEBALANCE_LIBRARY))
       GTEST_SKIP() << picture << " is of an earlier build: make reproduce";
   expect_legible(pictures);
 }
