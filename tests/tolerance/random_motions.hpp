@@ -81,8 +81,7 @@ struct RandomMotion {
 /// times; nothing when shooting does not converge. It needs no stable motion: no period is integrated before.
 inline std::optional<Eigen::VectorXd> shooting_nearby(const RandomMotion& motion,
                                                       solvers::RefinementResult& found, int points) {
-  const auto field =
-      solvers::structure_motion(*found.problem, found.response, 4 * found.problem->points());
+  const auto field = solvers::structure_motion(*found.problem, found.response, 4 * found.problem->points());
   solvers::ShootingOptions options;
   options.output_points = points;
   options.settling_periods = 0;

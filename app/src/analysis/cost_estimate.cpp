@@ -96,7 +96,7 @@ double closed_samples(const Scene& scene) {
 /// Samples in contact of which a law of the velocity makes dense matrices: those of the contact-free response
 /// where it is computed in little time and memory, and half of all otherwise.
 double velocity_samples(const Scene& scene, const Sizes& s) {
-  constexpr double few = 700;        // whose matrices take less than 20 MB
+  constexpr double few = 700;         // whose matrices take less than 20 MB
   constexpr double affordable = 1e9;  // bytes
   constexpr int most_unknowns = 2000;
   const double half = 0.5 * s.contacts * s.points;

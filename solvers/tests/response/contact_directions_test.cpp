@@ -86,8 +86,7 @@ TEST(TurnedCoordinates, ChangeNoResponse) {
       EXPECT_TRUE(every_contact_presses(by_contact(a.contact_force, 3)));
       EXPECT_LE(distance(b.displacement, a.displacement), 1e-9);
       EXPECT_LE(distance(b.contact_force, a.contact_force), 1e-8);
-      const Motion whole = structure_motion(problem, a, 64),
-                   turned = structure_motion(other, b, 64);
+      const Motion whole = structure_motion(problem, a, 64), turned = structure_motion(other, b, 64);
       EXPECT_LE(distance(turn * turned.displacement, whole.displacement), 1e-9);
       EXPECT_LE(distance(chain.contact_directions * whole.displacement,
                          contact_motion(problem, a, laws, 64).displacement),

@@ -25,7 +25,7 @@ struct Sweep {
   int motion_periods =
       1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()
   double wall_seconds = 0.0;
-  std::string amplitude_unit = "N";  ///< of an amplitude sweep
+  std::string amplitude_unit = "N";                ///< of an amplitude sweep
   std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
 
   bool converged() const {

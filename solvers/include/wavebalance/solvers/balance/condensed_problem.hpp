@@ -183,7 +183,7 @@ class CondensedProblem {
   Eigen::MatrixXcd unit_loads_, static_loads_;  // projected at 1 Hz, over translates (rows): all, and static
   Eigen::MatrixXcd load_;                       // those that act at frequency_
   double frequency_ = 0.0, load_scale_ = 1.0;
-  double condensed_at_ = 0.0;  // Hz, at which all below is current; 0: none
+  double condensed_at_ = 0.0;                // Hz, at which all below is current; 0: none
   StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
   CondensedSpectrum condensed_;              // load responses to unit loads
   Eigen::MatrixXcd load_response_;           // to the projected loads, (M/2 + 1) x C

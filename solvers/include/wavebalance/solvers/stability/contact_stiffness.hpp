@@ -14,11 +14,11 @@ enum class StabilityStatus {
   converged,            ///< it is known
   no_response,          ///< the response has not converged
   no_finite_stiffness,  ///< a law in contact has no finite stiffness: rigid contact
-  too_few_samples,    ///< an interval of contact lies between two samples, so that the response has no force
+  too_few_samples,  ///< an interval of contact lies between two samples, so that the response has no force
   /// contact is so stiff that max_harmonics do not resolve it, or its stiffness varies so fast that halved
   /// intervals do not
   too_few_harmonics,
-  undamped,           ///< an exponent of the structure without contact lies on the imaginary axis
+  undamped,  ///< an exponent of the structure without contact lies on the imaginary axis
   /// contacts without mass and damping that deflect each other at once, or whose force depends on the
   /// velocity
   coupled_massless,
