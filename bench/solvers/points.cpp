@@ -162,12 +162,14 @@ BENCHMARK(dense_point)
     ->Args({1, 63, 256})
     ->Args({2, 63, 256})
     ->Iterations(1)
+    ->Repetitions(1)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(dense_step)
     ->Name("dense_point")
     ->ArgNames({"case", "functions", "points"})
     ->Args({1, 255, 1024})
     ->Iterations(1)
+    ->Repetitions(1)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -53,7 +53,7 @@ void dense_sweep(benchmark::State& state) {
 }
 
 BENCHMARK(sweep)->Unit(benchmark::kMillisecond);
-BENCHMARK(dense_sweep)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(dense_sweep)->Iterations(1)->Repetitions(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace wavebalance::bench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "linalg/spans.hpp"
@@ -57,12 +58,6 @@ std::vector<Eigen::Index> numbers_kept(const std::vector<Directions>& all, const
   return kept;
 }
 
-// Between coefficients of cosine and sine and the complex amplitude of a harmonic.
-Complex amplitude(const Eigen::VectorXd& coefficients, Eigen::Index start, int n, Eigen::Index i) {
-  return n == 0 ? Complex(coefficients[start + i])
-                : Complex(coefficients[start + 2 * i], coefficients[start + 2 * i + 1]);
-}
-
 }  // namespace
 
 void HarmonicCoarseSpace::set(const ComplianceOperator& compliance, int harmonics, const CoarseSize& wanted) {
@@ -78,14 +73,22 @@ void HarmonicCoarseSpace::set(const ComplianceOperator& compliance, int harmonic
     all.push_back(directions_of(responses.back(), wanted.remainder));
   }
   const std::vector<Eigen::Index> numbers = numbers_kept(all, wanted);
-  kept_.clear();
+  const Eigen::Index count = std::accumulate(numbers.begin(), numbers.end(), Eigen::Index{0});
+  basis_.resize(contacts_, count);
+  responses_.resize(contacts_, count);
+  directions_.clear();
   size_ = 0;
-  for (std::size_t n = 0; n < all.size(); ++n) {
-    if (numbers[n] == 0) continue;
-    Harmonic one{static_cast<int>(n), size_, all[n].basis.leftCols(numbers[n]), {}};
-    one.responses = one.basis.adjoint() * responses[n];
-    size_ += unknowns_per_direction(one.n) * numbers[n];
-    kept_.push_back(std::move(one));
+  for (std::size_t n = 0; n < all.size(); ++n)
+    keep(static_cast<int>(n), all[n].basis.leftCols(numbers[n]), responses[n]);
+}
+
+void HarmonicCoarseSpace::keep(int n, const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& response) {
+  const auto first = static_cast<Eigen::Index>(directions_.size());
+  basis_.middleCols(first, basis.cols()) = basis;
+  responses_.middleCols(first, basis.cols()).noalias() = response.adjoint() * basis;
+  for (Eigen::Index i = 0; i < basis.cols(); ++i) {
+    directions_.push_back({n, size_});
+    size_ += unknowns_per_direction(n);
   }
 }
 
@@ -95,78 +98,95 @@ void HarmonicCoarseSpace::transform(const Eigen::VectorXd& samples) {
                   {spectra_.col(c).data(), static_cast<std::size_t>(spectra_.rows())});
 }
 
-void HarmonicCoarseSpace::gather(const Eigen::VectorXd& samples, bool responses,
+void HarmonicCoarseSpace::gather(const Eigen::VectorXd& samples, const Eigen::MatrixXcd& along,
                                  Eigen::VectorXd& coefficients) {
   transform(samples);
   coefficients.resize(size_);
-  for (const Harmonic& one : kept_) {
-    const double scale = std::sqrt((one.n == 0 ? 1.0 : 2.0) / points_);
-    const Eigen::VectorXcd values = scale * spectra_.row(one.n).transpose();
-    const Eigen::VectorXcd along =
-        responses ? Eigen::VectorXcd(one.responses * values) : Eigen::VectorXcd(one.basis.adjoint() * values);
-    for (Eigen::Index i = 0; i < along.size(); ++i) {
-      coefficients[one.start + unknowns_per_direction(one.n) * i] = along[i].real();
-      if (one.n > 0) coefficients[one.start + 2 * i + 1] = along[i].imag();
-    }
+  const double mean = std::sqrt(1.0 / points_), other = std::sqrt(2.0 / points_);
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const auto [n, start] = directions_[d];
+    const Complex value =
+        along.col(static_cast<Eigen::Index>(d)).dot(spectra_.row(n).transpose()) * (n == 0 ? mean : other);
+    coefficients[start] = value.real();
+    if (n > 0) coefficients[start + 1] = value.imag();
   }
 }
 
 void HarmonicCoarseSpace::respond(const Eigen::VectorXd& samples, Eigen::VectorXd& coefficients) {
-  gather(samples, true, coefficients);
+  gather(samples, responses_, coefficients);
 }
 
 void HarmonicCoarseSpace::analyse(const Eigen::VectorXd& samples, Eigen::VectorXd& coefficients) {
-  gather(samples, false, coefficients);
+  gather(samples, basis_, coefficients);
 }
 
 void HarmonicCoarseSpace::synthesise(const Eigen::VectorXd& coefficients, Eigen::VectorXd& samples) {
   samples.resize(contacts_ * points_);
   spectra_.setZero();
-  for (const Harmonic& one : kept_) {
-    const double scale = std::sqrt((one.n == 0 ? 1.0 : 0.5) / points_);
-    for (Eigen::Index i = 0; i < one.basis.cols(); ++i)
-      spectra_.row(one.n) += scale * amplitude(coefficients, one.start, one.n, i) * one.basis.col(i);
+  const double mean = std::sqrt(1.0 / points_), other = std::sqrt(0.5 / points_);
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const auto [n, start] = directions_[d];
+    const Complex value = n == 0 ? Complex(mean * coefficients[start])
+                                 : other * Complex(coefficients[start], coefficients[start + 1]);
+    spectra_.row(n) += value * basis_.col(static_cast<Eigen::Index>(d)).transpose();
   }
   for (Eigen::Index c = 0; c < contacts_; ++c)
     fft_->inverse({spectra_.col(c).data(), static_cast<std::size_t>(spectra_.rows())},
                   {samples.data() + c * points_, static_cast<std::size_t>(points_)});
 }
 
-// The Fourier coefficient n of the tangent that was transformed last, aliased where there are fewer samples.
-Complex HarmonicCoarseSpace::tangent_at(int n, Eigen::Index contact) const {
-  const int k = (n % points_ + points_) % points_;
-  const Complex value = 2 * k <= points_ ? spectra_(k, contact) : std::conj(spectra_(points_ - k, contact));
-  return value / double(points_);
-}
-
-// The two columns of a direction at harmonic n. D times Re(x exp(2 pi i n t)) has the amplitude
-// d(m - n) x + d(m + n) conj(x) at harmonic m, d the Fourier coefficients of D.
-void HarmonicCoarseSpace::fill_column(const Eigen::VectorXcd& direction, int n, Eigen::Index column,
-                                      Eigen::MatrixXd& matrix) {
-  Eigen::VectorXcd forwards(contacts_), backwards(contacts_);
-  for (const Harmonic& one : kept_) {
-    const double scale = (one.n == 0 ? std::sqrt(0.5) : 1.0) * (n == 0 ? std::sqrt(0.5) : 1.0);
-    for (Eigen::Index c = 0; c < contacts_; ++c) {
-      forwards[c] = scale * tangent_at(one.n - n, c) * direction[c];
-      backwards[c] = scale * tangent_at(one.n + n, c) * std::conj(direction[c]);
-    }
-    const Eigen::VectorXcd ahead = one.responses * forwards, back = one.responses * backwards;
-    const Eigen::VectorXcd cosine = ahead + back, sine = Complex(0.0, 1.0) * (ahead - back);
-    for (Eigen::Index i = 0; i < ahead.size(); ++i) {
-      const Eigen::Index row = one.start + unknowns_per_direction(one.n) * i;
-      matrix(row, column) = cosine[i].real();
-      if (one.n > 0) matrix(row + 1, column) = cosine[i].imag();
-      if (n > 0) matrix(row, column + 1) = sine[i].real();
-      if (n > 0 && one.n > 0) matrix(row + 1, column + 1) = sine[i].imag();
-    }
+// The Fourier coefficients -K to K of D at each contact, aliased where there are fewer samples, K the largest
+// sum of two harmonics that are kept.
+void HarmonicCoarseSpace::set_tangent(const Eigen::VectorXd& tangent) {
+  transform(tangent);
+  largest_sum_ = directions_.empty() ? 0 : 2 * directions_.back().n;
+  tangent_.resize(contacts_, 2 * largest_sum_ + 1);
+  for (int n = 0; n <= largest_sum_; ++n) {
+    const bool upper = 2 * n > points_;
+    tangent_.col(largest_sum_ + n) = spectra_.row(upper ? points_ - n : n).transpose() / double(points_);
+    if (upper) tangent_.col(largest_sum_ + n) = tangent_.col(largest_sum_ + n).conjugate().eval();
+    tangent_.col(largest_sum_ - n) = tangent_.col(largest_sum_ + n).conjugate();
   }
 }
 
+// D times Re(x exp(2 pi i n t)) has the amplitude d(m - n) x + d(m + n) conj(x) at harmonic m, d the Fourier
+// coefficients of D. Both parts of each direction x of each harmonic n.
+void HarmonicCoarseSpace::set_products(int m) {
+  for (Eigen::Index d = 0; d < basis_.cols(); ++d) {
+    const int n = directions_[static_cast<std::size_t>(d)].n;
+    const double scale = (m == 0 ? std::sqrt(0.5) : 1.0) * (n == 0 ? std::sqrt(0.5) : 1.0);
+    forwards_.col(d) = scale * tangent_.col(largest_sum_ + m - n).cwiseProduct(basis_.col(d));
+    backwards_.col(d) = scale * tangent_.col(largest_sum_ + m + n).cwiseProduct(basis_.col(d).conjugate());
+  }
+}
+
+// The rows of all directions of one harmonic. A cosine of amplitude 1 and a sine have the amplitudes 1 and i.
+void HarmonicCoarseSpace::fill_rows(Eigen::Index first, Eigen::Index count, Eigen::MatrixXd& matrix) {
+  ahead_.noalias() = responses_.middleCols(first, count).adjoint() * forwards_;
+  back_.noalias() = responses_.middleCols(first, count).adjoint() * backwards_;
+  for (Eigen::Index from = 0; from < basis_.cols(); ++from)
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto [m, row] = directions_[static_cast<std::size_t>(first + i)];
+      const auto [n, column] = directions_[static_cast<std::size_t>(from)];
+      const Complex cosine = ahead_(i, from) + back_(i, from), sine = ahead_(i, from) - back_(i, from);
+      matrix(row, column) = cosine.real();
+      if (m > 0) matrix(row + 1, column) = cosine.imag();
+      if (n > 0) matrix(row, column + 1) = -sine.imag();
+      if (m > 0 && n > 0) matrix(row + 1, column + 1) = sine.real();
+    }
+}
+
 void HarmonicCoarseSpace::fill(const Eigen::VectorXd& tangent, Eigen::MatrixXd& matrix) {
-  transform(tangent);
-  for (const Harmonic& one : kept_)
-    for (Eigen::Index i = 0; i < one.basis.cols(); ++i)
-      fill_column(one.basis.col(i), one.n, one.start + unknowns_per_direction(one.n) * i, matrix);
+  set_tangent(tangent);
+  forwards_.resize(contacts_, basis_.cols());
+  backwards_.resize(contacts_, basis_.cols());
+  for (Eigen::Index first = 0, count = 0; first < basis_.cols(); first += count) {
+    const int n = directions_[static_cast<std::size_t>(first)].n;
+    count = std::count_if(directions_.begin() + first, directions_.end(),
+                          [n](const Direction& one) { return one.n == n; });
+    set_products(n);
+    fill_rows(first, count, matrix);
+  }
   matrix.topLeftCorner(size_, size_).diagonal().array() += 1.0;
 }
 

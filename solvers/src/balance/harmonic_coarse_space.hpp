@@ -54,24 +54,28 @@ class HarmonicCoarseSpace {
 
  private:
   using Complex = std::complex<double>;
-  /// The directions kept at one harmonic.
-  struct Harmonic {
+  /// A direction kept at harmonic n and the place of its coefficients.
+  struct Direction {
     int n = 0;
-    Eigen::Index start = 0;      // of its coefficients
-    Eigen::MatrixXcd basis;      // C x r, q_n
-    Eigen::MatrixXcd responses;  // r x C, q_n^* H(n)
+    Eigen::Index start = 0;
   };
 
+  void keep(int n, const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& response);
   void transform(const Eigen::VectorXd& samples);
-  void gather(const Eigen::VectorXd& samples, bool responses, Eigen::VectorXd& coefficients);
-  void fill_column(const Eigen::VectorXcd& direction, int n, Eigen::Index column, Eigen::MatrixXd& matrix);
-  Complex tangent_at(int n, Eigen::Index contact) const;
+  void gather(const Eigen::VectorXd& samples, const Eigen::MatrixXcd& along, Eigen::VectorXd& coefficients);
+  void set_tangent(const Eigen::VectorXd& tangent);
+  void set_products(int m);
+  void fill_rows(Eigen::Index first, Eigen::Index count, Eigen::MatrixXd& matrix);
 
   Eigen::Index contacts_ = 0, size_ = 0;
   int points_ = 0;
-  std::vector<Harmonic> kept_;
+  std::vector<Direction> directions_;   // by harmonic
+  Eigen::MatrixXcd basis_, responses_;  // C x directions: of each harmonic q_n and H(n)^* q_n
   std::unique_ptr<spectral::RealFft> fft_;
-  Eigen::MatrixXcd spectra_;  // N/2 + 1 x C, of samples
+  Eigen::MatrixXcd spectra_;                              // N/2 + 1 x C, of samples
+  int largest_sum_ = 0;                                   // K
+  Eigen::MatrixXcd tangent_;                              // C x 2 K + 1, Fourier coefficients of D from -K on
+  Eigen::MatrixXcd forwards_, backwards_, ahead_, back_;  // C or r_n x directions, work of fill()
 };
 
 }  // namespace wavebalance::solvers

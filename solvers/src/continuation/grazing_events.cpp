@@ -23,24 +23,15 @@ ArcLength::Crossing ArcLength::crossing_ahead(double& distance) const {
   return first;
 }
 
-// The sample that leaves its piece first between point_ and the candidate; none if none does.
-ArcLength::Crossing ArcLength::passed(const CurvePoint& candidate, const LawPieces& sides,
-                                      double& fraction) const {
-  Crossing first;
-  fraction = 1.0;
+// A sample that has left its piece at the candidate; none if none has.
+ArcLength::Crossing ArcLength::passed(const CurvePoint& candidate, const LawPieces& sides) const {
   for (int l = 0; l < sides.size(); ++l) {
     const int piece = system_.piece_at(l, candidate.displacement[l]);
     if (sides[l] == piece) continue;
     const int kink = piece > sides[l] ? sides[l] : sides[l] - 1;
-    if (kink_at(candidate, l) == kink) continue;
-    const double at = system_.kinks_at(l)[static_cast<std::size_t>(kink)].at;
-    const double to = candidate.displacement[l] - at;
-    const double from = kink_at(point_, l) == kink ? 0.0 : point_.displacement[l] - at;
-    if (first.sample >= 0 && from / (from - to) >= fraction) continue;
-    fraction = from / (from - to);
-    first = {l, kink};
+    if (kink_at(candidate, l) != kink) return {l, kink};
   }
-  return first;
+  return {};
 }
 
 // One step within the piece that point_ lies on, at most to the end of the piece.
@@ -49,21 +40,18 @@ bool ArcLength::step_in_piece() {
   const LawPieces sides = sides_of(point_);
   CurvePoint candidate;
   for (double length = step_; length >= shortest * options_.min_step;) {
-    double distance = length, fraction = 1.0;
+    double distance = length;
     Crossing crossing = crossing_ahead(distance);
-    if (crossing.sample < 0) {
-      if (step_smoothly(length, sides, candidate)) {
-        crossing = passed(candidate, sides, fraction);
-        distance *= fraction;
-        if (crossing.sample < 0) {
-          accept(std::move(candidate), sides);
-          step_ = std::clamp(1.6 * length, options_.min_step, options_.max_step);
-          return true;
-        }
+    if (crossing.sample < 0 && step_smoothly(length, sides, candidate)) {
+      crossing = passed(candidate, sides);
+      if (crossing.sample < 0) {
+        accept(std::move(candidate), sides);
+        step_ = std::clamp(1.6 * length, options_.min_step, options_.max_step);
+        return true;
       }
     }
-    if (crossing.sample >= 0 && distance > 0.0 && pass_grazing_event(crossing, distance, sides)) return true;
-    length = 0.5 * (distance > 0.0 ? distance : length);
+    if (crossing.sample >= 0 && pass_grazing_event(crossing, distance, sides)) return true;
+    length = 0.5 * distance;
   }
   return false;
 }
@@ -87,18 +75,15 @@ bool ArcLength::pass_grazing_event(Crossing crossing, double distance, const Law
     CurvePoint event = ahead(point_, distance);
     event.grazing = true;
     if (!solve_in(plane, &sides, event, corrections)) return false;
-    double fraction = 1.0;
-    const Crossing earlier = passed(event, sides, fraction);
+    const Crossing earlier = passed(event, sides);
     if (earlier.sample < 0) {
       if (!leads_to(crossing, sides, event) || !leave_grazing_event(crossing, sides, event)) return false;
       accept(std::move(event), sides);
       step_ = std::clamp(1.6 * step_, options_.min_step, options_.max_step);
       return true;
     }
-    if (fraction <= 0.0) return false;
     plane.row[crossing.sample] = 0.0;
     crossing = earlier;
-    distance *= fraction;
   }
   return false;
 }

@@ -41,17 +41,22 @@ void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd&
   }
 }
 
+// Harmonic n > 0 of a real period stands for -n, too, unless it is its own conjugate.
 void AliasMap::fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples,
                     Eigen::VectorXcd& out) const {
-  const int size = points / 2 + 1;
-  const int stored = functions / 2 + 1;
-  const int self_conjugate = points % 2 == 0 ? points / 2 : 0;
+  const int size = points / 2 + 1, stored = functions / 2 + 1;
+  const int largest = (points - 1) / 2;
   out.setZero(stored);
-  for (int n = 0, k = 0; n < size; ++n, k = k + 1 == functions ? 0 : k + 1) {
-    const std::complex<double> term = std::conj(factor[n]) * samples[n];
-    if (k < stored) out[k] += term;
-    const int mirrored = k == 0 ? 0 : functions - k;
-    if (mirrored < stored && n != 0 && n != self_conjugate) out[mirrored] += std::conj(term);
+  for (int start = 0; start < size; start += functions) {
+    const int count = std::min(stored, size - start);
+    out.head(count) += factor.segment(start, count).conjugate().cwiseProduct(samples.segment(start, count));
+  }
+  for (int start = functions; start - stored < largest; start += functions) {
+    const int first = std::max(0, start - largest), last = std::min(stored, start) - 1;
+    const int from = start - last, count = last - first + 1;
+    if (count <= 0) continue;
+    out.segment(first, count) +=
+        factor.segment(from, count).cwiseProduct(samples.segment(from, count).conjugate()).reverse();
   }
 }
 

@@ -165,7 +165,7 @@ class ArcLength {
   bool step_smoothly(double step, const LawPieces& sides, CurvePoint& candidate);
   bool pass_grazing_event(Crossing crossing, double distance, const LawPieces& sides);
   Crossing crossing_ahead(double& distance) const;
-  Crossing passed(const CurvePoint& candidate, const LawPieces& sides, double& fraction) const;
+  Crossing passed(const CurvePoint& candidate, const LawPieces& sides) const;
   LawPieces sides_of(const CurvePoint& point) const;
   std::vector<Crossing> samples_at_kinks(const CurvePoint& point) const;
   bool leads_to(Crossing crossing, const LawPieces& sides, CurvePoint event);
