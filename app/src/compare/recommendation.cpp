@@ -15,6 +15,7 @@ namespace {
 
 constexpr double known_share = 0.25;  // of an error that a reference may have itself
 constexpr double little_ratio = 2.0;
+constexpr double noise = 1.1;  // between the times of two runs
 
 bool reaches(const SolvePoint& point, double error) {
   return point.method == "weighted_residual" && point.converged && point.error <= error;
@@ -56,8 +57,7 @@ std::string first_sentence(const Recommendation& found, bool steady) {
 
 /// "takes 1.3 times as long"
 std::string ratio_text(double ratio) {
-  constexpr double noise = 0.1;
-  if (std::abs(ratio - 1.0) < noise) return "takes as long";
+  if (std::abs(ratio - 1.0) < noise - 1.0) return "takes as long";
   return fmt::format("takes {:.{}f} times as long", ratio, ratio < 9.95 ? 1 : 0);
 }
 
@@ -180,9 +180,7 @@ BasisMatters matters_of(const Recommendation& found, const std::vector<SolvePoin
   return found.fourier_time_ratio() <= little_ratio ? BasisMatters::little : BasisMatters::much;
 }
 
-/// Times differ by a tenth from run to run.
 void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points) {
-  constexpr double noise = 1.1;
   if (!found.fourier) return;
   const bool steady = is_steady(*found.fourier, points, found.error);
   if (steady && found.fourier->seconds <= noise * found.choice->seconds) found.choice = found.fourier;
@@ -201,16 +199,20 @@ bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, d
 }
 
 std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double error) {
-  std::optional<SolvePoint> best;
-  bool best_is_steady = false;
-  for (const SolvePoint& point : points) {
-    if (!reaches(point, error)) continue;
-    const bool steady = is_steady(point, points, error);
-    if (best && (best_is_steady != steady ? best_is_steady : !is_cheaper(point, *best))) continue;
-    best = point;
-    best_is_steady = steady;
-  }
-  return best;
+  std::vector<SolvePoint> able;
+  for (const SolvePoint& point : points)
+    if (reaches(point, error)) able.push_back(point);
+  if (able.empty()) return std::nullopt;
+  const auto unsteady = [&](const SolvePoint& point) { return !is_steady(point, points, error); };
+  if (!std::all_of(able.begin(), able.end(), unsteady)) std::erase_if(able, unsteady);
+  const SolvePoint best = *std::min_element(able.begin(), able.end(), is_cheaper);
+  return *std::min_element(able.begin(), able.end(), [&](const SolvePoint& a, const SolvePoint& b) {
+    const auto rank = [&](const SolvePoint& point) {
+      const bool equal = point.pair == best.pair && point.seconds <= noise * best.seconds;
+      return std::tuple(!equal, point.functions, point.points);
+    };
+    return rank(a) < rank(b);
+  });
 }
 
 std::string_view to_string(BasisMatters value) {

@@ -45,7 +45,13 @@ TEST(Comparison, OfALinearSceneIsWithTheClosedFormAndThreeFourierFunctionsAreExa
   EXPECT_EQ(found.points.front().functions, 3);
   EXPECT_LT(found.points.front().error, 1e-12);
   ASSERT_EQ(found.recommendations.size(), 3u);
-  for (const Recommendation& one : found.recommendations) EXPECT_EQ(one.choice->functions, 3);
+  // Solves of few functions take microseconds, whose order depends on the load of the machine.
+  for (const Recommendation& one : found.recommendations) {
+    ASSERT_TRUE(one.choice) << one.sentences;
+    EXPECT_LE(one.choice->error, one.error);
+    ASSERT_TRUE(one.fourier);
+    EXPECT_LT(one.fourier->error, 1e-12);
+  }
   // Splines approximate a cosine: never exact.
   EXPECT_GT(found.pairs[1].smallest_error, 1e-10);
 }

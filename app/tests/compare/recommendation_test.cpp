@@ -85,6 +85,14 @@ TEST(Recommendation, OfEqualTimesTheFewerFunctions) {
   EXPECT_EQ(found->pair, haar);
 }
 
+TEST(Recommendation, OfTimesOfOnePairThatDifferByATenthTheFewerFunctions) {
+  const std::vector<SolvePoint> points{solved(fourier, 3, 1.05e-6, 1e-14), solved(fourier, 7, 1e-6, 1e-14),
+                                       solved(spline, 2, 1.08e-6, 1e-4)};
+  EXPECT_EQ(cheapest(points, 1e-2)->functions, 3);
+  EXPECT_EQ(recommended(points, 1e-2).choice->functions, 3);
+  EXPECT_EQ(cheapest({solved(fourier, 3, 2e-6, 1e-14), solved(fourier, 7, 1e-6, 1e-14)}, 1e-2)->functions, 7);
+}
+
 TEST(Recommendation, NeverTakesASolveThatFailed) {
   const auto found = recommended({failed(fourier, 31, 1e-6), solved(fourier, 63, 1e-3, 1e-3)}, 1e-2);
   EXPECT_EQ(found.choice->functions, 63);
