@@ -49,6 +49,18 @@ void validate(const Sparse& stiffness, const Sparse& mass, int count, const Eige
                           "; a structure that can move freely needs a negative shift");
 }
 
+// The modes above the geometric mean of the lowest and the highest omega^2 that were asked for, from
+// (K - shift M) phi = omega^2 M phi, whose rounding is relative to the highest mode.
+void replace_high_modes(Modes& modes, const Sparse& shifted, const Sparse& mass, double shift) {
+  const Eigen::ArrayXd above = modes.squares.array() - shift;
+  const double middle = std::sqrt(above[0] * above.tail(1)[0]);
+  const Eigen::Index low = (above < middle).count(), high = above.size() - low;
+  const auto eigen = detail::generalized_eigen(Eigen::MatrixXd(shifted), Eigen::MatrixXd(mass));
+  if (!eigen) return;  // a mode without mass is infinitely high
+  modes.squares.tail(high) = eigen->values.segment(low, high).array() + shift;
+  modes.shapes.rightCols(high) = eigen->vectors.middleCols(low, high);
+}
+
 // M phi = mu (K - shift M) phi: with the inverse of omega^2 as the eigenvalue, rounding is relative to the
 // lowest mode, and a singular mass is no exception.
 Modes dense_modes(const Sparse& shifted, const Sparse& mass, int count, double shift) {
@@ -60,8 +72,11 @@ Modes dense_modes(const Sparse& shifted, const Sparse& mass, int count, double s
     throw std::domain_error("eigenmodes: mass is not positive semidefinite");
   if (inverse[count - 1] <= 0.0)
     throw std::domain_error("eigenmodes: the rank of mass is below the count of modes");
-  return {inverse.head(count).cwiseInverse().array() + shift,
-          eigen->vectors.rowwise().reverse().leftCols(count)};
+  Modes modes{inverse.head(count).cwiseInverse().array() + shift,
+              eigen->vectors.rowwise().reverse().leftCols(count)};
+  constexpr double wide = 1e6;  // rounding leaves more than nine digits below this ratio
+  if (inverse[0] > wide * inverse[count - 1]) replace_high_modes(modes, shifted, mass, shift);
+  return modes;
 }
 
 Modes lanczos_modes(const Factor& factor, const Sparse& mass, int count, const EigenmodesOptions& options,

@@ -161,6 +161,25 @@ TEST(Eigenmodes, GiveAllModesOfASmallStructure) {
     EXPECT_NEAR(found.omega[mode - 1] / discrete_omega(options, mode), 1.0, 1e-11) << mode;
 }
 
+// A bar of 60 elements whose stiffness grows by 1e10 from end to end.
+TEST(Eigenmodes, OfAWideSpectrumAreOrthogonalAtItsUpperEndToo) {
+  constexpr int size = 60;
+  Sparse stiffness(size, size), mass(size, size);
+  for (int i = 0; i < size; ++i) {
+    const double spring = std::pow(10.0, 10.0 * i / (size - 1));
+    stiffness.coeffRef(i, i) += spring;
+    if (i > 0) {
+      stiffness.coeffRef(i - 1, i - 1) += spring;
+      stiffness.coeffRef(i, i - 1) = stiffness.coeffRef(i - 1, i) = -spring;
+    }
+    mass.insert(i, i) = 1.0;
+  }
+  const EigenmodesResult modes = eigenmodes(stiffness, mass, size);
+  EXPECT_GT(modes.omega[size - 1], 1e5 * modes.omega[0]);
+  const Eigen::MatrixXd products = modes.shapes.transpose() * mass * modes.shapes;
+  EXPECT_LT((products - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(Eigenmodes, SayWhenTheIterationEndedEarly) {
   BarOptions options;
   options.elements = 5000;
