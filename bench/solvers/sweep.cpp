@@ -18,15 +18,23 @@ solvers::FrequencySweepOptions sweep_options() {
   return options;
 }
 
-void sweep(benchmark::State& state) {
+void follow(benchmark::State& state, solvers::GrazingEvents events) {
+  solvers::FrequencySweepOptions options = sweep_options();
+  options.arc_length.grazing_events = events;
   const Case scene = jl14_case(2);
   auto problem = fourier_problem(scene, functions, points);
   const solvers::AnyContactLaw law = scene.law();
   solvers::FrequencySweep curve;
-  for (auto _ : state) curve = solvers::frequency_sweep(problem, law, sweep_options());
+  for (auto _ : state) curve = solvers::frequency_sweep(problem, law, options);
   if (curve.status != solvers::SweepStatus::reached_end)
     state.SkipWithError(std::string(to_string(curve.status)).c_str());
   state.counters["curve_points"] = double(curve.points.size());
+}
+
+void sweep(benchmark::State& state) { follow(state, solvers::GrazingEvents::automatic); }
+// Long steps between the first contact, the turning points and the last contact.
+void sweep_at_turning_points(benchmark::State& state) {
+  follow(state, solvers::GrazingEvents::at_turning_points);
 }
 
 // The dense system takes minutes for a whole sweep: two points of it, one with contact, each from the point
@@ -53,6 +61,7 @@ void dense_sweep(benchmark::State& state) {
 }
 
 BENCHMARK(sweep)->Unit(benchmark::kMillisecond);
+BENCHMARK(sweep_at_turning_points)->Unit(benchmark::kMillisecond);
 BENCHMARK(dense_sweep)->Iterations(1)->Repetitions(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace wavebalance::solvers {
 namespace {
 
 // Beyond this many active samples of one contact GMRES is faster than LU.
-constexpr Eigen::Index crossover = 192;
+constexpr Eigen::Index crossover = 144;
 
 // With several contacts the preconditioner holds few harmonics of each, so LU is used up to more samples.
 constexpr Eigen::Index crossover_of_several = 256;
