@@ -1,0 +1,100 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+
+namespace wavebalance::solvers {
+
+/// An interval of time in which a contact stays on one analytic piece of its law and exerts a force: contact,
+/// for an obstacle. Times are in periods.
+struct ContactPhase {
+  int contact = 0;
+  int piece = 0;       ///< number of the piece: that many breakpoints of the law lie below it
+  double begin = 0.0;  ///< 0 <= begin < 1
+  double end = 0.0;    ///< begin < end <= begin + 1
+
+  double length() const { return end - begin; }
+  bool always() const { return end - begin >= 1.0; }
+};
+
+enum class PhasesStatus {
+  converged,
+  no_motion_near,        ///< the equations have no solution near the start: it is not near a motion of the
+                         ///< structure
+  tolerance_missed,      ///< the error is estimated above the tolerance at the largest number of unknowns
+  rigid_contact,         ///< a law has no finite stiffness
+  velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
+  free_structure,        ///< the structure has rigid motions, which have no periodic compliance
+  undamped,              ///< an exponent of the structure has no damping to speak of in a period
+  structural_damping     ///< it has no equation in time
+};
+
+std::string_view to_string(PhasesStatus status);
+
+/// What vibrates: the compliance of C contacts, their laws, and the motion without contact force.
+struct PhasesProblem {
+  const ContactDynamics& dynamics;  ///< must outlive what refers to it
+  ContactLaws laws;
+  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods.
+  Eigen::MatrixXcd contact_free;
+  double frequency = 0.0;  ///< 1 / period, Hz
+};
+
+struct ContactPhasesOptions {
+  /// Relative rms error of the displacements of the contacts that the estimate may have.
+  double tolerance = 1e-9;
+  int nodes = 8;  ///< of a panel, at first
+  int max_nodes = 24;
+  int max_panels = 400;
+  int max_iterations = 20;  ///< of Newton's method, each time
+  int max_changes = 12;     ///< of the phases
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// A periodic motion of a structure with contact, to rounding: contact forces that are polynomials on panels
+/// of the phases of contact, whose ends are unknowns.
+///
+/// Immutable; copies share it.
+class PhaseMotion {
+ public:
+  PhasesStatus status = PhasesStatus::no_motion_near;
+  std::vector<ContactPhase> phases;  ///< by contact, then by begin
+  int unknowns = 0, iterations = 0, changes = 0;
+  double residual = 0.0;  ///< of the equations, relative to the largest force and displacement
+  double estimated_error =
+      0.0;  ///< relative rms error of the displacements, by the last Legendre coefficients
+
+  bool converged() const { return status == PhasesStatus::converged; }
+  /// C x K displacements (m) and velocities (m/s) of the contacts at K times in periods. O(K panels poles).
+  Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
+  Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
+  /// C x K contact forces, N. O(K C log panels).
+  Eigen::MatrixXd force(const Eigen::VectorXd& times) const;
+
+  struct Parts;  ///< what the equations hold
+  std::shared_ptr<const Parts> parts;
+};
+
+/// The motion near a start: displacements of the contacts, C x N, m, at the times l / N, of a balance or of
+/// an integration. Solves
+///
+///   u(t) = u_0(t) - integral of G(t - s) f(s) ds - R_0 f(t),   f(t) = f_c(u(t), v(t)) within phases, 0
+///   elsewhere,
+///
+/// G the periodic Green function of the contacts, by collocation of f at Gauss nodes of the panels and
+/// u = kink at the ends of the phases, whose instants are unknowns. Panels are cut where another contact
+/// changes its phase, and divided where the last Legendre coefficients are above the tolerance. Phases that
+/// the motion found does not have are removed, and those that it has are inserted, until both agree.
+///
+/// Throws std::invalid_argument for sizes that do not fit. A Newton step costs O(n^3 + n^2 poles) for n
+/// unknowns.
+PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                           const ContactPhasesOptions& options = {});
+
+}  // namespace wavebalance::solvers

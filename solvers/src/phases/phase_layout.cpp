@@ -1,0 +1,228 @@
+#include "phases/phase_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// A cubic on [0, 1] by its values and slopes at both ends.
+struct Cubic {
+  double a, b, c, d;  // a + b t + c t^2 + d t^3
+
+  static Cubic between(double u0, double v0, double u1, double v1) {
+    return {u0, v0, 3.0 * (u1 - u0) - 2.0 * v0 - v1, 2.0 * (u0 - u1) + v0 + v1};
+  }
+  double at(double t) const { return a + t * (b + t * (c + t * d)); }
+  // Where its slope vanishes in (0, 1), ascending.
+  std::vector<double> extremes() const {
+    std::vector<double> places;
+    if (d == 0.0) {
+      if (c != 0.0) places = {-b / (2.0 * c)};
+    } else if (const double root = c * c - 3.0 * b * d; root > 0.0) {
+      places = {(-c - std::sqrt(root)) / (3.0 * d), (-c + std::sqrt(root)) / (3.0 * d)};
+      std::sort(places.begin(), places.end());
+    }
+    std::erase_if(places, [](double t) { return !(t > 0.0 && t < 1.0); });
+    return places;
+  }
+  // Where a part that is monotone from t0 to t1 has a value between its ends.
+  double root(double value, double t0, double t1) const {
+    const bool rises = at(t1) > at(t0);
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (t0 + t1);
+      ((at(middle) < value) == rises ? t0 : t1) = middle;
+    }
+    return 0.5 * (t0 + t1);
+  }
+};
+
+// A passage with the pieces before and after it.
+struct Step {
+  double time;
+  int from, to;
+};
+
+// The passages within one monotone part of the cubic, which ends at `end`.
+void append_steps(std::vector<Step>& steps, const LawPieces& law, const Cubic& motion, double t0, double t1,
+                  double end, double start, double length) {
+  int piece = steps.back().to;
+  const int last = law.piece_at(end);
+  while (piece != last) {
+    const int next = last > piece ? piece + 1 : piece - 1;
+    const double breakpoint = law.breakpoint(std::min(piece, next));
+    steps.push_back({start + length * motion.root(breakpoint, t0, t1), piece, next});
+    piece = next;
+  }
+}
+
+std::vector<Step> steps_of(const LawPieces& law, const Eigen::RowVectorXd& displacement,
+                           const Eigen::RowVectorXd& velocity) {
+  const int first = law.piece_at(displacement[0]);
+  std::vector<Step> steps{{0.0, first, first}};
+  const Eigen::Index samples = displacement.size();
+  const double length = 1.0 / double(samples);
+  for (Eigen::Index l = 0; l < samples; ++l) {
+    const Eigen::Index next = (l + 1) % samples;
+    const double start = length * double(l);
+    const Cubic motion =
+        Cubic::between(displacement[l], length * velocity[l], displacement[next], length * velocity[next]);
+    double from = 0.0;
+    for (const double extreme : motion.extremes()) {
+      append_steps(steps, law, motion, from, extreme, motion.at(extreme), start, length);
+      from = extreme;
+    }
+    append_steps(steps, law, motion, from, 1.0, displacement[next], start, length);
+  }
+  steps.erase(steps.begin());
+  return steps;
+}
+
+void append_phases(Layout& layout, int contact, const LawPieces& law, const std::vector<Step>& steps,
+                   int piece_at_start) {
+  if (steps.empty()) {
+    if (law.acts(piece_at_start))
+      layout.phases.push_back({contact, piece_at_start, -1, -1, 1.0, {0.25, 0.5, 0.75}});
+    return;
+  }
+  const int first = static_cast<int>(layout.passages.size());
+  for (const Step& step : steps)
+    layout.passages.push_back({contact, step.time, law.breakpoint(std::min(step.from, step.to))});
+  const int count = static_cast<int>(steps.size());
+  for (int i = 0; i < count; ++i) {
+    const int piece = steps[static_cast<std::size_t>(i)].to;
+    if (!law.acts(piece)) continue;
+    const bool around = i + 1 == count;
+    layout.phases.push_back(
+        {contact, piece, first + i, first + (around ? 0 : i + 1), around ? 1.0 : 0.0, {}});
+  }
+}
+
+}  // namespace
+
+double Layout::begin(const Phase& phase) const {
+  return phase.begin < 0 ? 0.0 : passages[static_cast<std::size_t>(phase.begin)].time;
+}
+
+double Layout::end(const Phase& phase) const {
+  return phase.end < 0 ? 1.0 : passages[static_cast<std::size_t>(phase.end)].time + phase.turns;
+}
+
+std::vector<Panel> Layout::panels() const {
+  std::vector<Panel> result;
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    const Phase& phase = phases[p];
+    const double from = begin(phase), length = end(phase) - from;
+    Edge before{0.0, {phase.begin, -1, 1.0, 0.0}};
+    for (const Edge& edge : edges_of(phase)) {
+      result.push_back({phase.contact, static_cast<int>(p), from + before.share * length,
+                        from + edge.share * length, before.drift, edge.drift});
+      before = edge;
+    }
+  }
+  return result;
+}
+
+// Where panels of a phase end: at its own cuts and, unless one is near, where other contacts pass a
+// breakpoint.
+std::vector<Layout::Edge> Layout::edges_of(const Phase& phase) const {
+  constexpr double close = 0.01;  // of the phase: cuts nearer to each other are one
+  const double from = begin(phase), length = end(phase) - from;
+  std::vector<Edge> edges;
+  for (const double cut : phase.cuts) edges.push_back({cut, {phase.begin, phase.end, 1.0 - cut, cut}});
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    if (passages[i].contact == phase.contact) continue;
+    const double share = (passages[i].time - from - std::floor(passages[i].time - from)) / length;
+    if (!(share > close && share < 1.0 - close)) continue;
+    std::erase_if(edges, [&](const Edge& edge) { return std::abs(edge.share - share) < close; });
+    edges.push_back({share, {static_cast<int>(i), -1, 1.0, 0.0}});
+  }
+  edges.push_back({1.0, {phase.end, -1, 1.0, 0.0}});
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.share < b.share; });
+  return edges;
+}
+
+Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
+                 const Eigen::MatrixXd& velocity) {
+  Layout layout;
+  for (Eigen::Index c = 0; c < displacement.rows(); ++c) {
+    const LawPieces& law = laws[static_cast<std::size_t>(c)];
+    append_phases(layout, static_cast<int>(c), law, steps_of(law, displacement.row(c), velocity.row(c)),
+                  law.piece_at(displacement(c, 0)));
+  }
+  return layout;
+}
+
+bool same_phases(const Layout& a, const Layout& b) {
+  if (a.passages.size() != b.passages.size() || a.phases.size() != b.phases.size()) return false;
+  // The passage next to time 0 may lie on either side of it: the order of the phases may be turned.
+  const auto count = [](const Layout& layout, int contact, int piece) {
+    return std::count_if(layout.phases.begin(), layout.phases.end(), [&](const Phase& phase) {
+      return phase.contact == contact && phase.piece == piece;
+    });
+  };
+  return std::all_of(a.phases.begin(), a.phases.end(), [&](const Phase& phase) {
+    return count(a, phase.contact, phase.piece) == count(b, phase.contact, phase.piece);
+  });
+}
+
+PanelForces::PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values)
+    : panels_(std::move(panels)),
+      coefficients_(nodes.coefficients *
+                    values.reshaped(nodes.count(), static_cast<Eigen::Index>(panels_.size()))) {}
+
+double PanelForces::value(std::size_t panel, double time) const {
+  const Panel& at = panels_[panel];
+  const double x = 2.0 * (time - at.begin) / at.length() - 1.0;
+  double before = 1.0, now = x, sum = coefficients_(0, static_cast<Eigen::Index>(panel));
+  for (Eigen::Index k = 1; k < coefficients_.rows(); ++k) {
+    sum += coefficients_(k, static_cast<Eigen::Index>(panel)) * now;
+    const double next = (double(2 * k + 1) * x * now - double(k) * before) / double(k + 1);
+    before = now;
+    now = next;
+  }
+  return sum;
+}
+
+// The panel of the phase that holds the time, or the one next to it.
+std::size_t PanelForces::panel_of(int phase, double time) const {
+  std::size_t nearest = panels_.size();
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    if (panels_[p].phase != phase) continue;
+    if (nearest == panels_.size() || time > panels_[p].begin) nearest = p;
+  }
+  return nearest;
+}
+
+double PanelForces::in_phase(int phase, double time) const {
+  const std::size_t panel = panel_of(phase, time);
+  return panel == panels_.size() ? 0.0 : value(panel, time);
+}
+
+// P_k' = x P_(k-1)' + k P_(k-1).
+double PanelForces::slope_in_phase(int phase, double time) const {
+  const std::size_t panel = panel_of(phase, time);
+  if (panel == panels_.size()) return 0.0;
+  const Panel& at = panels_[panel];
+  const double x = 2.0 * (time - at.begin) / at.length() - 1.0;
+  double before = 1.0, now = x, slope = 1.0, sum = 0.0;
+  for (Eigen::Index k = 1; k < coefficients_.rows(); ++k) {
+    sum += coefficients_(k, static_cast<Eigen::Index>(panel)) * slope;
+    slope = x * slope + double(k + 1) * now;
+    const double next = (double(2 * k + 1) * x * now - double(k) * before) / double(k + 1);
+    before = now;
+    now = next;
+  }
+  return 2.0 / at.length() * sum;
+}
+
+double PanelForces::at(int contact, double time) const {
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    if (panels_[p].contact != contact) continue;
+    const double after = time - panels_[p].begin - std::floor(time - panels_[p].begin);
+    if (after <= panels_[p].length()) return value(p, panels_[p].begin + after);
+  }
+  return 0.0;
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,77 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "phases/law_pieces.hpp"
+#include "phases/pole_response.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// An instant at which a contact passes a breakpoint of its law.
+struct Passage {
+  int contact = 0;
+  double time = 0.0;        ///< periods
+  double breakpoint = 0.0;  ///< m
+};
+
+/// A phase between two passages, or one that lasts the whole period, with passages -1.
+struct Phase {
+  int contact = 0, piece = 0;
+  int begin = -1, end = -1;       ///< numbers of passages
+  double turns = 0.0;             ///< added to the time of `end`, so that it comes after that of `begin`
+  std::vector<double> cuts = {};  ///< shares in (0, 1) of the phase at which panels meet, ascending
+};
+
+/// All phases with a force, and their passages, which are unknowns.
+struct Layout {
+  std::vector<Passage> passages;
+  std::vector<Phase> phases;
+
+  double begin(const Phase& phase) const;
+  double end(const Phase& phase) const;
+  /// The panels of all phases, by phase: cut at the phase's own cuts and where other contacts pass a
+  /// breakpoint.
+  std::vector<Panel> panels() const;
+
+ private:
+  struct Edge {
+    double share;  // of the phase
+    Drift drift;
+  };
+  std::vector<Edge> edges_of(const Phase& phase) const;
+};
+
+/// The phases of a motion that is sampled at times l / N: displacements, m, and velocities, m per period, C x
+/// N each. Between two samples it is the cubic that has both. Whether contacts graze between them is noticed.
+Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
+                 const Eigen::MatrixXd& velocity);
+
+/// Whether both have the same phases in the same order, apart from their instants.
+bool same_phases(const Layout& a, const Layout& b);
+
+/// Contact forces that are polynomials on panels.
+class PanelForces {
+ public:
+  PanelForces() = default;
+  /// `values`: of q nodes each, by panel.
+  PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values);
+
+  const std::vector<Panel>& panels() const { return panels_; }
+  /// Of the phase at a time in its own periods, continued beyond the ends of the phase.
+  double in_phase(int phase, double time) const;
+  /// The slope of in_phase() by time, N per period.
+  double slope_in_phase(int phase, double time) const;
+  /// Of a contact at any time; zero outside its panels.
+  double at(int contact, double time) const;
+  /// q x panels, N.
+  const Eigen::MatrixXd& coefficients() const { return coefficients_; }
+
+ private:
+  std::size_t panel_of(int phase, double time) const;
+  double value(std::size_t panel, double time) const;
+
+  std::vector<Panel> panels_;
+  Eigen::MatrixXd coefficients_;
+};
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,246 @@
+#include "phases/pole_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linalg/dense.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+using Complex = std::complex<double>;
+
+// The time from `begin` to `time` on a circle of length 1, in [0, 1). Rounding below zero is zero.
+double time_after(double begin, double time) {
+  constexpr double rounding = 1e-13;
+  const double after = time - begin - std::floor(time - begin);
+  return after > 1.0 - rounding ? 0.0 : after;
+}
+
+Eigen::MatrixXd real_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  return product(a.real(), b.real()) - product(a.imag(), b.imag());
+}
+
+// exp(rate t) at times of which most follow each other by equal steps. O(times).
+void decay(Complex rate, const Eigen::VectorXd& times, Eigen::Ref<Eigen::VectorXcd> values) {
+  constexpr double rounding = 1e-14;
+  const double step = times.size() > 1 ? times[1] - times[0] : 0.0;
+  const Complex factor = std::exp(rate * step);
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    const bool follows = i > 0 && std::abs(times[i] - times[i - 1] - step) < rounding;
+    values[i] = follows ? values[i - 1] * factor : std::exp(rate * times[i]);
+  }
+}
+
+}  // namespace
+
+// The instants within a panel, which its polynomial reaches, and those after it, seen from the panel.
+struct PoleResponse::View {
+  View(const Panel& panel, const std::vector<Instant>& instants);
+
+  Eigen::Index within() const { return static_cast<Eigen::Index>(inside.size()); }
+
+  std::vector<Eigen::Index> inside, outside;  // numbers of instants
+  std::vector<int> inside_contact, outside_contact;
+  Eigen::VectorXd since_end;  // outside: periods
+  Eigen::VectorXd points;     // inside, then 1: on [-1, 1]
+};
+
+PoleResponse::View::View(const Panel& panel, const std::vector<Instant>& instants) {
+  constexpr double rounding = 1e-12;
+  std::vector<double> reached, ends;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const double after = time_after(panel.begin, instants[i].time);
+    const bool in = after <= panel.length() * (1.0 + rounding);
+    (in ? inside : outside).push_back(static_cast<Eigen::Index>(i));
+    (in ? inside_contact : outside_contact).push_back(instants[i].contact);
+    if (in)
+      reached.push_back(std::min(1.0, 2.0 * after / panel.length() - 1.0));
+    else
+      ends.push_back(after - panel.length());
+  }
+  reached.push_back(1.0);
+  points = Eigen::VectorXd::Map(reached.data(), static_cast<Eigen::Index>(reached.size()));
+  since_end = Eigen::VectorXd::Map(ends.data(), static_cast<Eigen::Index>(ends.size()));
+}
+
+// One panel's integrals for all poles, with the sum of what is local and the factors of what decays.
+struct PoleResponse::Waves {
+  Eigen::MatrixXcd at_end, at_begin;  // poles x q: states at the ends of the panel in the periodic motion
+  Eigen::MatrixXcd outer, inner;      // instants x poles: shape times decay
+  Eigen::MatrixXcd local, rate;       // inside x q: sums over the poles
+};
+
+PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : constant_(dynamics.constant()) {
+  const Eigen::Index contacts = constant_.rows();
+  const auto poles = static_cast<Eigen::Index>(dynamics.poles().size());
+  exponents_.resize(poles);
+  shapes_.resize(contacts, poles);
+  left_.resize(contacts, poles);
+  for (Eigen::Index r = 0; r < poles; ++r) {
+    const ContactPole& pole = dynamics.poles()[static_cast<std::size_t>(r)];
+    const double weight = pole.exponent.imag() > 0.0 ? 2.0 : 1.0;
+    exponents_[r] = period * pole.exponent;
+    shapes_.col(r) = weight * period * pole.residue * pole.shape;
+    left_.col(r) = pole.left;
+  }
+  jump_ = (shapes_ * left_.transpose()).real();
+}
+
+// For forces that grow by z per period. The weight of two that a pair of poles has in shapes_ is that of
+// both.
+PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Eigen::Index count, Complex z,
+                                        Poles which, bool velocity) const {
+  const bool conjugate = which == Poles::lower;
+  const Eigen::Index poles = exponents_.size(), within = view.within();
+  const double half = 0.5 * panel.length();
+  Waves result;
+  result.at_end.setZero(poles, count);
+  result.at_begin.setZero(poles, count);
+  result.outer.setZero(view.since_end.size(), poles);
+  result.inner.setZero(within, poles);
+  result.local.setZero(within, count);
+  if (velocity) result.rate.setZero(within, count);
+  ExponentialIntegrals integrals(view.points, count);
+  for (Eigen::Index r = 0; r < poles; ++r) {
+    const bool pair = exponents_[r].imag() != 0.0;
+    if (conjugate && !pair) continue;
+    const Complex rate = conjugate ? std::conj(exponents_[r]) : exponents_[r];
+    const auto given = [&](Complex value) { return conjugate ? std::conj(value) : value; };
+    const Complex source = (which != Poles::all && pair ? 0.5 : 1.0) * half * given(left_(panel.contact, r));
+    if (source == 0.0) continue;
+    integrals.compute(half * rate);
+    const auto own = integrals.values();
+    result.at_end.row(r) = (source / (1.0 - std::exp(rate) / z)) * own.row(within);
+    result.at_begin.row(r) = (std::exp(rate * (1.0 - panel.length())) / z) * result.at_end.row(r);
+    decay(rate, view.since_end, result.outer.col(r));
+    for (Eigen::Index i = 0; i < result.outer.rows(); ++i)
+      result.outer(i, r) *= given(shapes_(view.outside_contact[static_cast<std::size_t>(i)], r));
+    for (Eigen::Index i = 0; i < within; ++i) {
+      const Complex shape = given(shapes_(view.inside_contact[static_cast<std::size_t>(i)], r));
+      result.inner(i, r) = shape * integrals.decay()[i];
+      result.local.row(i) += (shape * source) * own.row(i);
+      if (velocity) result.rate.row(i) += (rate * shape * source) * own.row(i);
+    }
+  }
+  return result;
+}
+
+Influence PoleResponse::influence(const std::vector<Panel>& panels, const LegendreNodes& nodes,
+                                  const std::vector<Instant>& instants, bool velocity) const {
+  const Eigen::Index count = nodes.count(), size = static_cast<Eigen::Index>(instants.size());
+  Influence result;
+  result.displacement.resize(size, count * static_cast<Eigen::Index>(panels.size()));
+  if (velocity) result.velocity.resizeLike(result.displacement);
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const View view(panels[p], instants);
+    const Waves at = waves(panels[p], view, count, 1.0, Poles::all, velocity);
+    const Eigen::MatrixXd values = legendre_values(view.points.head(view.within()), count);
+    const auto fill = [&](Eigen::MatrixXd& matrix, const Waves& wave, const Eigen::MatrixXcd& local,
+                          const Eigen::MatrixXd& at_once) {
+      Eigen::MatrixXd inner = real_product(wave.inner, wave.at_begin) + local.real();
+      for (Eigen::Index i = 0; i < view.within(); ++i)
+        inner.row(i) +=
+            at_once(view.inside_contact[static_cast<std::size_t>(i)], panels[p].contact) * values.row(i);
+      auto columns = matrix.middleCols(static_cast<Eigen::Index>(p) * count, count);
+      columns(view.inside, Eigen::all) = product(inner, nodes.coefficients);
+      columns(view.outside, Eigen::all) = product(real_product(wave.outer, wave.at_end), nodes.coefficients);
+    };
+    fill(result.displacement, at, at.local, constant_);
+    if (!velocity) continue;
+    Waves rates = at;
+    rates.at_end = exponents_.asDiagonal() * at.at_end;
+    rates.at_begin = exponents_.asDiagonal() * at.at_begin;
+    fill(result.velocity, rates, at.rate, jump_);
+  }
+  return result;
+}
+
+Influence PoleResponse::motion(const std::vector<Panel>& panels, const Eigen::MatrixXd& coefficients,
+                               const Eigen::VectorXd& times) const {
+  const Eigen::Index poles = exponents_.size();
+  Eigen::MatrixXcd states = Eigen::MatrixXcd::Zero(times.size(), poles);
+  Influence result{Eigen::MatrixXd::Zero(contacts(), times.size()),
+                   Eigen::MatrixXd::Zero(contacts(), times.size())};
+  std::vector<Instant> instants;
+  for (const double time : times) instants.push_back({0, time});
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const Panel& panel = panels[p];
+    const Eigen::VectorXd force = coefficients.col(static_cast<Eigen::Index>(p));
+    const View view(panel, instants);
+    const Eigen::Index within = view.within();
+    ExponentialIntegrals integrals(view.points, force.size());
+    Eigen::VectorXcd outer(view.since_end.size());
+    for (Eigen::Index r = 0; r < poles; ++r) {
+      const Complex rate = exponents_[r], source = 0.5 * panel.length() * left_(panel.contact, r);
+      integrals.compute(0.5 * panel.length() * rate);
+      const Eigen::VectorXcd own = source * (integrals.values() * force);
+      const Complex at_end = own[within] / (1.0 - std::exp(rate));
+      const Complex at_begin = std::exp(rate * (1.0 - panel.length())) * at_end;
+      decay(rate, view.since_end, outer);
+      states.col(r)(view.outside) += at_end * outer;
+      states.col(r)(view.inside) += own.head(within) + at_begin * integrals.decay().head(within);
+    }
+    const Eigen::VectorXd values = legendre_values(view.points.head(within), force.size()) * force;
+    result.displacement(Eigen::all, view.inside) += constant_.col(panel.contact) * values.transpose();
+    result.velocity(Eigen::all, view.inside) += jump_.col(panel.contact) * values.transpose();
+  }
+  const Eigen::MatrixXcd turned = states.transpose();
+  result.displacement += real_product(shapes_, turned);
+  result.velocity += real_product(shapes_ * exponents_.asDiagonal(), turned);
+  return result;
+}
+
+Influence PoleResponse::impulses(const std::vector<Instant>& impulses, const std::vector<Instant>& instants,
+                                 bool velocity) const {
+  const auto size = static_cast<Eigen::Index>(instants.size()),
+             count = static_cast<Eigen::Index>(impulses.size());
+  Influence result;
+  result.displacement.setZero(size, count);
+  if (velocity) result.velocity.setZero(size, count);
+  const Eigen::ArrayXcd periodic = 1.0 / (1.0 - exponents_.array().exp());
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Instant &from = impulses[static_cast<std::size_t>(j)],
+                    &to = instants[static_cast<std::size_t>(i)];
+      const double after = time_after(from.time, to.time);
+      const Eigen::ArrayXcd parts = shapes_.row(to.contact).transpose().array() *
+                                    left_.row(from.contact).transpose().array() *
+                                    (after * exponents_.array()).exp() * periodic;
+      result.displacement(i, j) = parts.real().sum();
+      if (velocity) result.velocity(i, j) = (exponents_.array() * parts).real().sum();
+    }
+  return result;
+}
+
+Eigen::MatrixXcd PoleResponse::growing(const std::vector<Panel>& panels, const LegendreNodes& nodes,
+                                       const std::vector<Instant>& instants, Complex z) const {
+  const Eigen::Index count = nodes.count(), size = static_cast<Eigen::Index>(instants.size());
+  Eigen::MatrixXcd result(size, count * static_cast<Eigen::Index>(panels.size()));
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const View view(panels[p], instants);
+    const Eigen::MatrixXd values = legendre_values(view.points.head(view.within()), count);
+    Eigen::MatrixXcd inner = Eigen::MatrixXcd::Zero(view.within(), count),
+                     outer = Eigen::MatrixXcd::Zero(view.since_end.size(), count);
+    for (Eigen::Index i = 0; i < view.within(); ++i)
+      inner.row(i) =
+          (constant_(view.inside_contact[static_cast<std::size_t>(i)], panels[p].contact) * values.row(i))
+              .cast<Complex>();
+    for (const Poles half : {Poles::upper, Poles::lower}) {
+      const Waves at = waves(panels[p], view, count, z, half, false);
+      inner += at.inner * at.at_begin + at.local;
+      outer += at.outer * at.at_end;
+    }
+    auto columns = result.middleCols(static_cast<Eigen::Index>(p) * count, count);
+    columns(view.inside, Eigen::all) = inner * nodes.coefficients.cast<Complex>();
+    columns(view.outside, Eigen::all) = outer * nodes.coefficients.cast<Complex>();
+    // An instant before the panel is seen in the period after.
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const double time = instants[static_cast<std::size_t>(i)].time;
+      columns.row(i) /= std::pow(z, std::round(panels[p].begin + time_after(panels[p].begin, time) - time));
+    }
+  }
+  return result;
+}
+
+}  // namespace wavebalance::solvers::detail
