@@ -5,8 +5,8 @@
 #include "stopwatch.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 // What the condensed solver is measured against: the assembled system, time stepping and shooting.

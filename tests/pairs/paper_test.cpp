@@ -6,7 +6,7 @@
 #include "dense_system.hpp"
 #include "pairs.hpp"
 #include "paper_values.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"

@@ -10,7 +10,7 @@
 #include "tolerance_scenes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"

@@ -11,8 +11,8 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/reference/rigid_reference.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/rigid_reference.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "support/summary_value.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -15,7 +15,7 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/table.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 

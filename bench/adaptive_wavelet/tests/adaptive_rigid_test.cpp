@@ -6,7 +6,7 @@
 
 #include "adaptive_rigid.hpp"
 #include "pairs.hpp"
-#include "wavebalance/solvers/reference/rigid_reference.hpp"
+#include "wavebalance/solvers/period/rigid_reference.hpp"
 
 // Force cells against a rigid obstacle, held to the exact flows of the bar without mass at its tip.
 namespace wavebalance::pairs {

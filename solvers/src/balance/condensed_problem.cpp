@@ -376,4 +376,6 @@ Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& forc
   return spectra;
 }
 
+int load_periods(const CondensedProblem& problem) { return repeats_within_period(problem.load_harmonics()); }
+
 }  // namespace wavebalance::solvers

@@ -8,8 +8,6 @@
 
 namespace wavebalance::solvers {
 
-int load_periods(const CondensedProblem& problem) { return repeats_within_period(problem.load_harmonics()); }
-
 double change_after(const CondensedProblem& problem, const PeriodicResponse& response, int periods) {
   detail::require_at_least("change_after", "periods", periods, 1);
   const double shift = 2.0 * std::numbers::pi * periods / load_periods(problem);

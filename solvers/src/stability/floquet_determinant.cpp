@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "linalg/dense.hpp"
-#include "stability/gauss_rule.hpp"
+#include "linalg/gauss_rule.hpp"
 #include "stability/smooth_pieces.hpp"
 
 namespace wavebalance::solvers {

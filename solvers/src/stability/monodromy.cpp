@@ -8,8 +8,8 @@
 #include <string>
 
 #include "linalg/dense.hpp"
+#include "linalg/gauss_rule.hpp"
 #include "linalg/option_checks.hpp"
-#include "stability/gauss_rule.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/monodromy_pieces.hpp"
 #include "stability/pole_states.hpp"

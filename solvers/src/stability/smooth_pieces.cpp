@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "stability/gauss_rule.hpp"
+#include "linalg/gauss_rule.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -9,10 +9,10 @@
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/settling.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -13,7 +13,7 @@
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::solvers {
 namespace {

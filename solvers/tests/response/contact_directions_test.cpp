@@ -15,12 +15,12 @@
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
-#include "wavebalance/solvers/response/settling.hpp"
 
 namespace wavebalance::solvers {
 namespace {

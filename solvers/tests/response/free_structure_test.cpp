@@ -9,7 +9,7 @@
 #include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"

@@ -7,7 +7,7 @@
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/stability_cases.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 

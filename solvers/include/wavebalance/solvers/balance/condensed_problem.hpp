@@ -199,4 +199,9 @@ class CondensedProblem {
   std::unique_ptr<Work> work_;
 };
 
+/// How often the load of a problem repeats within its period: the greatest common divisor of the load's
+/// harmonics above 0, 1 without any. A problem at the frequency f / n with its load in harmonic n has n: its
+/// responses are the motions of n periods of a load of frequency f, and those of fewer.
+int load_periods(const CondensedProblem& problem);
+
 }  // namespace wavebalance::solvers

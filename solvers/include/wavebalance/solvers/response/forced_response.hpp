@@ -3,8 +3,8 @@
 
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/continuation/residual_homotopy.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
-#include "wavebalance/solvers/response/settling.hpp"
 
 namespace wavebalance::solvers {
 

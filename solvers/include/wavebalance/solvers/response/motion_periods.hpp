@@ -4,11 +4,6 @@
 
 namespace wavebalance::solvers {
 
-/// How often the load of a problem repeats within its period: the greatest common divisor of the load's
-/// harmonics above 0, 1 without any. A problem at the frequency f / n with its load in harmonic n has n: its
-/// responses are the motions of n periods of a load of frequency f, and those of fewer.
-int load_periods(const CondensedProblem& problem);
-
 /// ||u(t + p T) - u(t)|| / ||u - mean of u|| over all contacts, for p = `periods` periods T of the load; 0 of
 /// a motion at rest. O(C N).
 /// Throws std::invalid_argument for a number of periods below 1.

@@ -1,4 +1,4 @@
-#include "reference/shooting_propagator.hpp"
+#include "period/shooting_propagator.hpp"
 
 #include <algorithm>
 #include <cmath>

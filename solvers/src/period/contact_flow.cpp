@@ -1,4 +1,4 @@
-#include "response/contact_flow.hpp"
+#include "period/contact_flow.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "structure/modal_flow.hpp"
+#include "period/modal_flow.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "response/contact_free_motion.hpp"
-#include "structure/modal_flow.hpp"
+#include "period/contact_free_motion.hpp"
+#include "period/modal_flow.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 
 namespace wavebalance::solvers {

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
@@ -16,7 +16,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/gsl_errors.hpp"
 #include "linalg/option_checks.hpp"
-#include "wavebalance/solvers/reference/first_order_system.hpp"
+#include "wavebalance/solvers/period/first_order_system.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -1,10 +1,10 @@
-#include "reference/shooting_step_table.hpp"
+#include "period/shooting_step_table.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linalg/dense.hpp"
+#include "linalg/gauss_rule.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -24,16 +24,7 @@ struct GaussPolynomials {
 };
 
 GaussPolynomials::GaussPolynomials() {
-  // Newton on the Legendre polynomial of degree `nodes` from the usual guesses [Abramowitz &
-  // Stegun, 22.16.6].
-  for (int i = 0; i < nodes; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (nodes + 0.5));
-    for (int step = 0; step < 6; ++step) {
-      const double p = std::legendre(nodes, x);
-      x -= p * (x * x - 1.0) / (nodes * (x * p - std::legendre(nodes - 1, x)));
-    }
-    points[i] = 0.5 * (1.0 + x);
-  }
+  points = gauss_rule(nodes).points;
   NodeVector weights;  // barycentric
   for (int i = 0; i < nodes; ++i) {
     weights[i] = 1.0;

@@ -1,4 +1,4 @@
-#include "stability/gauss_rule.hpp"
+#include "linalg/gauss_rule.hpp"
 
 #include <gsl/gsl_integration.h>
 

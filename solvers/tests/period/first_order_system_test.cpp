@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/first_order_system.hpp"
+#include "wavebalance/solvers/period/first_order_system.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/rigid_reference.hpp"
+#include "wavebalance/solvers/period/rigid_reference.hpp"
 
 #include <gtest/gtest.h>
 

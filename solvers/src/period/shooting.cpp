@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
-#include "reference/shooting_propagator.hpp"
+#include "period/shooting_propagator.hpp"
 
 namespace wavebalance::solvers {
 namespace {

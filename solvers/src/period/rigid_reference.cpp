@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/rigid_reference.hpp"
+#include "wavebalance/solvers/period/rigid_reference.hpp"
 
 #include <Eigen/LU>
 #include <array>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <unsupported/Eigen/MatrixFunctions>
+#include "linalg/dense.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -46,7 +46,8 @@ class Flows {
       a /= frequency;
       a(2 * n + 1, 2 * n + 2) = -2.0 * std::numbers::pi;
       a(2 * n + 2, 2 * n + 1) = 2.0 * std::numbers::pi;
-      for (int h = 0; h <= halvings; ++h) steps_[closed].push_back((a * std::ldexp(1.0 / points, -h)).exp());
+      for (int h = 0; h <= halvings; ++h)
+        steps_[closed].push_back(detail::exponential(a * std::ldexp(1.0 / points, -h)));
     }
   }
 

@@ -12,9 +12,9 @@
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/settling.hpp"
 
 namespace wavebalance::solvers {
 namespace {

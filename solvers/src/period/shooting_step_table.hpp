@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "reference/shooting_modes.hpp"
+#include "period/shooting_modes.hpp"
 
 namespace wavebalance::solvers::detail {
 

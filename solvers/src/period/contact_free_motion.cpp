@@ -1,4 +1,4 @@
-#include "response/contact_free_motion.hpp"
+#include "period/contact_free_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "linalg/dense.hpp"
-#include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "reference/shooting_modes.hpp"
-#include "reference/shooting_step_table.hpp"
+#include "period/shooting_modes.hpp"
+#include "period/shooting_step_table.hpp"
 #include "wavebalance/solvers/balance/contact_law.hpp"
 
 namespace wavebalance::solvers::detail {

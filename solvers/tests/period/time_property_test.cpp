@@ -10,8 +10,8 @@
 
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
-#include "wavebalance/solvers/reference/first_order_system.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/first_order_system.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::solvers {
 namespace {

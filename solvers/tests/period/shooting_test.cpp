@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/reference/shooting.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 #include <gtest/gtest.h>
 

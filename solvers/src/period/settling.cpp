@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/response/settling.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
-#include "response/contact_flow.hpp"
-#include "wavebalance/solvers/response/motion_periods.hpp"
+#include "period/contact_flow.hpp"
 
 namespace wavebalance::solvers {
 namespace {

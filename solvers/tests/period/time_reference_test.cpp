@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "support/jl14_bar.hpp"
-#include "wavebalance/solvers/reference/shooting.hpp"
-#include "wavebalance/solvers/reference/time_stepping.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
 
 namespace wavebalance::solvers {
 namespace testing {

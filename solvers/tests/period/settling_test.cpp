@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "structure/modal_flow.hpp"
+#include "period/modal_flow.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/continuation/residual_homotopy.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/settling.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers {

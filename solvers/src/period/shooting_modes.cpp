@@ -1,4 +1,4 @@
-#include "reference/shooting_modes.hpp"
+#include "period/shooting_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
