@@ -118,6 +118,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_attractor(record, response.periods, response);
   if (!response.form.empty()) record.summary.emplace_back("form", response.form);
   append_rigid(record.summary, response);
+  if (response.phases) append_phases(record, response);
   if (response.stability) append_stability(record, *response.stability);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);

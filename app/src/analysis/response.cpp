@@ -38,8 +38,12 @@ void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResp
   result.contact = leading_contact(result.contacts, model.gaps);
   if (options.structure_points > 0)
     result.structure = solvers::structure_motion(problem, found, options.structure_points);
-  if (options.stability && found.converged())
-    result.stability = response_stability(problem, laws, found, model);
+  if (!found.converged()) return;
+  const solvers::ContactDynamics* dynamics = scene.analysis.phases ? model.contact_dynamics() : nullptr;
+  if (dynamics) result.phases = solvers::response_phases(problem, laws, found, *dynamics);
+  if (options.stability)
+    result.stability =
+        response_stability(problem, laws, found, model, result.phases ? &result.phases->motion : nullptr);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,

@@ -130,12 +130,20 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
 
 ResponseStability response_stability(const solvers::CondensedProblem& problem,
                                      const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
-                                     const StructureModel& model) {
+                                     const StructureModel& model, const solvers::PhaseMotion* motion) {
   const auto start = std::chrono::steady_clock::now();
   ResponseStability result;
   const solvers::ContactDynamics* dynamics = model.contact_dynamics();
   if (!dynamics) return result;
-  const auto count = solvers::unstable_multipliers(*dynamics, problem, laws, found, options_for(problem));
+  if (motion && motion->status == solvers::PhasesStatus::no_motion_near) {
+    result.status = to_string(motion->status);
+    return result;
+  }
+  result.by_phases = motion && motion->converged();
+  const auto count =
+      result.by_phases ? solvers::unstable_multipliers(*dynamics, contact_stiffness(*motion),
+                                                       problem.frequency(), options_for(problem))
+                       : solvers::unstable_multipliers(*dynamics, problem, laws, found, options_for(problem));
   result.status = status_of(count);
   result.unstable = count.count;
   result.leading = count.leading;

@@ -7,10 +7,12 @@
 
 namespace wavebalance::app {
 
-/// The stability of a converged response of `problem`, the condensation of the model's structure.
+/// The stability of a converged response of `problem`, the condensation of the model's structure. Where the
+/// motion of the structure near it was sought, it is that of this motion, or unknown where there is none.
 ResponseStability response_stability(const solvers::CondensedProblem& problem,
                                      const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
-                                     const StructureModel& model);
+                                     const StructureModel& model,
+                                     const solvers::PhaseMotion* motion = nullptr);
 
 /// A response of a problem of several periods of the load, whose motion has no shorter period if one is
 /// found.

@@ -135,4 +135,25 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
 }
 
+void append_phases(Record& record, const Response& response) {
+  const solvers::ResponsePhases& found = *response.phases;
+  const bool known = found.motion.parts != nullptr;
+  record.summary.emplace_back("phases_status", std::string(to_string(found.motion.status)));
+  record.summary.emplace_back("error_of_displacement", found.displacement_error);
+  record.summary.emplace_back("error_of_force", found.force_error);
+  record.summary.emplace_back("phases_estimated_error", known ? found.motion.estimated_error : missing);
+  record.summary.emplace_back("phases_unknowns", std::int64_t{found.motion.unknowns});
+  Table phases({"contact", "begin", "end"});
+  for (const solvers::ContactPhase& phase : found.motion.phases)
+    phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
+  record.summary.emplace_back("phases", std::move(phases));
+  if (response.stability)
+    record.summary.emplace_back("stability_by",
+                                std::string(response.stability->by_phases ? "phases" : "balance"));
+  if (found.motion.status != solvers::PhasesStatus::no_motion_near) return;
+  record.warnings.emplace_back(
+      "No motion of the structure was found near this response, which solves the equations at its samples alone. "
+      "More functions may lead to one.");
+}
+
 }  // namespace wavebalance::app

@@ -46,4 +46,7 @@ void warn_of_open_contacts(Record& record, double displacement, double gap);
 /// The fields of the motion of the leading contact; missing values of an empty one.
 void append_motion(Summary& summary, const solvers::Motion& leading);
 
+/// The motion of the structure near the response: its phases of contact and the errors of the response.
+void append_phases(Record& record, const Response& response);
+
 }  // namespace wavebalance::app

@@ -159,6 +159,8 @@ std::string status_sentence(const std::string& status) {
       {"effort_limit",
        "Stability is not known everywhere: the count of multipliers took too many operations."},
       {"no_response", "Stability is not known: there is no motion."},
+      {"no_motion_near",
+       "Stability is not known: no motion of the structure was found near this response of the samples."},
       {"not_computed", "Stability was not computed; analysis.stability = true asks for it."},
       {"interrupted", "The computation of stability was interrupted."},
   };

@@ -22,6 +22,8 @@ class ContactFreeMotion {
   /// on. O(C harmonics).
   Eigen::VectorXd displacement(double periods) const { return at(contact_responses_, periods); }
   Eigen::VectorXd velocity(double periods) const { return at(contact_rates_, periods); }
+  /// C x harmonics, m: column n belongs to Re(a exp(2 pi i n t)), t likewise.
+  const Eigen::MatrixXcd& responses() const { return contact_responses_; }
   /// Those of sample `sample`. O(C).
   Eigen::VectorXd displacement_sample(Eigen::Index sample) const { return displacements_.col(sample); }
   Eigen::VectorXd velocity_sample(Eigen::Index sample) const { return velocities_.col(sample); }

@@ -14,6 +14,7 @@ namespace wavebalance::solvers {
 struct PhaseMotion::Parts {
   detail::PhaseModel model;
   detail::PhaseIterate iterate;
+  detail::PanelForces tangent, damping;  // slopes of the laws, N/m and N s/m
 };
 
 namespace {
@@ -201,7 +202,9 @@ class Search {
     std::sort(result.phases.begin(), result.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
       return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
     });
-    result.parts = std::make_shared<PhaseMotion::Parts>(PhaseMotion::Parts{model_, iterate});
+    const detail::LawSlopes slopes = detail::slopes_along(model_, iterate, nodes_);
+    result.parts = std::make_shared<PhaseMotion::Parts>(
+        PhaseMotion::Parts{model_, iterate, slopes.tangent, slopes.damping});
     return result;
   }
 
@@ -259,6 +262,12 @@ Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
       forces(c, k) = parts->iterate.forces.at(static_cast<int>(c), times[k]);
   return forces;
 }
+
+bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
+
+double PhaseMotion::tangent(int contact, double time) const { return parts->tangent.at(contact, time); }
+
+double PhaseMotion::damping(int contact, double time) const { return parts->damping.at(contact, time); }
 
 PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                            const ContactPhasesOptions& options) {

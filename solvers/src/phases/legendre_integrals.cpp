@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stability/gauss_rule.hpp"
+#include "linalg/gauss_rule.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {

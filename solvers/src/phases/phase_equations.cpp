@@ -238,6 +238,12 @@ PanelForces forces_along(const PhaseModel& model, const Layout& layout, const Le
   return {panels, nodes, values};
 }
 
+LawSlopes slopes_along(const PhaseModel& model, const PhaseIterate& iterate, const LegendreNodes& nodes) {
+  const Evaluation at = evaluate(model, iterate, nodes);
+  return {PanelForces(at.panels, nodes, at.tangent),
+          PanelForces(at.panels, nodes, at.damping / model.frequency)};
+}
+
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                int max_iterations) {
   constexpr double rounding = 1e-12, enough = 1e-9;

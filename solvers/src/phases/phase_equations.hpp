@@ -51,6 +51,13 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
 PanelForces forces_along(const PhaseModel& model, const Layout& layout, const LegendreNodes& nodes,
                          const Influence& motion);
 
+/// The slopes of the laws by displacement (N/m) and by velocity (N s/m) along the motion of an iterate, as
+/// polynomials on its panels.
+struct LawSlopes {
+  PanelForces tangent, damping;
+};
+LawSlopes slopes_along(const PhaseModel& model, const PhaseIterate& iterate, const LegendreNodes& nodes);
+
 /// The instants of q nodes of each panel, by panel.
 std::vector<Instant> instants_of(const std::vector<Panel>& panels, const LegendreNodes& nodes);
 

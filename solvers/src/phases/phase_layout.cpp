@@ -126,7 +126,7 @@ std::vector<Panel> Layout::panels() const {
 // Where panels of a phase end: at its own cuts and, unless one is near, where other contacts pass a
 // breakpoint.
 std::vector<Layout::Edge> Layout::edges_of(const Phase& phase) const {
-  constexpr double close = 0.01;  // of the phase: cuts nearer to each other are one
+  constexpr double close = 1e-3;  // of the phase: cuts nearer to each other are one
   const double from = begin(phase), length = end(phase) - from;
   std::vector<Edge> edges;
   for (const double cut : phase.cuts) edges.push_back({cut, {phase.begin, phase.end, 1.0 - cut, cut}});
@@ -154,16 +154,23 @@ Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& disp
 }
 
 bool same_phases(const Layout& a, const Layout& b) {
+  constexpr double near = 1e-3;  // periods: far more than the error of a cubic between samples
   if (a.passages.size() != b.passages.size() || a.phases.size() != b.phases.size()) return false;
-  // The passage next to time 0 may lie on either side of it: the order of the phases may be turned.
-  const auto count = [](const Layout& layout, int contact, int piece) {
-    return std::count_if(layout.phases.begin(), layout.phases.end(), [&](const Phase& phase) {
-      return phase.contact == contact && phase.piece == piece;
+  const auto close = [](double s, double t) { return std::abs(s - t - std::round(s - t)) < near; };
+  const auto has_passage = [&](const Passage& at) {
+    return std::any_of(b.passages.begin(), b.passages.end(), [&](const Passage& other) {
+      return other.contact == at.contact && other.breakpoint == at.breakpoint && close(other.time, at.time);
     });
   };
-  return std::all_of(a.phases.begin(), a.phases.end(), [&](const Phase& phase) {
-    return count(a, phase.contact, phase.piece) == count(b, phase.contact, phase.piece);
-  });
+  const auto has_phase = [&](const Phase& phase) {
+    return std::any_of(b.phases.begin(), b.phases.end(), [&](const Phase& other) {
+      return other.contact == phase.contact && other.piece == phase.piece &&
+             (other.begin < 0) == (phase.begin < 0) && close(b.begin(other), a.begin(phase)) &&
+             close(b.end(other), a.end(phase));
+    });
+  };
+  return std::all_of(a.passages.begin(), a.passages.end(), has_passage) &&
+         std::all_of(a.phases.begin(), a.phases.end(), has_phase);
 }
 
 PanelForces::PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values)
@@ -217,10 +224,11 @@ double PanelForces::slope_in_phase(int phase, double time) const {
 }
 
 double PanelForces::at(int contact, double time) const {
+  constexpr double rounding = 1e-13;
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     if (panels_[p].contact != contact) continue;
-    const double after = time - panels_[p].begin - std::floor(time - panels_[p].begin);
-    if (after <= panels_[p].length()) return value(p, panels_[p].begin + after);
+    const double after = time - panels_[p].begin - std::floor(time - panels_[p].begin + rounding);
+    if (after <= panels_[p].length() + rounding) return value(p, panels_[p].begin + after);
   }
   return 0.0;
 }

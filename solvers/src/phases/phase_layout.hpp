@@ -46,7 +46,7 @@ struct Layout {
 Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity);
 
-/// Whether both have the same phases in the same order, apart from their instants.
+/// Whether both have the same phases at about the same instants, in any order.
 bool same_phases(const Layout& a, const Layout& b);
 
 /// Contact forces that are polynomials on panels.

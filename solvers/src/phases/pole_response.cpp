@@ -87,11 +87,8 @@ PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : con
   jump_ = (shapes_ * left_.transpose()).real();
 }
 
-// For forces that grow by z per period. The weight of two that a pair of poles has in shapes_ is that of
-// both.
-PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Eigen::Index count, Complex z,
-                                        Poles which, bool velocity) const {
-  const bool conjugate = which == Poles::lower;
+PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Eigen::Index count,
+                                        bool velocity) const {
   const Eigen::Index poles = exponents_.size(), within = view.within();
   const double half = 0.5 * panel.length();
   Waves result;
@@ -103,21 +100,18 @@ PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Ei
   if (velocity) result.rate.setZero(within, count);
   ExponentialIntegrals integrals(view.points, count);
   for (Eigen::Index r = 0; r < poles; ++r) {
-    const bool pair = exponents_[r].imag() != 0.0;
-    if (conjugate && !pair) continue;
-    const Complex rate = conjugate ? std::conj(exponents_[r]) : exponents_[r];
-    const auto given = [&](Complex value) { return conjugate ? std::conj(value) : value; };
-    const Complex source = (which != Poles::all && pair ? 0.5 : 1.0) * half * given(left_(panel.contact, r));
+    const Complex rate = exponents_[r];
+    const Complex source = half * left_(panel.contact, r);
     if (source == 0.0) continue;
     integrals.compute(half * rate);
     const auto own = integrals.values();
-    result.at_end.row(r) = (source / (1.0 - std::exp(rate) / z)) * own.row(within);
-    result.at_begin.row(r) = (std::exp(rate * (1.0 - panel.length())) / z) * result.at_end.row(r);
+    result.at_end.row(r) = (source / (1.0 - std::exp(rate))) * own.row(within);
+    result.at_begin.row(r) = std::exp(rate * (1.0 - panel.length())) * result.at_end.row(r);
     decay(rate, view.since_end, result.outer.col(r));
     for (Eigen::Index i = 0; i < result.outer.rows(); ++i)
-      result.outer(i, r) *= given(shapes_(view.outside_contact[static_cast<std::size_t>(i)], r));
+      result.outer(i, r) *= shapes_(view.outside_contact[static_cast<std::size_t>(i)], r);
     for (Eigen::Index i = 0; i < within; ++i) {
-      const Complex shape = given(shapes_(view.inside_contact[static_cast<std::size_t>(i)], r));
+      const Complex shape = shapes_(view.inside_contact[static_cast<std::size_t>(i)], r);
       result.inner(i, r) = shape * integrals.decay()[i];
       result.local.row(i) += (shape * source) * own.row(i);
       if (velocity) result.rate.row(i) += (rate * shape * source) * own.row(i);
@@ -134,7 +128,7 @@ Influence PoleResponse::influence(const std::vector<Panel>& panels, const Legend
   if (velocity) result.velocity.resizeLike(result.displacement);
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const View view(panels[p], instants);
-    const Waves at = waves(panels[p], view, count, 1.0, Poles::all, velocity);
+    const Waves at = waves(panels[p], view, count, velocity);
     const Eigen::MatrixXd values = legendre_values(view.points.head(view.within()), count);
     const auto fill = [&](Eigen::MatrixXd& matrix, const Waves& wave, const Eigen::MatrixXcd& local,
                           const Eigen::MatrixXd& at_once) {
@@ -210,36 +204,6 @@ Influence PoleResponse::impulses(const std::vector<Instant>& impulses, const std
       result.displacement(i, j) = parts.real().sum();
       if (velocity) result.velocity(i, j) = (exponents_.array() * parts).real().sum();
     }
-  return result;
-}
-
-Eigen::MatrixXcd PoleResponse::growing(const std::vector<Panel>& panels, const LegendreNodes& nodes,
-                                       const std::vector<Instant>& instants, Complex z) const {
-  const Eigen::Index count = nodes.count(), size = static_cast<Eigen::Index>(instants.size());
-  Eigen::MatrixXcd result(size, count * static_cast<Eigen::Index>(panels.size()));
-  for (std::size_t p = 0; p < panels.size(); ++p) {
-    const View view(panels[p], instants);
-    const Eigen::MatrixXd values = legendre_values(view.points.head(view.within()), count);
-    Eigen::MatrixXcd inner = Eigen::MatrixXcd::Zero(view.within(), count),
-                     outer = Eigen::MatrixXcd::Zero(view.since_end.size(), count);
-    for (Eigen::Index i = 0; i < view.within(); ++i)
-      inner.row(i) =
-          (constant_(view.inside_contact[static_cast<std::size_t>(i)], panels[p].contact) * values.row(i))
-              .cast<Complex>();
-    for (const Poles half : {Poles::upper, Poles::lower}) {
-      const Waves at = waves(panels[p], view, count, z, half, false);
-      inner += at.inner * at.at_begin + at.local;
-      outer += at.outer * at.at_end;
-    }
-    auto columns = result.middleCols(static_cast<Eigen::Index>(p) * count, count);
-    columns(view.inside, Eigen::all) = inner * nodes.coefficients.cast<Complex>();
-    columns(view.outside, Eigen::all) = outer * nodes.coefficients.cast<Complex>();
-    // An instant before the panel is seen in the period after.
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const double time = instants[static_cast<std::size_t>(i)].time;
-      columns.row(i) /= std::pow(z, std::round(panels[p].begin + time_after(panels[p].begin, time) - time));
-    }
-  }
   return result;
 }
 

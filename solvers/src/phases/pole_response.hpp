@@ -39,8 +39,7 @@ struct Influence {
 
 /// How the contacts move where contact forces act periodically, by the poles r and residues R of their
 /// compliance: the periodic solutions of y' = r y + f for each pole, and u = -sum R y - constant f. The
-/// integrals are exact for forces that are polynomials in time. In a full period exp(r T) alone is divided by
-/// z for forces that grow by the factor z from period to period, whose motions grow alike.
+/// integrals are exact for forces that are polynomials in time.
 ///
 /// Immutable; may be shared between threads.
 class PoleResponse {
@@ -61,19 +60,12 @@ class PoleResponse {
   /// By impulses of 1 N times a period: one column each. O(K impulses poles).
   Influence impulses(const std::vector<Instant>& impulses, const std::vector<Instant>& instants,
                      bool velocity) const;
-  /// The displacements of influence() where all grows by the factor z per period, |z| >= 1; instants and
-  /// panels count from the same period. O(K P (poles q + q^2)).
-  Eigen::MatrixXcd growing(const std::vector<Panel>& panels, const LegendreNodes& nodes,
-                           const std::vector<Instant>& instants, std::complex<double> z) const;
 
  private:
   struct View;   // instants seen from a panel
   struct Waves;  // the states of all poles by one panel
 
-  /// All poles where real parts are taken afterwards; or those of Im >= 0, or their conjugates.
-  enum class Poles { all, upper, lower };
-  Waves waves(const Panel& panel, const View& view, Eigen::Index count, std::complex<double> z, Poles which,
-              bool velocity) const;
+  Waves waves(const Panel& panel, const View& view, Eigen::Index count, bool velocity) const;
 
   Eigen::VectorXcd exponents_;      // per period, one for each pair
   Eigen::MatrixXcd shapes_, left_;  // C x poles; weight, residue and period are in shapes_

@@ -9,6 +9,7 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
@@ -40,6 +41,8 @@ struct ResponseStability {
   /// The multiplier of the largest modulus, Im >= 0; NaN where it is not known or below 1e-2.
   std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
                                std::numeric_limits<double>::quiet_NaN()};
+  /// Whether it is that of the motion of the structure, by phases of contact, or of the balance.
+  bool by_phases = false;
   double wall_seconds = 0.0;
 };
 
@@ -81,6 +84,8 @@ struct Response {
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   /// Set if converged, with ResponseOptions::stability or by shooting.
   std::optional<ResponseStability> stability;
+  /// Set if converged, in scenes with analysis.phases of a structure whose modes are known.
+  std::optional<solvers::ResponsePhases> phases;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;

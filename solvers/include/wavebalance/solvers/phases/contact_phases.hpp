@@ -71,11 +71,19 @@ class PhaseMotion {
       0.0;  ///< relative rms error of the displacements, by the last Legendre coefficients
 
   bool converged() const { return status == PhasesStatus::converged; }
+  /// Whether a force depends on the velocity.
+  bool depends_on_velocity() const;
   /// C x K displacements (m) and velocities (m/s) of the contacts at K times in periods. O(K panels poles).
   Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
   Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
   /// C x K contact forces, N. O(K C log panels).
   Eigen::MatrixXd force(const Eigen::VectorXd& times) const;
+
+  /// The slopes of the law of a contact along the motion, by displacement (N/m) and by velocity (N s/m), at a
+  /// time within one of its phases: the limits from inside at its ends, zero outside all phases. O(panels +
+  /// nodes).
+  double tangent(int contact, double time) const;
+  double damping(int contact, double time) const;
 
   struct Parts;  ///< what the equations hold
   std::shared_ptr<const Parts> parts;

@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include "support/bar_scene.hpp"
+#include "support/summary_value.hpp"
+#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+Record record_with_phases(std::vector<std::string> more) {
+  more.emplace_back("analysis.phases=true");
+  return analyse(scene_of(more), Observer());
+}
+
+TEST(PhasesOfAResponse, HoldTheInstantsOfContactAndTheErrorsOfTheResponse) {
+  const Record coarse = record_with_phases({"time.functions=31", "time.quadrature_points=128"}),
+               fine = record_with_phases({"time.functions=255", "time.quadrature_points=1024"});
+  ASSERT_TRUE(coarse.converged && fine.converged);
+  EXPECT_EQ(value_of<std::string>(coarse.summary, "phases_status"), "converged");
+  EXPECT_GT(value_of<double>(coarse.summary, "error_of_displacement"),
+            10.0 * value_of<double>(fine.summary, "error_of_displacement"));
+  EXPECT_GT(value_of<double>(coarse.summary, "error_of_force"),
+            value_of<double>(fine.summary, "error_of_force"));
+  const Table phases = value_of<Table>(coarse.summary, "phases");
+  const Table same = value_of<Table>(fine.summary, "phases");
+  ASSERT_EQ(phases.rows(), same.rows());
+  for (std::size_t i = 0; i < phases.rows(); ++i)
+    for (const char* end : {"begin", "end"})
+      EXPECT_NEAR(std::get<double>(phases.at(i, end)), std::get<double>(same.at(i, end)), 1e-8);
+}
+
+TEST(PhasesOfAResponse, HaveTheStabilityThatTheRecordNames) {
+  const Record record = record_with_phases({});
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "phases");
+}
+
+TEST(PhasesOfAResponse, NameWhyTheyAreNotKnown) {
+  const Scene scene = load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case1_rigid.toml",
+                                 std::vector<std::string>{"analysis.phases=true"});
+  const Record record = analyse(scene, Observer());
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "rigid_contact");
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "balance");
+  EXPECT_EQ(value_of<Table>(record.summary, "phases").rows(), 0u);
+}
+
+TEST(PhasesOfAResponse, AreRefusedForCurves) {
+  EXPECT_THROW(record_with_phases({"analysis.type=frequency_sweep", "analysis.from=100", "analysis.to=200"}),
+               SceneError);
+}
+
+}  // namespace
+}  // namespace wavebalance::app

@@ -1,0 +1,29 @@
+#pragma once
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/response/periodic_response.hpp"
+#include "wavebalance/solvers/stability/contact_stiffness.hpp"
+
+namespace wavebalance::solvers {
+
+/// The motion of the structure near a response of a balance, and the distance between the two.
+struct ResponsePhases {
+  PhaseMotion motion;
+  /// Relative rms errors of the response's displacements and forces over all contacts and the period; NaN
+  /// without a motion, and of the force where none acts.
+  double displacement_error, force_error;
+};
+
+/// contact_phases() from a response of `problem` to `laws`, at the frequency and load of the problem.
+/// `dynamics` are those of its structure. O(n^3) for each harmonic of the load, beside what contact_phases()
+/// takes.
+ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
+                               const PeriodicResponse& response, const ContactDynamics& dynamics,
+                               const ContactPhasesOptions& options = {});
+
+/// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents() and
+/// monodromy(), which are then those of the structure. Its status is no_response for a motion that has not
+/// converged.
+PeriodicStiffness contact_stiffness(const PhaseMotion& motion);
+
+}  // namespace wavebalance::solvers

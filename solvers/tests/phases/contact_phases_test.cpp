@@ -1,0 +1,277 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "constants.hpp"
+#include "support/condensation_cases.hpp"
+#include "support/jl14_bar.hpp"
+#include "support/rigid_law.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::Jl14Case;
+
+using testing::cosine_load;
+
+Eigen::VectorXd uniform_times(int count) { return Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / count); }
+
+double distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exact) {
+  return (values - exact).norm() / exact.norm();
+}
+
+/// A case of the bar with its balance, whose phases are found to any tolerance.
+struct BarCase {
+  explicit BarCase(const Jl14Case& jl14, int functions = 63)
+      : structure(jl14.structure()),
+        law(jl14.law),
+        dynamics(structure),
+        problem(testing::fourier_pair(functions, 4 * (functions + 1)), structure, cosine_load()) {
+    problem.set_frequency(jl14.frequency_hz);
+    response = forced_response(problem, law, {});
+  }
+
+  ResponsePhases phases(double tolerance, int max_nodes = 24) const {
+    return response_phases(problem, law, response, dynamics,
+                           {.tolerance = tolerance, .max_nodes = max_nodes});
+  }
+
+  LinearStructure structure;
+  ContactLaws law;
+  ContactDynamics dynamics;
+  CondensedProblem problem;
+  PeriodicResponse response;
+};
+
+TEST(ContactPhases, OfBothCasesOfTheBarAreWhatShootingFinds) {
+  for (const Jl14Case& jl14 : {testing::jl14_case_1, testing::jl14_case_2}) {
+    const BarCase bar(jl14);
+    const ResponsePhases found = bar.phases(1e-11);
+    ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
+    ASSERT_EQ(found.motion.phases.size(), 1u);
+    EXPECT_NEAR(found.motion.phases[0].length(), jl14.contact_fraction, 1.0 / 1024.0);  // a share of samples
+    ShootingOptions options;
+    options.output_points = 512;
+    const ShootingResult shot = shoot(bar.structure, bar.law[0], jl14.frequency_hz, options);
+    ASSERT_EQ(shot.status, ShootingStatus::converged);
+    EXPECT_LT(distance(found.motion.displacement(uniform_times(512)), shot.contacts.displacement), 1e-8);
+    EXPECT_GT(found.displacement_error, 1e-6);
+    EXPECT_LT(found.displacement_error, 1e-2);
+  }
+}
+
+TEST(ContactPhases, ConvergeGeometricallyOverTheNodesOfAPanel) {
+  const BarCase bar(testing::jl14_case_2);
+  const Eigen::VectorXd times = uniform_times(256);
+  const Eigen::MatrixXd exact = bar.phases(1e-13).motion.displacement(times);
+  // Errors that a prototype in another language had, computed independently.
+  for (const auto& [nodes, expected] : {std::pair{8, 2.5e-6}, {12, 9e-8}, {16, 3.8e-9}, {24, 5.6e-12}}) {
+    const PhaseMotion found =
+        response_phases(bar.problem, bar.law, bar.response, bar.dynamics,
+                        {.tolerance = 1.0, .nodes = nodes, .max_nodes = nodes})
+            .motion;
+    ASSERT_TRUE(found.converged());
+    EXPECT_EQ(found.unknowns, nodes + 2);
+    const double error = distance(found.displacement(times), exact);
+    EXPECT_LT(error, 1.5 * expected);
+    EXPECT_GT(error, expected / 1.5);
+  }
+}
+
+TEST(ContactPhases, KeepToTheToleranceAndEstimateTheirError) {
+  for (const Jl14Case& jl14 : {testing::jl14_case_1, testing::jl14_case_2}) {
+    const BarCase bar(jl14);
+    const Eigen::VectorXd times = uniform_times(256);
+    const Eigen::MatrixXd exact = bar.phases(1e-13).motion.displacement(times);
+    for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      const PhaseMotion found = bar.phases(tolerance).motion;
+      ASSERT_TRUE(found.converged());
+      EXPECT_LE(found.estimated_error, tolerance);
+      EXPECT_LT(distance(found.displacement(times), exact), tolerance);
+    }
+  }
+}
+
+/// What must hold of any motion: forces are those of the law at the displacements, the
+/// displacements outside phases are on the other side of the gap, and the work of load, damping and contacts
+/// is zero.
+void expect_motion(const PhaseMotion& motion, const ContactLaws& laws, double tolerance) {
+  const Eigen::VectorXd times = uniform_times(257);
+  const Eigen::MatrixXd u = motion.displacement(times), v = motion.velocity(times), f = motion.force(times);
+  const double size = f.cwiseAbs().maxCoeff();
+  for (Eigen::Index c = 0; c < u.rows(); ++c)
+    for (Eigen::Index k = 0; k < times.size(); ++k)
+      EXPECT_NEAR(f(c, k), laws[static_cast<int>(c)].force(u(c, k), v(c, k)), tolerance * size)
+          << "contact " << c << " at " << times[k];
+}
+
+struct LinearStop {
+  double stiffness, start;
+  double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
+  double tangent(double u) const { return u >= start ? stiffness : 0.0; }
+  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+};
+
+/// k u + c u^3.
+struct HardeningSpring {
+  double linear, cubic;
+  double force(double u) const { return u * (linear + cubic * u * u); }
+  double tangent(double u) const { return linear + 3.0 * cubic * u * u; }
+  double potential(double u) const { return u * u * (0.5 * linear + 0.25 * cubic * u * u); }
+  double gap() const { return infinity; }
+  bool unilateral() const { return false; }
+};
+
+/// A random chain with contacts along random directions, and a balance of it.
+struct RandomCase {
+  RandomCase(std::mt19937& generator, int contacts)
+      : structure(testing::random_chain(std::max(contacts, 2) + 2, generator)) {
+    structure.contact_directions = testing::random_directions(contacts, structure.size(), generator);
+    std::vector<AnyContactLaw> list;
+    const ContactDynamics linear(structure);
+    double lowest = infinity;
+    for (const ContactPole& pole : linear.poles())
+      if (pole.exponent.imag() > 0.0) lowest = std::min(lowest, pole.exponent.imag());
+    frequency = 0.8 * lowest / two_pi;
+    CondensedProblem free(testing::fourier_pair(15, 64), structure, cosine_load());
+    free.set_frequency(frequency);
+    const double size = free.contact_free_response().cwiseAbs().maxCoeff();
+    for (int c = 0; c < contacts; ++c)
+      list.emplace_back(LinearStop{(1.0 + c) / free.contact_compliance()[c], (0.3 + 0.1 * c) * size});
+    laws = ContactLaws(std::move(list));
+  }
+
+  LinearStructure structure;
+  ContactLaws laws;
+  double frequency = 0.0;
+};
+
+TEST(ContactPhases, OfRandomStructuresSatisfyTheirLawsAndAreNearTheBalance) {
+  std::mt19937 generator(28);
+  int found = 0, solved = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const RandomCase random(generator, 1 + trial % 4);
+    CondensedProblem problem(testing::fourier_pair(255, 1024), random.structure, cosine_load());
+    problem.set_frequency(random.frequency);
+    const PeriodicResponse response = forced_response(problem, random.laws, {});
+    if (!response.converged()) continue;
+    ++solved;
+    const ResponsePhases phases = response_phases(problem, random.laws, response,
+                                                  ContactDynamics(random.structure), {.tolerance = 1e-10});
+    if (!phases.motion.converged()) continue;
+    ++found;
+    expect_motion(phases.motion, random.laws, 1e-6);
+    EXPECT_LT(phases.displacement_error, 2e-3);
+  }
+  EXPECT_GE(solved, 20);
+  EXPECT_GE(found, 0.95 * solved);
+}
+
+TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
+  std::mt19937 generator(7);
+  for (int trial = 0; trial < 8; ++trial) {
+    const RandomCase random(generator, 1 + trial % 3);
+    const ContactDynamics dynamics(random.structure);
+    std::vector<int> counts;
+    for (const int functions : {63, 127, 255}) {
+      CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), random.structure,
+                               cosine_load());
+      problem.set_frequency(random.frequency);
+      const PeriodicResponse response = forced_response(problem, random.laws, {});
+      const ResponsePhases phases = response_phases(problem, random.laws, response, dynamics);
+      if (!phases.motion.converged()) continue;
+      const Eigen::VectorXcd multipliers =
+          monodromy(dynamics, contact_stiffness(phases.motion), random.frequency);
+      counts.push_back(static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count()));
+      EXPECT_EQ(counts.back(), counts.front());
+    }
+    EXPECT_GE(counts.size(), 2u) << trial;
+  }
+}
+
+TEST(ContactPhases, OfAMotionWithoutContactAreNone) {
+  BarCase bar(testing::jl14_case_1);
+  const ContactLaws distant(LinearStop{1e9, 1.0});
+  const PeriodicResponse response = forced_response(bar.problem, distant, {});
+  const ResponsePhases found = response_phases(bar.problem, distant, response, bar.dynamics);
+  ASSERT_TRUE(found.motion.converged());
+  EXPECT_TRUE(found.motion.phases.empty());
+  EXPECT_EQ(found.motion.unknowns, 0);
+  EXPECT_LT(found.displacement_error, 1e-12);
+}
+
+TEST(ContactPhases, OfContactThatLastsHaveOnePhaseOfAWholePeriod) {
+  BarCase bar(testing::jl14_case_1);
+  const ContactLaws pressed(LinearStop{1e8, -5e-3});
+  const PeriodicResponse response = forced_response(bar.problem, pressed, {});
+  ASSERT_TRUE(response.converged());
+  const ResponsePhases found =
+      response_phases(bar.problem, pressed, response, bar.dynamics, {.tolerance = 1e-11});
+  ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
+  ASSERT_EQ(found.motion.phases.size(), 1u);
+  EXPECT_TRUE(found.motion.phases[0].always());
+  // The whole is linear, so that the balance is exact.
+  EXPECT_LT(found.displacement_error, 1e-10);
+}
+
+TEST(ContactPhases, OfASpringThatActsAlwaysAreThoseOfItsFullBalance) {
+  BarCase bar(testing::jl14_case_1, 255);
+  const ContactLaws cubic(HardeningSpring{1e8, 1e13});
+  const PeriodicResponse response = forced_response(bar.problem, cubic, {});
+  ASSERT_TRUE(response.converged());
+  const ResponsePhases found =
+      response_phases(bar.problem, cubic, response, bar.dynamics, {.tolerance = 1e-11});
+  ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
+  EXPECT_LT(found.displacement_error, 1e-9);
+}
+
+TEST(ContactPhases, AreFoundWhereTheyPassTheEndOfThePeriod) {
+  const BarCase bar(testing::jl14_case_1);
+  const ResponsePhases found = bar.phases(1e-9);
+  ASSERT_EQ(found.motion.phases.size(), 1u);
+  EXPECT_GT(found.motion.phases[0].end, 1.0);
+  EXPECT_LT(found.motion.phases[0].begin, 1.0);
+}
+
+TEST(ContactPhases, NameWhatTheyCannotSolve) {
+  const BarCase bar(testing::jl14_case_1);
+  const Eigen::MatrixXd start = Eigen::MatrixXd::Zero(1, 64);
+  Eigen::MatrixXcd free = Eigen::MatrixXcd::Zero(1, 2);
+  free(0, 1) = 1e-3;
+  EXPECT_EQ(contact_phases({bar.dynamics, testing::Rigid{1e-3}, free, 150.0}, start).status,
+            PhasesStatus::rigid_contact);
+  LinearStructure undamped = bar.structure;
+  undamped.damping.setZero();
+  const ContactDynamics without(undamped);
+  EXPECT_EQ(contact_phases({without, bar.law, free, 150.0}, start).status, PhasesStatus::undamped);
+  LinearStructure hysteretic = bar.structure;
+  hysteretic.loss_factor = 0.1;
+  const ContactDynamics damped(hysteretic);
+  EXPECT_EQ(contact_phases({damped, bar.law, free, 150.0}, start).status, PhasesStatus::structural_damping);
+}
+
+TEST(ContactPhases, RejectSizesAndOptionsThatDoNotFit) {
+  const BarCase bar(testing::jl14_case_1);
+  const Eigen::MatrixXcd free = Eigen::MatrixXcd::Zero(1, 2);
+  const Eigen::MatrixXd start = Eigen::MatrixXd::Zero(1, 64);
+  EXPECT_THROW(contact_phases({bar.dynamics, bar.law, free, 150.0}, Eigen::MatrixXd::Zero(2, 64)),
+               std::invalid_argument);
+  EXPECT_THROW(contact_phases({bar.dynamics, bar.law, Eigen::MatrixXcd::Zero(3, 2), 150.0}, start),
+               std::invalid_argument);
+  EXPECT_THROW(contact_phases({bar.dynamics, bar.law, free, 0.0}, start), std::invalid_argument);
+  EXPECT_THROW(contact_phases({bar.dynamics, bar.law, free, 150.0}, start, {.tolerance = 0.0}),
+               std::invalid_argument);
+  EXPECT_THROW(contact_phases({bar.dynamics, bar.law, free, 150.0}, start, {.nodes = 2}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,64 @@
+#include "phases/legendre_integrals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "linalg/gauss_rule.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+using Complex = std::complex<double>;
+
+// By Gauss nodes on [-1, x], the more the faster the exponential.
+Eigen::MatrixXcd by_quadrature(Complex z, const Eigen::VectorXd& points, Eigen::Index count) {
+  const QuadratureRule rule = gauss_rule(static_cast<int>(40 + count + 2.0 * std::abs(z)));
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(points.size(), count);
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    const double reach = points[i] + 1.0;
+    const Eigen::MatrixXd values = legendre_values(reach * rule.points.array() - 1.0, count);
+    for (Eigen::Index p = 0; p < rule.points.size(); ++p)
+      result.row(i) +=
+          (reach * rule.weights[p] * std::exp(z * reach * (1.0 - rule.points[p]))) * values.row(p);
+  }
+  return result;
+}
+
+TEST(ExponentialIntegrals, AreThoseOfAQuadratureAtEveryRateAndDegree) {
+  const Eigen::VectorXd points{{-0.98, -0.5, 0.1, 0.77, 1.0}};
+  for (const Eigen::Index count : {4, 8, 12, 24, 40})
+    for (const double size : {1e-8, 0.1, 0.7, 1.7320508075688772, 3.0, 7.0, 12.0, 25.0, 40.0, 80.0})
+      for (const double degrees : {90.0, 92.0, 100.0, 107.0, 120.0, 150.0, 180.0}) {
+        const double angle = degrees * std::numbers::pi / 180.0;
+        const Complex z(std::min(0.0, size * std::cos(angle)), size * std::sin(angle));
+        ExponentialIntegrals integrals(points, count);
+        integrals.compute(z);
+        const Eigen::MatrixXcd exact = by_quadrature(z, points, count);
+        EXPECT_LT((integrals.values() - exact).cwiseAbs().maxCoeff(), 2e-12 * exact.cwiseAbs().maxCoeff())
+            << count << " functions, z = " << z;
+      }
+}
+
+TEST(ExponentialIntegrals, OfAFastDecayAreTheFunctionOverTheRate) {
+  const Eigen::VectorXd points{{-0.5, 0.3, 0.9}};
+  ExponentialIntegrals integrals(points, 8);
+  integrals.compute(-1e9);
+  EXPECT_LT((1e9 * integrals.values() - legendre_values(points, 8).cast<Complex>()).cwiseAbs().maxCoeff(),
+            1e-7);
+}
+
+// GSL tabulates some numbers of nodes; others it computes to 1e-10.
+TEST(GaussRule, IntegratesPolynomialsToRoundingWithAnyNumberOfNodes) {
+  for (const int count : {1, 2, 7, 20, 24, 33, 60, 101, 180}) {
+    const QuadratureRule rule = gauss_rule(count);
+    EXPECT_NEAR(rule.weights.sum(), 1.0, 1e-14 * count);
+    const int degree = 2 * count - 1;
+    const double integral = rule.weights.dot(Eigen::VectorXd(rule.points.array().pow(degree)));
+    EXPECT_NEAR(integral * (degree + 1), 1.0, 1e-14 * count * count) << count;
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers::detail
