@@ -53,8 +53,12 @@ function(wavebalance_add_test program)
   if(T_CASES)
     string(APPEND parameters " max_success=${T_CASES}")
   endif()
+  set(timeout 240)
+  if(CMAKE_BUILD_TYPE STREQUAL "Sanitize")
+    set(timeout 1200)
+  endif()
   gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}"
-    PROPERTIES LABELS "${T_LABEL}" TIMEOUT 240 ENVIRONMENT "RC_PARAMS=${parameters}" ${T_PROPERTIES})
+    PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout} ENVIRONMENT "RC_PARAMS=${parameters}" ${T_PROPERTIES})
 endfunction()
 
 # wavebalance_test_filter(program result <files>): the GoogleTest filter of the suites that the files declare.

@@ -1,7 +1,8 @@
 #!/bin/sh
 # run_changed.sh FOLDER: builds the tests of the modules of the checkout FOLDER that changed, and of those that use them,
 # with AddressSanitizer and UndefinedBehaviorSanitizer (preset `sanitize`), and runs them. What changed is the difference to
-# the commit WAVEBALANCE_SANITIZE_BASE or, without it, to the last one that is older than a day.
+# the commit WAVEBALANCE_SANITIZE_BASE or, without it, to the last one that is older than a day. Modules that are not
+# listed in WAVEBALANCE_SANITIZE_MODULES, where it is set, are left out.
 set -eu
 cd "$1"
 
@@ -15,6 +16,10 @@ programs=""
 add() {
   module=$1
   shift
+  case " ${WAVEBALANCE_SANITIZE_MODULES-$module} " in
+    *" $module "*) ;;
+    *) return ;;
+  esac
   for folder in "$module" "$@"; do
     case " $(echo $changed) " in
       *" $folder "*) programs="$programs ${module}_test"; return ;;

@@ -6,7 +6,8 @@ namespace wavebalance::solvers {
 
 Motion Motion::contact(int c) const {
   if (empty()) return {};
-  Motion one{displacement.row(c), velocity.row(c), {}};
+  Motion one{displacement.row(c), {}, {}};
+  if (velocity.size() > 0) one.velocity = velocity.row(c);
   if (force.size() > 0) one.force = force.row(c);
   return one;
 }

@@ -8,7 +8,7 @@ namespace wavebalance::solvers {
 /// harmonic load is largest at l = 0.
 struct Motion {
   Eigen::MatrixXd displacement;  ///< rows x points, m
-  Eigen::MatrixXd velocity;      ///< rows x points, m/s
+  Eigen::MatrixXd velocity;      ///< rows x points, m/s; empty where none is known
   Eigen::MatrixXd force;         ///< rows x points, N: contact forces; empty where none is known
 
   int rows() const { return static_cast<int>(displacement.rows()); }
