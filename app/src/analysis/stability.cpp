@@ -35,12 +35,11 @@ std::string status_of(const solvers::UnstableMultipliers& count) {
 }
 
 std::complex<double> leading_multiplier(const solvers::ContactDynamics& dynamics,
-                                        const solvers::CondensedProblem& problem,
-                                        const solvers::ContactLaws& laws,
-                                        const solvers::PeriodicResponse& found) {
+                                        const solvers::PeriodicStiffness& stiffness, double frequency,
+                                        const solvers::StabilityOptions& how) {
   solvers::FloquetOptions options;
-  options.stability = options_for(problem);
-  const auto exponents = solvers::floquet_exponents(dynamics, problem, laws, found, options);
+  options.stability = how;
+  const auto exponents = solvers::floquet_exponents(dynamics, stiffness, frequency, options);
   if (exponents.status != solvers::StabilityStatus::converged || exponents.values.empty())
     return {missing, missing};
   return exponents.values.front().multiplier;
@@ -140,16 +139,19 @@ ResponseStability response_stability(const solvers::CondensedProblem& problem,
     return result;
   }
   result.by_phases = motion && motion->converged();
-  const auto count =
-      result.by_phases ? solvers::unstable_multipliers(*dynamics, contact_stiffness(*motion),
-                                                       problem.frequency(), options_for(problem))
-                       : solvers::unstable_multipliers(*dynamics, problem, laws, found, options_for(problem));
+  const auto stiffness = [&] {
+    return result.by_phases ? contact_stiffness(*motion) : contact_stiffness(problem, laws, found);
+  };
+  const solvers::StabilityOptions options = options_for(problem);
+  const auto count = result.by_phases
+                         ? solvers::unstable_multipliers(*dynamics, stiffness(), problem.frequency(), options)
+                         : solvers::unstable_multipliers(*dynamics, problem, laws, found, options);
   result.status = status_of(count);
   result.unstable = count.count;
   result.leading = count.leading;
   const bool known = std::isfinite(count.leading.real());
   if (count.status == solvers::StabilityStatus::converged && !known)
-    result.leading = leading_multiplier(*dynamics, problem, laws, found);
+    result.leading = leading_multiplier(*dynamics, stiffness(), problem.frequency(), options);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

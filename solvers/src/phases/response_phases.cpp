@@ -34,8 +34,8 @@ double relative_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& e
 ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
                                const PeriodicResponse& response, const ContactDynamics& dynamics,
                                const ContactPhasesOptions& options) {
-  constexpr int least_points = 256;
-  const int points = std::max(least_points, problem.points());
+  constexpr int least_points = 256, most_points = 1024;  // a start needs no more
+  const int points = std::clamp(problem.points(), least_points, most_points);
   const Motion balance = contact_motion(problem, response, laws, points);
   const PhasesProblem phases{dynamics, laws, amplitudes_of(ContactFreeMotion(problem, 0)),
                              problem.frequency()};

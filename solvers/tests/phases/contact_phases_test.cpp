@@ -73,10 +73,9 @@ TEST(ContactPhases, ConvergeGeometricallyOverTheNodesOfAPanel) {
   const Eigen::MatrixXd exact = bar.phases(1e-13).motion.displacement(times);
   // Errors that a prototype in another language had, computed independently.
   for (const auto& [nodes, expected] : {std::pair{8, 2.5e-6}, {12, 9e-8}, {16, 3.8e-9}, {24, 5.6e-12}}) {
-    const PhaseMotion found =
-        response_phases(bar.problem, bar.law, bar.response, bar.dynamics,
-                        {.tolerance = 1.0, .nodes = nodes, .max_nodes = nodes})
-            .motion;
+    const PhaseMotion found = response_phases(bar.problem, bar.law, bar.response, bar.dynamics,
+                                              {.tolerance = 1.0, .nodes = nodes, .max_nodes = nodes})
+                                  .motion;
     ASSERT_TRUE(found.converged());
     EXPECT_EQ(found.unknowns, nodes + 2);
     const double error = distance(found.displacement(times), exact);
@@ -173,6 +172,42 @@ TEST(ContactPhases, OfRandomStructuresSatisfyTheirLawsAndAreNearTheBalance) {
   }
   EXPECT_GE(solved, 20);
   EXPECT_GE(found, 0.95 * solved);
+}
+
+/// Kelvin and Voigt's stop, whose force jumps where contact begins and ends.
+struct DampedStop {
+  double stiffness, dashpot, start;
+  double force(double u, double v) const { return u > start ? stiffness * (u - start) + dashpot * v : 0.0; }
+  double tangent(double u, double) const { return u >= start ? stiffness : 0.0; }
+  double damping(double u, double) const { return u >= start ? dashpot : 0.0; }
+  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+};
+
+TEST(ContactPhases, OfForcesOfTheVelocitySatisfyTheirLaws) {
+  std::mt19937 generator(5);
+  int found = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const RandomCase random(generator, 1 + trial % 3);
+    std::vector<AnyContactLaw> list;
+    for (int c = 0; c < random.structure.contacts(); ++c) {
+      const AnyContactLaw& stop = random.laws[c];
+      const double stiffness = stop.tangent(2.0 * stop.gap());
+      list.emplace_back(DampedStop{stiffness, 0.1 * stiffness / (two_pi * random.frequency), stop.gap()});
+    }
+    const ContactLaws laws(std::move(list));
+    CondensedProblem problem(testing::fourier_pair(255, 1024), random.structure, cosine_load());
+    problem.set_frequency(random.frequency);
+    const PeriodicResponse response = forced_response(problem, laws, {});
+    if (!response.converged()) continue;
+    const ResponsePhases phases =
+        response_phases(problem, laws, response, ContactDynamics(random.structure), {.tolerance = 1e-10});
+    if (!phases.motion.converged()) continue;
+    ++found;
+    expect_motion(phases.motion, laws, 1e-6);
+    EXPECT_LT(phases.displacement_error, 1e-2);
+  }
+  EXPECT_GE(found, 7);
 }
 
 TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
