@@ -8,6 +8,7 @@
 #include "dense_system.hpp"
 #include "solver_scenes.hpp"
 #include "stopwatch.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/connection.hpp"
@@ -54,6 +55,22 @@ void point(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
   auto problem = fourier_problem(scene, static_cast<int>(state.range(1)), static_cast<int>(state.range(2)));
   solve_points(state, problem, scene);
+}
+
+// From a balance of 63 functions to the motion of the structure; the second argument is the tolerance's exponent.
+void phases(benchmark::State& state) {
+  const Case scene = jl14_case(static_cast<int>(state.range(0)));
+  auto problem = fourier_problem(scene, 63, 256);
+  problem.set_frequency(scene.frequency);
+  const solvers::AnyContactLaw law = scene.law();
+  const solvers::ContactDynamics dynamics(problem.structure());
+  const auto response = solvers::forced_response(problem, law, {});
+  const solvers::ContactPhasesOptions options{.tolerance = std::pow(10.0, -double(state.range(1)))};
+  solvers::ResponsePhases found;
+  for (auto _ : state) found = solvers::response_phases(problem, law, response, dynamics, options);
+  if (!found.motion.converged()) state.SkipWithError("not converged");
+  state.counters["unknowns"] = found.motion.unknowns;
+  state.counters["estimated_error"] = found.motion.estimated_error;
 }
 
 // 2^14 functions of a pair of wavelets, or of wavelets and Fourier functions, 65536 points.
@@ -157,6 +174,13 @@ BENCHMARK_CAPTURE(make_pair, daubechies6_daubechies6, "daubechies6_daubechies6")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(make_pair, haar_fourier, "haar_fourier")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(make_pair, bspline_bspline, "bspline_bspline")->Unit(benchmark::kMillisecond);
+BENCHMARK(phases)
+    ->ArgNames({"case", "digits"})
+    ->Args({1, 8})
+    ->Args({1, 12})
+    ->Args({2, 8})
+    ->Args({2, 12})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(dense_point)
     ->ArgNames({"case", "functions", "points"})
     ->Args({1, 63, 256})

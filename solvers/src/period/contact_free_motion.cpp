@@ -13,22 +13,6 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double whole_turn = 2.0 * std::numbers::pi;
 
-// Responses of all degrees of freedom without contact to a load of these amplitudes, n x harmonics.
-Eigen::MatrixXcd load_responses(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
-                                double frequency) {
-  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), amplitudes.cols());
-  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
-    if (amplitudes.col(n).isZero(0.0)) continue;
-    const Complex rate(0.0, whole_turn * frequency * double(n));
-    const Complex elastic(1.0, n > 0 ? structure.loss_factor : 0.0);
-    const Eigen::MatrixXcd impedance = elastic * Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
-                                       rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
-                                       rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
-    responses.col(n) = detail::Lu<Complex>(impedance).solve(Eigen::VectorXcd(amplitudes.col(n)));
-  }
-  return responses;
-}
-
 // The amplitudes of a load (n x harmonics) that is `start` periods ahead, so that the first harmonic of
 // `series` is at its maximum.
 Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXcd& series, double& start) {
@@ -67,6 +51,21 @@ Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
 
 }  // namespace
 
+Eigen::MatrixXcd contact_free_response(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
+                                       double frequency) {
+  Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), amplitudes.cols());
+  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
+    if (amplitudes.col(n).isZero(0.0)) continue;
+    const Complex rate(0.0, whole_turn * frequency * double(n));
+    const Complex elastic(1.0, n > 0 ? structure.loss_factor : 0.0);
+    const Eigen::MatrixXcd impedance = elastic * Eigen::MatrixXcd(structure.stiffness.cast<Complex>()) +
+                                       rate * Eigen::MatrixXcd(structure.damping.cast<Complex>()) +
+                                       rate * rate * Eigen::MatrixXcd(structure.mass.cast<Complex>());
+    responses.col(n) = detail::Lu<Complex>(impedance).solve(Eigen::VectorXcd(amplitudes.col(n)));
+  }
+  return responses;
+}
+
 ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int samples)
     : repeats_(solvers::load_periods(problem)), frequency_(repeats_ * problem.frequency()) {
   const LinearStructure& structure = problem.structure();
@@ -74,7 +73,7 @@ ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int sample
   const Eigen::VectorXcd series = forces_alone ? structure.forces.front().amplitudes(frequency_)
                                                : every(repeats_, problem.load_harmonics());
   const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
-  const Eigen::MatrixXcd responses = load_responses(structure, amplitudes, frequency_);
+  const Eigen::MatrixXcd responses = contact_free_response(structure, amplitudes, frequency_);
   contact_responses_ = structure.contact_directions * responses;
   contact_rates_ = contact_responses_;
   initial_displacement_ = responses.real().rowwise().sum();

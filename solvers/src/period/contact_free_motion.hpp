@@ -5,6 +5,12 @@
 
 namespace wavebalance::solvers {
 
+/// The response of a structure without contact, n x harmonics (m), to a load of the complex amplitudes
+/// `amplitudes`, n x harmonics from the static one on (N), of `frequency` Hz. Harmonics without load are left
+/// out. A dynamic stiffness that is singular gives numbers that are not finite. O(harmonics n^3).
+Eigen::MatrixXcd contact_free_response(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
+                                       double frequency);
+
 /// The motion without contact of a structure under the load of a problem, over one period of the load from a
 /// maximum of the load's first harmonic on: a load that comes later then gives the same motion later.
 /// Immutable.

@@ -181,7 +181,7 @@ Candidate try_residual(const Task& task, const Eigen::VectorXd& regularization, 
 }
 
 /// A period of a motion that was integrated, which begins `start` periods after the first sample.
-Start start_of(const Task& task, const ContactPeriod& period, double start) {
+Start start_of(const Task& task, const Motion& period, double start) {
   const int points = task.problem.points();
   return {resample(period.displacement, points, start), resample(period.force, points, start)};
 }
@@ -198,7 +198,7 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
   if (motion.cancelled) return best;
   if (!motion.integrated()) return better(std::move(best), try_residual(task, form, first));
   const double start = motion.start - task.problem.pair().first_sample();
-  for (const ContactPeriod& piece : motion.returns) {
+  for (const Motion& piece : motion.returns) {
     best =
         better(std::move(best), try_newton(task, form, start_of(task, piece, start), Strategy::recurrence));
     if (best.ended()) return best;

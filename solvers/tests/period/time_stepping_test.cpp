@@ -200,6 +200,16 @@ TEST(TimeStepping, NamesThePeriodsAfterWhichASubharmonicMotionRepeats) {
   EXPECT_EQ(ordinary.attractor_periods, 0);
 }
 
+// The preloaded impact oscillator. Its successive periods differ by three values in turn.
+TEST(TimeStepping, NamesOddNumbersOfPeriodsToo) {
+  TimeSteppingOptions options;
+  options.period_tolerance = 1e-6;
+  const auto result = integrate_to_periodic(testing::unit_oscillator(0.1, 1.0), LinearContact{100.0, 0.0},
+                                            2.4 / two_pi, options);
+  EXPECT_EQ(result.status, TimeSteppingStatus::subharmonic);
+  EXPECT_EQ(result.attractor_periods, 3);
+}
+
 // Driven at twice its natural frequency, so that every second period of the transient is alike: a multiplier
 // of -0.995.
 TEST(TimeStepping, DoesNotTakeADecayingAlternationForASubharmonicMotion) {

@@ -5,6 +5,7 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers {
 
@@ -24,11 +25,6 @@ struct SettlingOptions {
   void validate() const;
 };
 
-/// One period of the problem of a motion of the contacts, C x steps load_periods(), m and N.
-struct ContactPeriod {
-  Eigen::MatrixXd displacement, force;
-};
-
 /// The motion that a structure at rest settles to under its load.
 struct SettledMotion {
   static constexpr int unknown = -1;
@@ -40,15 +36,16 @@ struct SettledMotion {
   int periods = 0;         ///< integrated
   bool cancelled = false;  ///< the observer asked to stop
   double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
-  /// The last period; without columns where nothing could be integrated.
-  ContactPeriod last;
+  /// The contacts in the last period of the problem, C x steps load_periods(); without columns where nothing
+  /// could be integrated.
+  Motion last;
   /// Where the motion does not settle to one of the problem's period: the unstable motions of that period
   /// near states that nearly return after it, by Newton's method on the map of the period, and where that
   /// finds none, the piece of the motion that nearly returns [D. Auerbach et al., Phys. Rev. Lett.
   /// 58, 1987, doi:10.1103/PhysRevLett.58.2387].
-  std::vector<ContactPeriod> returns;
+  std::vector<Motion> returns;
 
-  bool integrated() const { return last.displacement.cols() > 0; }
+  bool integrated() const { return !last.empty(); }
 };
 
 /// Integrates M u'' + C u' + K u = load - contact forces of `problem` (frequency set before) from rest at a

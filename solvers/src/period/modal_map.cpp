@@ -1,4 +1,4 @@
-#include "period/contact_flow.hpp"
+#include "period/modal_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ bool opens_or_closes(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
 
 }  // namespace
 
-ContactFlow::ContactFlow(const CondensedProblem& problem, const ContactLaws& laws, int steps, ModalFlow flow)
+ModalMap::ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int steps, ModalFlow flow)
     : laws_(laws),
       steps_(steps),
       free_(problem, 2 * steps),
@@ -90,21 +90,21 @@ ContactFlow::ContactFlow(const CondensedProblem& problem, const ContactLaws& law
   flows_.push_back(std::move(flow));
 }
 
-ContactFlow::State ContactFlow::at_rest() const {
-  return {-free_state_, Eigen::VectorXd::Zero(clear_below_.size())};
+PeriodState ModalMap::state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const {
+  return {flows_.front().state(displacement, velocity) - free_state_,
+          Eigen::VectorXd::Zero(clear_below_.size())};
 }
 
-ContactFlow::State ContactFlow::balanced(State state) const {
+PeriodState ModalMap::balanced(PeriodState state) const {
   const ModalFlow& flow = flows_.front();
-  Eigen::VectorXd velocity = free_velocity(0);
-  if (depends_on_velocity_) velocity += flow.contact_velocity(state.deviation);
-  const Eigen::VectorXd displacement = free_displacement(0) + flow.contact_displacement(state.deviation);
+  const Eigen::VectorXd displacement = free_displacement(0) + flow.contact_displacement(state.motion);
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(displacement.size(), displacement.size());
-  state.force = solved_forces(laws_, flow.static_compliance(), none, displacement, velocity, state.force);
+  state.force = solved_forces(laws_, flow.static_compliance(), none, displacement,
+                              depends_on_velocity_ ? velocity(state, 0) : Eigen::VectorXd(), state.force);
   return state;
 }
 
-const ModalFlow& ContactFlow::flow(int level) {
+const ModalFlow& ModalMap::flow(int level) {
   while (static_cast<int>(flows_.size()) <= level) {
     const int halvings = static_cast<int>(flows_.size());
     flows_.push_back(flows_.front().over(std::ldexp(1.0 / (free_.frequency() * steps_), -halvings)));
@@ -113,86 +113,115 @@ const ModalFlow& ContactFlow::flow(int level) {
 }
 
 // Times are in ticks, the shortest step.
-Eigen::VectorXd ContactFlow::free_displacement(Ticks time) const {
+Eigen::VectorXd ModalMap::free_displacement(Ticks time) const {
   constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
   if (time % sample == 0) return free_.displacement_sample(time / sample % (2 * steps_));
   return free_.displacement(std::ldexp(double(time), -deepest_level) / steps_);
 }
 
-Eigen::VectorXd ContactFlow::free_velocity(Ticks time) const {
+Eigen::VectorXd ModalMap::free_velocity(Ticks time) const {
   constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
-  if (!depends_on_velocity_) return {};
   if (time % sample == 0) return free_.velocity_sample(time / sample % (2 * steps_));
   return free_.velocity(std::ldexp(double(time), -deepest_level) / steps_);
 }
 
-bool ContactFlow::is_clear(const Eigen::VectorXd& displacement) const {
+Eigen::VectorXd ModalMap::velocity(const PeriodState& state, Ticks time) const {
+  return free_velocity(time) + flows_.front().contact_velocity(state.motion);
+}
+
+bool ModalMap::is_clear(const Eigen::VectorXd& displacement) const {
   return (displacement.array() <= clear_below_.array()).all();
 }
 
 // A step of the length of its level, whatever acts within.
-ContactFlow::Step ContactFlow::single(const State& begin, Ticks end, int level) {
+ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) {
   const ModalFlow& flow = this->flow(level);
   const auto states = double(flow.states()), contacts = double(clear_below_.size());
   constexpr double around = 1250.0;  // operations of which the rest of a step takes the time
   constexpr double of_law = 1000.0;  // and the resolvent of a law
   operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
   Step step;
-  step.end.deviation = flow.advance(begin.deviation, begin.force);
-  const Eigen::VectorXd predicted = free_displacement(end) + flow.contact_displacement(step.end.deviation);
+  step.end.motion = flow.advance(begin.motion, begin.force);
+  const Eigen::VectorXd predicted = free_displacement(end) + flow.contact_displacement(step.end.motion);
   step.displacement = predicted;
   step.end.force = Eigen::VectorXd::Zero(predicted.size());
   if (is_clear(predicted)) return step;
-  Eigen::VectorXd velocity = free_velocity(end);
-  if (depends_on_velocity_) velocity += flow.contact_velocity(step.end.deviation);
+  const Eigen::VectorXd velocity = depends_on_velocity_ ? this->velocity(step.end, end) : Eigen::VectorXd();
   step.end.force =
       solved_forces(laws_, flow.step_compliance(), flow.step_mobility(), predicted, velocity, begin.force);
-  flow.add_force(step.end.deviation, step.end.force);
+  flow.add_force(step.end.motion, step.end.force);
   step.displacement -= flow.step_compliance() * step.end.force;
   return step;
 }
 
 // The same, halved as far as needed for an error in the state of at most `allowed`. `whole_step` is the
 // result of single(), if there is one.
-ContactFlow::Step ContactFlow::refined(const State& begin, Ticks start, int level, double allowed,
-                                       const Step* whole_step) {
+ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int level, double allowed,
+                                 const Step* whole_step) {
   constexpr double event = 1e-3;  // the share of the error that is allowed where a contact opens or closes
   const Ticks length = Ticks{1} << (deepest_level - level), half = length / 2;
   Step whole = whole_step ? *whole_step : single(begin, start + length, level);
-  if (level == deepest_level || operations_ > max_operations_) return whole;
+  if (level == deepest_level || operations_ > max_operations_) {
+    note_changes(begin, whole, start + length, level);
+    return whole;
+  }
   const bool free = begin.force.isZero(0.0) && whole.end.force.isZero(0.0);
   if (free &&
-      is_clear(free_displacement(start + half) + flow(level + 1).contact_displacement_after(begin.deviation)))
+      is_clear(free_displacement(start + half) + flow(level + 1).contact_displacement_after(begin.motion)))
     return whole;
   const Step first = single(begin, start + half, level + 1);
   Step second = single(first.end, start + length, level + 1);
-  const Eigen::VectorXd correction = (second.end.deviation - whole.end.deviation) / 3.0;
+  const Eigen::VectorXd correction = (second.end.motion - whole.end.motion) / 3.0;
   const bool changes =
       opens_or_closes(begin.force, first.end.force) || opens_or_closes(first.end.force, second.end.force);
   if (!(correction.norm() > allowed * (changes ? event : 1.0))) {
-    second.end.deviation += correction;
+    second.end.motion += correction;
+    note_changes(begin, first, start + half, level + 1);
+    note_changes(first.end, second, start + length, level + 1);
     return second;
   }
   const Step middle = refined(begin, start, level + 1, allowed, &first);
   return refined(middle.end, start + half, level + 1, allowed, nullptr);
 }
 
-ContactFlow::Period ContactFlow::period_from(const State& begin, double tolerance, double max_operations) {
+// Notes the contacts that open or close in a step that ends at `end`, where their displacement would have
+// reached the gap with the velocity that it has at the end.
+void ModalMap::note_changes(const PeriodState& begin, const Step& step, Ticks end, int level) {
+  if (!opens_or_closes(begin.force, step.end.force)) return;
+  const double after = std::ldexp(double(end), -deepest_level) / steps_;
+  const double length = std::ldexp(1.0, -level) / steps_;
+  const Eigen::VectorXd velocity = this->velocity(step.end, end);
+  for (int c = 0; c < velocity.size(); ++c) {
+    const bool closes = begin.force[c] == 0.0, opens = step.end.force[c] == 0.0;
+    if (closes == opens || !std::isfinite(clear_below_[c])) continue;
+    const double back = (step.displacement[c] - clear_below_[c]) / velocity[c] * free_.frequency();
+    changes_.push_back({after - (std::isfinite(back) ? std::clamp(back, 0.0, length) : 0.0), c, closes});
+  }
+}
+
+Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
   const Ticks length = Ticks{1} << deepest_level;
-  const double allowed = tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
-  max_operations_ = operations_ + max_operations;
+  const double allowed = control.tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
+  const Eigen::Index contacts = clear_below_.size();
+  max_operations_ = operations_ + control.max_operations;
+  changes_.clear();
   Period period;
-  period.displacement.resize(clear_below_.size(), steps_);
-  period.force.resize(clear_below_.size(), steps_);
-  period.end = begin;
+  for (Eigen::MatrixXd* values :
+       {&period.contacts.displacement, &period.contacts.velocity, &period.contacts.force})
+    values->resize(contacts, steps_);
+  Step at{begin, free_displacement(0) + flows_.front().contact_displacement(begin.motion) -
+                     flows_.front().static_compliance() * begin.force};
   for (int k = 0; k < steps_; ++k) {
-    Step step = refined(period.end, k * length, 0, allowed, nullptr);
-    period.displacement.col(k) = step.displacement;
-    period.force.col(k) = step.end.force;
-    period.end = std::move(step.end);
+    period.contacts.displacement.col(k) = at.displacement;
+    period.contacts.velocity.col(k) = velocity(at.end, k * length);
+    period.contacts.force.col(k) = at.end.force;
+    at = refined(at.end, k * length, 0, allowed, nullptr);
     if (operations_ > max_operations_) return period;
   }
-  period.complete = period.end.deviation.allFinite();
+  period.ended = at.end.motion.allFinite() ? Period::End::complete : Period::End::step_failure;
+  period.state = std::move(at.end);
+  period.changes = std::move(changes_);
+  std::ranges::stable_sort(period.changes, {}, &ContactChange::time);
   return period;
 }
 

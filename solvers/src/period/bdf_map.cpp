@@ -1,0 +1,260 @@
+#include "period/bdf_map.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "linalg/gsl_errors.hpp"
+#include "period/contact_free_motion.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr double first_step = 1e-6;  // periods
+
+/// The largest entry of the state of the response without contact, m/s; 0 where it is unbounded. Harmonics
+/// with less than a hundredth of the load do not matter for a size.
+double linear_size(const LinearStructure& structure, double frequency, double angular_frequency) {
+  constexpr double small = 1e-2;
+  Eigen::MatrixXcd loads = structure.load_amplitudes(frequency);
+  const Eigen::VectorXd sizes = loads.colwise().norm();
+  for (Eigen::Index m = 0; m < loads.cols(); ++m)
+    if (m != 1 && sizes[m] < small * sizes.maxCoeff()) loads.col(m).setZero();
+  const Eigen::MatrixXcd response = contact_free_response(structure, loads, frequency);
+  double size = 0.0;
+  for (Eigen::Index m = 0; m < loads.cols(); ++m) {
+    const double state = angular_frequency * std::max(1.0, double(m)) * response.col(m).cwiseAbs().maxCoeff();
+    if (std::isfinite(state)) size = std::max(size, state);
+  }
+  return size;
+}
+
+std::span<const double> view(const double* values, int size) {
+  return {values, static_cast<std::size_t>(size)};
+}
+std::span<double> view(double* values, int size) { return {values, static_cast<std::size_t>(size)}; }
+
+int derivative_callback(double periods, const double* state, double* rate, void* parameters) {
+  const auto& system = *static_cast<const FirstOrderSystem*>(parameters);
+  const int size = system.states();
+  system.derivative(periods, view(state, size), view(rate, size));
+  // A step too long can leave the range of an exponential law; any failure makes the integrator halve the
+  // step.
+  return Eigen::Map<const Eigen::VectorXd>(rate, size).allFinite() ? GSL_SUCCESS : GSL_ERANGE;
+}
+
+int jacobian_callback(double periods, const double* state, double* by_state, double* by_time,
+                      void* parameters) {
+  const auto& system = *static_cast<const FirstOrderSystem*>(parameters);
+  const int size = system.states();
+  system.jacobian(periods, view(state, size), view(by_state, size * size), view(by_time, size));
+  return Eigen::Map<const Eigen::VectorXd>(by_state, size * size).allFinite() ? GSL_SUCCESS : GSL_ERANGE;
+}
+
+/// The quintic on [0, 1] with given value, slope and curvature at both ends: the factors of these six, [0]
+/// for the start and [1] for the end, in its value (first row) and its slope (second row) at s.
+struct QuinticWeights {
+  explicit QuinticWeights(double s) {
+    const double r = 1.0 - s;
+    fill(0, r, s, 1.0);
+    fill(1, s, r, -1.0);
+  }
+  double value[2], slope[2], curvature[2];
+  double value_rate[2], slope_rate[2], curvature_rate[2];
+
+ private:
+  /// near is 1 at the end that is filled, far is 1 - near; direction is +1 where far grows with s.
+  void fill(int end, double near, double far, double direction) {
+    const double near2 = near * near;
+    value[end] = near2 * near * (1.0 + 3.0 * far + 6.0 * far * far);
+    slope[end] = direction * near2 * near * far * (1.0 + 3.0 * far);
+    curvature[end] = 0.5 * near2 * near * far * far;
+    value_rate[end] = -direction * 30.0 * near2 * far * far;
+    slope_rate[end] = near2 * (1.0 - 3.0 * far) * (1.0 + 5.0 * far);
+    curvature_rate[end] = direction * 0.5 * near2 * far * (2.0 - 5.0 * far);
+  }
+};
+
+}  // namespace
+
+/// GSL's evolution objects, with the two ends of the last step.
+class BdfMap::Integrator {
+ public:
+  /// One end of a step.
+  struct Instant {
+    double time = 0.0;      // periods
+    Eigen::VectorXd state;  // 2n, m/s
+    Eigen::VectorXd rate;   // 2n, m/s per period
+  };
+
+  Integrator(FirstOrderSystem& system, const Eigen::VectorXd& initial, double tolerance, double absolute)
+      : dofs_(system.dofs()),
+        system_{derivative_callback, jacobian_callback, static_cast<std::size_t>(system.states()), &system},
+        driver_(
+            gsl_odeiv2_driver_alloc_y_new(&system_, gsl_odeiv2_step_msbdf, first_step, absolute, tolerance),
+            &gsl_odeiv2_driver_free),
+        end_{0.0, initial, Eigen::VectorXd(initial.size())} {
+    if (!driver_) throw std::bad_alloc();
+    derivative_callback(0.0, end_.state.data(), end_.rate.data(), &system);
+  }
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// One accepted step; false when none was found.
+  bool advance() {
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    begin_ = end_;
+    return gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &system_, &end_.time, unlimited,
+                                   &step_, end_.state.data()) == GSL_SUCCESS &&
+           derivative_callback(end_.time, end_.state.data(), end_.rate.data(), system_.params) == GSL_SUCCESS;
+  }
+
+  /// The state at a time within the last step: the quintic through y, y' and y'' of the displacement half of
+  /// the state, where y' = 2 pi u'.
+  Eigen::VectorXd at(double time) const {
+    const int n = dofs_;
+    const Instant &a = begin_, &b = end_;
+    const double h = b.time - a.time;
+    if (h == 0.0) return b.state;
+    const QuinticWeights w((time - a.time) / h);
+    const double slope = 2.0 * std::numbers::pi * h, curvature = slope * h;
+    Eigen::VectorXd state(2 * n);
+    state.head(n) = w.value[0] * a.state.head(n) + w.value[1] * b.state.head(n) +
+                    slope * (w.slope[0] * a.state.tail(n) + w.slope[1] * b.state.tail(n)) +
+                    curvature * (w.curvature[0] * a.rate.tail(n) + w.curvature[1] * b.rate.tail(n));
+    state.tail(n) = w.value_rate[1] / slope * (b.state.head(n) - a.state.head(n)) +
+                    w.slope_rate[0] * a.state.tail(n) + w.slope_rate[1] * b.state.tail(n) +
+                    h * (w.curvature_rate[0] * a.rate.tail(n) + w.curvature_rate[1] * b.rate.tail(n));
+    return state;
+  }
+
+  const Instant& begin() const { return begin_; }
+  const Instant& end() const { return end_; }
+  long failed_steps() const { return static_cast<long>(driver_->e->failed_steps); }
+
+ private:
+  int dofs_;
+  gsl_odeiv2_system system_;
+  std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver_;
+  double step_ = first_step;
+  Instant begin_, end_;
+};
+
+BdfMap::BdfMap(const LinearStructure& structure, const ContactLaws& laws, double frequency_hz, int samples,
+               double step_floor)
+    : system_(structure, laws, frequency_hz),
+      step_floor_(step_floor),
+      linear_size_(linear_size(structure, frequency_hz, system_.angular_frequency())),
+      gaps_(laws.gaps(structure.contacts())),
+      states_(system_.states(), samples) {
+  for (int c = 0; c < gaps_.size(); ++c)
+    if (!laws[c].unilateral()) gaps_[c] = std::numeric_limits<double>::infinity();
+}
+
+BdfMap::~BdfMap() = default;
+
+PeriodState BdfMap::state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const {
+  return {system_.state(displacement, velocity), {}};
+}
+
+long BdfMap::failed_steps() const { return failed_steps_ + (integrator_ ? integrator_->failed_steps() : 0); }
+
+// The tolerances are relative to the response without contact, or to the initial state when that is larger;
+// to 1 m/s when both vanish.
+void BdfMap::start(const PeriodState& begin, double tolerance) {
+  failed_steps_ = failed_steps();
+  const double size = std::max(linear_size_, begin.motion.cwiseAbs().maxCoeff());
+  integrator_ = std::make_unique<Integrator>(system_, begin.motion, tolerance,
+                                             tolerance * step_floor_ * (size > 0.0 ? size : 1.0));
+  tolerance_ = tolerance;
+  period_ = 0.0;
+  changes_.clear();
+}
+
+// The contacts that press on their obstacles.
+std::vector<bool> BdfMap::closed_contacts(const Eigen::VectorXd& state) const {
+  const Eigen::VectorXd displacement =
+      system_.contact_directions() * state.head(system_.dofs()) / system_.angular_frequency();
+  const Eigen::VectorXd velocity = system_.contact_directions() * state.tail(system_.dofs());
+  std::vector<bool> closed(static_cast<std::size_t>(gaps_.size()));
+  for (int c = 0; c < gaps_.size(); ++c)
+    closed[static_cast<std::size_t>(c)] =
+        std::isfinite(gaps_[c]) && system_.laws()[c].force(displacement[c], velocity[c]) != 0.0;
+  return closed;
+}
+
+// The contacts that open or close within the last step, by bisection.
+void BdfMap::note_changes() {
+  constexpr int halvings = 40;
+  const std::vector<bool> before = closed_contacts(integrator_->begin().state),
+                          after = closed_contacts(integrator_->end().state);
+  for (std::size_t c = 0; c < before.size(); ++c) {
+    if (before[c] == after[c]) continue;
+    double low = integrator_->begin().time, high = integrator_->end().time;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (closed_contacts(integrator_->at(middle))[c] == before[c] ? low : high) = middle;
+    }
+    changes_.push_back({high, static_cast<int>(c), after[c]});
+  }
+}
+
+Motion BdfMap::contacts() const {
+  const int n = system_.dofs();
+  Motion motion{system_.contact_directions() * states_.topRows(n) / system_.angular_frequency(),
+                system_.contact_directions() * states_.bottomRows(n),
+                {}};
+  motion.force = system_.laws().force(motion.displacement, motion.velocity);
+  return motion;
+}
+
+Motion BdfMap::structure() const {
+  const int n = system_.dofs();
+  return {states_.topRows(n) / system_.angular_frequency(), states_.bottomRows(n), {}};
+}
+
+Period BdfMap::advance(const PeriodState& begin, const StepControl& control) {
+  const detail::SilencedGslErrors silence;
+  if (!integrator_ || begin.motion != end_.motion || control.tolerance != tolerance_)
+    start(begin, control.tolerance);
+  const double limit = operations() + control.max_operations;
+  const Eigen::Index samples = states_.cols();
+  Eigen::MatrixXd states(states_.rows(), samples);
+  Period period;
+  for (Eigen::Index next = 0;;) {
+    for (; next < samples; ++next) {
+      const double time = period_ + double(next) / double(samples);
+      if (time > integrator_->end().time) break;
+      states.col(next) = integrator_->at(time);
+    }
+    if (integrator_->end().time >= period_ + 1.0) break;
+    if (operations() >= limit) return period;
+    ++steps_;
+    if (!integrator_->advance()) {
+      period.ended = Period::End::step_failure;
+      return period;
+    }
+    note_changes();
+  }
+  states_ = std::move(states);
+  period_ += 1.0;
+  end_.motion = integrator_->at(period_);
+  period.ended = Period::End::complete;
+  period.state = end_;
+  period.contacts = contacts();
+  std::ranges::stable_sort(changes_, {}, &ContactChange::time);
+  const auto later = std::ranges::find_if(changes_, [&](const auto& one) { return one.time >= period_; });
+  for (auto one = changes_.begin(); one != later; ++one)
+    period.changes.push_back({one->time - (period_ - 1.0), one->contact, one->closes});
+  changes_.erase(changes_.begin(), later);
+  return period;
+}
+
+}  // namespace wavebalance::solvers

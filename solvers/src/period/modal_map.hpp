@@ -1,0 +1,61 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "period/contact_free_motion.hpp"
+#include "period/modal_flow.hpp"
+#include "period/period_map.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+
+namespace wavebalance::solvers {
+
+/// The map by exact motions of the modes. Between contacts a step is a share of the period. Where contact
+/// forces act, the step is halved until its result differs little from that of its halves, which are then
+/// extrapolated [E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993,
+/// section II.4]; and where a contact opens or closes, until it differs much less. So an impact of any length
+/// is resolved, and a force that jumps. Each step is exact for contact forces that are linear in time. The
+/// forces at its end are solved for with the resolvents of the laws, so that any law serves, rigid ones too
+/// [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999]. A period begins at the load's maximum. The motion
+/// of a state is the deviation of the modes from the motion without contact, in the norm of the energy.
+class ModalMap final : public PeriodMap {
+ public:
+  /// `laws` are kept by reference. `flow` has the step of a period of the load over `steps`, which are also
+  /// the samples.
+  ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int steps, ModalFlow flow);
+
+  PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const override;
+  PeriodState balanced(PeriodState state) const override;
+  double size(const PeriodState& state) const override { return (state.motion + free_state_).norm(); }
+  Period advance(const PeriodState& begin, const StepControl& control) override;
+  double operations() const override { return operations_; }
+
+  const ContactFreeMotion& free_motion() const { return free_; }
+
+ private:
+  using Ticks = std::int64_t;
+  struct Step {
+    PeriodState end;
+    Eigen::VectorXd displacement;
+  };
+  const ModalFlow& flow(int level);
+  Eigen::VectorXd free_displacement(Ticks time) const;
+  Eigen::VectorXd free_velocity(Ticks time) const;
+  Eigen::VectorXd velocity(const PeriodState& state, Ticks time) const;
+  bool is_clear(const Eigen::VectorXd& displacement) const;
+  Step single(const PeriodState& begin, Ticks end, int level);
+  Step refined(const PeriodState& begin, Ticks start, int level, double allowed, const Step* whole_step);
+  void note_changes(const PeriodState& begin, const Step& step, Ticks end, int level);
+
+  const ContactLaws& laws_;
+  int steps_;
+  ContactFreeMotion free_;
+  std::vector<ModalFlow> flows_;  // of the steps halved 0, 1, 2, ... times
+  Eigen::VectorXd free_state_;
+  Eigen::VectorXd clear_below_;  // C, m: no force at or below
+  bool depends_on_velocity_;
+  double operations_ = 0.0, max_operations_ = 0.0;
+  std::vector<ContactChange> changes_;  // of the period under way
+};
+
+}  // namespace wavebalance::solvers
