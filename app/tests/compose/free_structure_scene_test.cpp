@@ -9,6 +9,7 @@
 #include "support/scene_texts.hpp"
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
