@@ -45,43 +45,49 @@ void ArcLengthOptions::validate() const {
 }
 
 ArcLength::ArcLength(ContactSystem& system, const CurveParameter& parameter, ArcLengthOptions options)
-    : system_(system), parameter_(parameter), options_(options), step_(options.initial_step) {
-  constexpr int few_samples = 512;
+    : CurveCorrector(detail::ResponseEquations(system, parameter, options)),
+      system_(system),
+      parameter_(parameter),
+      options_(options),
+      step_(options.initial_step) {
   const CondensedProblem& problem = system.problem();
   const bool undamped = problem.pair().functions() % 2 == 0 && !problem.pair().drops_nyquist();
   const bool automatic = options_.grazing_events == GrazingEvents::automatic;
-  many_samples_ = problem.samples() > few_samples;
-  events_first_ = options_.grazing_events == GrazingEvents::all ||
-                  (automatic && !undamped && problem.samples() <= few_samples);
+  events_first_ =
+      options_.grazing_events == GrazingEvents::all || (automatic && !undamped && !curve().many_samples);
 }
 
-Eigen::VectorXd ArcLength::scaled(const Eigen::VectorXd& tangent) const {
-  return tangent / options_.displacement_scale / (double(tangent.size()) * options_.displacement_scale);
+detail::ResponseEquations::ResponseEquations(ContactSystem& contacts, const CurveParameter& along,
+                                             const ArcLengthOptions& lengths)
+    : system(contacts), parameter(along), options(lengths) {
+  constexpr int few_samples = 512;
+  many_samples = system.problem().samples() > few_samples;
 }
 
-double ArcLength::inner(const CurvePoint& a, const CurvePoint& b) const {
-  return scaled(a.displacement_tangent).dot(b.displacement_tangent) +
-         a.parameter_tangent * b.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
+double detail::ResponseEquations::evaluate(const CurvePoint& point, const LawPieces* sides) {
+  if (!parameter.contains(point.parameter) || system.operations() > operation_limit)
+    return std::numeric_limits<double>::infinity();
+  parameter.set(system, point.parameter);
+  return sides ? system.evaluate(point.displacement, *sides) : system.evaluate(point.displacement);
 }
 
-void ArcLength::normalize(CurvePoint& point) const {
-  const double length = std::sqrt(inner(point, point));
-  point.displacement_tangent /= length;
-  point.parameter_tangent /= length;
+bool detail::ResponseEquations::solve_bordered(const Eigen::VectorXd& row, double last,
+                                               const Eigen::VectorXd& right, double last_right,
+                                               Eigen::VectorXd& change, double& parameter_change) {
+  parameter.slope(system, slope);
+  return system.factorize_bordered(slope, row, last) &&
+         system.solve_bordered(right, last_right, change, parameter_change);
 }
 
-// Computes the tangent at an evaluated point, with the orientation of the tangent of `along`.
-bool ArcLength::tangent_at(CurvePoint& point, const CurvePoint& along) {
-  parameter_.slope(system_, slope_);
-  const double last = along.parameter_tangent / (options_.parameter_scale * options_.parameter_scale);
-  if (!system_.factorize_bordered(slope_, scaled(along.displacement_tangent), last)) return false;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(slope_.size());
-  if (!system_.solve_bordered(zero, 1.0, point.displacement_tangent, point.parameter_tangent)) return false;
-  if (!point.displacement_tangent.allFinite() || !std::isfinite(point.parameter_tangent)) return false;
-  const int sign = system_.determinant_sign();
-  point.orientation = sign == 0 ? along.orientation : sign;
-  normalize(point);
-  return true;
+Eigen::VectorXd detail::ResponseEquations::weighted(const Eigen::VectorXd& tangent) const {
+  return tangent / options.displacement_scale / (double(tangent.size()) * options.displacement_scale);
+}
+
+// Long steps of few samples are halved soon: grazing events are then followed. Those of many samples contain
+// many events and need a correction for every few of them.
+int detail::ResponseEquations::max_corrections(bool in_piece) const {
+  if (in_piece) return options.max_corrections;
+  return many_samples ? 2 * options.max_corrections : (options.max_corrections + 1) / 2;
 }
 
 ArcLength::Status ArcLength::start(const Eigen::VectorXd& displacement, double p, double direction) {
@@ -98,66 +104,13 @@ ArcLength::Status ArcLength::start(const CurvePoint& solution) {
   point_ = {};
   point_.displacement = solution.displacement;
   point_.parameter = solution.parameter;
-  parameter_.set(system_, solution.parameter);
-  point_.residual = system_.evaluate(solution.displacement);
+  point_.residual = curve().evaluate(point_, nullptr);
   previous_ = point_;
   last_step_ = 0.0;
   orientation_unknown_ = false;
   piecewise_arc_length_ = reversal_step_ = 0.0;
-  operation_limit_ = system_.operations() + options_.max_operations;
+  curve().operation_limit = system_.operations() + options_.max_operations;
   return tangent_at(point_, along) ? Status::advanced : Status::no_point;
-}
-
-double ArcLength::Plane::miss(const CurvePoint& point) const {
-  return row.dot(point.displacement) + parameter * point.parameter - offset;
-}
-
-double ArcLength::evaluate(const CurvePoint& point, const LawPieces* sides) {
-  parameter_.set(system_, point.parameter);
-  return sides ? system_.evaluate(point.displacement, *sides) : system_.evaluate(point.displacement);
-}
-
-// Long steps of few samples are halved soon: grazing events are then followed. Those of many samples contain
-// many events and need a correction for every few of them.
-int ArcLength::max_corrections(bool in_piece) const {
-  if (in_piece) return options_.max_corrections;
-  return many_samples_ ? 2 * options_.max_corrections : (options_.max_corrections + 1) / 2;
-}
-
-// Newton on R = 0 in the plane, on the smooth continuation of one piece when its sides are given.
-bool ArcLength::solve_in(const Plane& plane, const LawPieces* sides, CurvePoint& point, int& corrections) {
-  double parameter_change = 0.0;
-  const int most = max_corrections(sides != nullptr);
-  for (corrections = 0; corrections <= most; ++corrections) {
-    if (!parameter_.contains(point.parameter) || system_.operations() > operation_limit_) return false;
-    point.residual = evaluate(point, sides);
-    if (!std::isfinite(point.residual)) return false;
-    const double miss = plane.miss(point);
-    if (point.residual <= options_.tolerance && std::abs(miss) <= plane.tolerance) return true;
-    parameter_.slope(system_, slope_);
-    if (!system_.factorize_bordered(slope_, plane.row, plane.parameter)) return false;
-    if (!system_.solve_bordered(system_.residual(), miss, change_, parameter_change)) return false;
-    point.displacement -= change_;
-    point.parameter -= parameter_change;
-  }
-  return false;
-}
-
-CurvePoint ArcLength::ahead(const CurvePoint& from, double step) const {
-  CurvePoint point;
-  point.displacement = from.displacement + step * from.displacement_tangent;
-  point.parameter = from.parameter + step * from.parameter_tangent;
-  return point;
-}
-
-// Solves for the point in the plane at distance `step` along the tangent of `from`, and for its tangent.
-bool ArcLength::correct(const CurvePoint& from, double step, const LawPieces* sides, CurvePoint& to,
-                        int& corrections) {
-  to = ahead(from, step);
-  Plane plane{scaled(from.displacement_tangent),
-              from.parameter_tangent / (options_.parameter_scale * options_.parameter_scale), 0.0, 1e-9};
-  plane.offset = plane.miss(to);
-  return solve_in(plane, sides, to, corrections) && tangent_at(to, from);
 }
 
 // The kink at which a sample lies; -1 for none.
@@ -187,38 +140,32 @@ bool ArcLength::touches(const LawPieces& pieces) const {
   return false;
 }
 
-// The straight line from point_ to a point, as a tangent that is not normalized.
-CurvePoint ArcLength::chord(const CurvePoint& to) const {
-  CurvePoint chord;
-  chord.displacement_tangent = to.displacement - point_.displacement;
-  chord.parameter_tangent = to.parameter - point_.parameter;
-  return chord;
-}
-
 // True if the chord to the candidate is within max_angle of the present tangent, and the tangent there within
 // max_turn.
 bool ArcLength::is_ahead(const CurvePoint& candidate, double max_turn) const {
-  const CurvePoint way = chord(candidate);
+  const CurvePoint way = chord(point_, candidate);
   return inner(point_, candidate) >= std::cos(max_turn) &&
          inner(point_, way) >= std::cos(options_.max_angle) * std::sqrt(inner(way, way));
 }
 
 // The tangents of a curve with many kinks vary about its direction, which the chord shows.
-double ArcLength::max_turn() const { return many_samples_ ? 2.0 * options_.max_angle : options_.max_angle; }
+double ArcLength::max_turn() const {
+  return curve().many_samples ? 2.0 * options_.max_angle : options_.max_angle;
+}
 
 // Factor on the next long step.
 double ArcLength::growth(int corrections, double turn) const {
-  const int comfortable_corrections = many_samples_ ? 7 : 3;
+  const int comfortable_corrections = curve().many_samples ? 7 : 3;
   constexpr double least = 0.6, share = 0.7;
   const double factor = corrections < comfortable_corrections    ? 1.6
                         : corrections == comfortable_corrections ? 1.1
                                                                  : least;
-  if (!many_samples_ || turn <= 0.0) return factor;
+  if (!curve().many_samples || turn <= 0.0) return factor;
   return std::min(factor, std::max(least, share * max_turn() / turn));
 }
 
 void ArcLength::accept(CurvePoint&& candidate, const LawPieces& sides) {
-  last_step_ = inner(point_, chord(candidate));
+  last_step_ = inner(point_, chord(point_, candidate));
   last_sides_ = sides;
   orientation_unknown_ = orientation_unknown_ || candidate.orientation * point_.orientation < 0;
   previous_ = std::move(point_);
@@ -226,7 +173,8 @@ void ArcLength::accept(CurvePoint&& candidate, const LawPieces& sides) {
 }
 
 ArcLength::Status ArcLength::advance() {
-  const bool far = (many_samples_ || !orientation_unknown_) && options_.grazing_events != GrazingEvents::all;
+  const bool far =
+      (curve().many_samples || !orientation_unknown_) && options_.grazing_events != GrazingEvents::all;
   if (far && !events_first_ && piecewise_arc_length_ <= 0.0 && step_far()) return Status::advanced;
   if (!step_in_piece()) return far && events_first_ && step_far() ? Status::advanced : Status::no_point;
   const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
@@ -253,26 +201,23 @@ bool ArcLength::step_far() {
   int corrections = 0;
   double nearest = options_.max_step;
   crossing_ahead(nearest);
-  for (; step_ >= options_.min_step; step_ *= 0.5) {
+  return halve_until_taken(step_, options_.min_step, [&] {
     const bool found =
         correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate, max_turn());
-    if (found && (orientation_unknown_ || candidate.orientation * point_.orientation >= 0)) {
-      const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
-      if (many_samples_ && automatic) {
-        if (turns && step_ > turning_step) continue;
-      } else if (options_.grazing_events != GrazingEvents::where_needed && skips_grazing_turn(candidate)) {
-        if (turns && touches(sides_of(point_))) piecewise_arc_length_ = reversal_step_ = step_;
-        return false;
-      }
-      const double turn = std::acos(std::min(1.0, inner(point_, candidate)));
-      accept(std::move(candidate), LawPieces());
-      step_ = std::clamp(step_ * growth(corrections, turn), options_.min_step, options_.max_step);
-      return true;
+    if (!found || (!orientation_unknown_ && candidate.orientation * point_.orientation < 0))
+      return step_ < few * nearest ? StepAttempt::lost : StepAttempt::too_long;
+    const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;
+    if (curve().many_samples && automatic) {
+      if (turns && step_ > turning_step) return StepAttempt::too_long;
+    } else if (options_.grazing_events != GrazingEvents::where_needed && skips_grazing_turn(candidate)) {
+      if (turns && touches(sides_of(point_))) piecewise_arc_length_ = reversal_step_ = step_;
+      return StepAttempt::lost;
     }
-    if (step_ < few * nearest) break;
-  }
-  step_ = std::max(step_, options_.min_step);
-  return false;
+    const double turn = std::acos(std::min(1.0, inner(point_, candidate)));
+    accept(std::move(candidate), LawPieces());
+    step_ = std::clamp(step_ * growth(corrections, turn), options_.min_step, options_.max_step);
+    return StepAttempt::taken;
+  });
 }
 
 bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, CurvePoint& point) {
@@ -282,7 +227,7 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, Cu
 
 // Where tangents jump at kinks only bisection narrows the bracket, and the parameter hardly changes.
 bool ArcLength::locate_turning_point(CurvePoint& point) {
-  const double width = many_samples_ && last_sides_.size() == 0 ? 1e-4 : 1e-10;
+  const double width = curve().many_samples && last_sides_.size() == 0 ? 1e-4 : 1e-10;
   return locate([](const CurvePoint& at) { return at.parameter_tangent; }, width, point);
 }
 
@@ -302,18 +247,8 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
 }
 
 bool ArcLength::between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point) {
-  CurvePoint way;
-  way.displacement_tangent = to.displacement - from.displacement;
-  way.parameter_tangent = to.parameter - from.parameter;
-  normalize(way);
-  point = {};
-  point.displacement = (1.0 - fraction) * from.displacement + fraction * to.displacement;
-  point.parameter = (1.0 - fraction) * from.parameter + fraction * to.parameter;
-  Plane plane{scaled(way.displacement_tangent),
-              way.parameter_tangent / (options_.parameter_scale * options_.parameter_scale), 0.0, 1e-9};
-  plane.offset = plane.miss(point);
   int corrections = 0;
-  return solve_in(plane, nullptr, point, corrections);
+  return CurveCorrector::between(from, to, fraction, point, corrections);
 }
 
 }  // namespace wavebalance::solvers

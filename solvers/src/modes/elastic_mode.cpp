@@ -187,20 +187,12 @@ ModePoint ElasticMode::at_energy(double energy_ratio, ElasticBackboneOptions opt
 }
 
 std::optional<ModePoint> ElasticMode::between(const ModePoint& a, const ModePoint& b, double share) const {
-  constexpr double farthest = 0.25;  // from the chord, over its length
   if (a.unknown.size() != problem_->size() || b.unknown.size() != problem_->size()) return std::nullopt;
   const ElasticBackboneOptions options;
   ModeEquations equations(*problem_);
   ModeCurve curve(equations, options, options_.tolerance);
-  const Eigen::VectorXd chord = b.unknown - a.unknown;
-  const double length = std::sqrt(curve.inner(chord, chord));
-  if (!(length > 0.0)) return std::nullopt;
-  const Eigen::VectorXd foot = a.unknown + share * chord;
-  CurveState state{foot, chord / length, 0};
-  if (!curve.settle(state)) return std::nullopt;
-  const Eigen::VectorXd aside = state.y - foot;
-  if (!(std::sqrt(curve.inner(aside, aside)) <= farthest * length)) return std::nullopt;
-  equations.evaluate(state.y);
+  CurveState state;
+  if (!curve.between(a.unknown, b.unknown, share, state)) return std::nullopt;
   return elastic_point(equations, options_, state.iterations);
 }
 

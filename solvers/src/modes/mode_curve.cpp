@@ -2,117 +2,128 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "linalg/dense.hpp"
 
 namespace wavebalance::solvers {
 
-ModeCurve::ModeCurve(ModeEquations& equations, const ElasticBackboneOptions& options, double tolerance)
-    : equations_(equations), options_(options), tolerance_(tolerance), step_(options.initial_step) {
+namespace {
+
+CurveState state_of(const Eigen::VectorXd& unknowns) {
+  CurveState state;
+  state.displacement = unknowns.head(unknowns.size() - 1);
+  state.parameter = unknowns[unknowns.size() - 1];
+  return state;
+}
+
+}  // namespace
+
+FreeMotions::FreeMotions(ModeEquations& equations, const ElasticBackboneOptions& options, double tolerance)
+    : equations_(equations), options_(options), tolerance_(tolerance) {
   const ModeProblem& problem = equations.problem();
   const int contacts = problem.contacts(), rows = problem.rows();
-  metric_.setZero(problem.size());
+  metric_.setZero(problem.size() - 1);
   for (int c = 0; c < contacts; ++c) {
     const double length = problem.unit / problem.model.gaps[c];
     metric_.segment(c * rows, rows) = length * length / contacts * problem.transform.mean_square;
   }
-  metric_[contacts * rows + 1] =
-      1.0 / (problem.first_inertia() * options.frequency_scale * options.frequency_scale);
+  squared_parameter_scale_ = problem.first_inertia() * options.frequency_scale * options.frequency_scale;
 }
 
-double ModeCurve::inner(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-  return metric_.cwiseProduct(a).dot(b);
+double FreeMotions::evaluate(const CurvePoint& point, const Pieces*) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (!point.displacement.allFinite() || !(point.parameter > 0.0)) return none;
+  Eigen::VectorXd unknowns(point.displacement.size() + 1);
+  unknowns << point.displacement, point.parameter;
+  equations_.evaluate(unknowns);
+  return residual().allFinite() ? equations_.relative_residual() : none;
 }
+
+bool FreeMotions::solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
+                                 double last_right, Eigen::VectorXd& change, double& parameter_change) const {
+  Eigen::MatrixXd matrix(row.size() + 1, row.size() + 1);
+  matrix << equations_.jacobian(), row.transpose(), last;
+  const detail::Lu<double> lu(matrix);
+  if (lu.is_singular(0.0)) return false;
+  Eigen::VectorXd solution(row.size() + 1);
+  solution << right, last_right;
+  solution = lu.solve(solution);
+  change = solution.head(row.size());
+  parameter_change = solution[row.size()];
+  return true;
+}
+
+ModeCurve::ModeCurve(ModeEquations& equations, const ElasticBackboneOptions& options, double tolerance)
+    : CurveCorrector(FreeMotions(equations, options, tolerance)),
+      equations_(equations),
+      options_(options),
+      step_(options.initial_step) {}
 
 CurveState ModeCurve::linear_state(double q) const {
   const ModeProblem& problem = equations_.problem();
   const int contacts = problem.contacts(), rows = problem.rows();
   CurveState state;
-  state.tangent.setZero(problem.size());
+  state.displacement_tangent.setZero(problem.size() - 1);
   for (int c = 0; c < contacts; ++c)
-    state.tangent[c * rows + problem.transform.real_rows[1]] =
+    state.displacement_tangent[c * rows + problem.transform.real_rows[1]] =
         problem.model.contact_shapes(c, problem.mode) * problem.amplitude / problem.unit;
-  state.tangent[contacts * rows] = 1.0;
-  state.y = q * state.tangent;
-  state.y[contacts * rows + 1] = problem.linear_omega() / problem.omega();
-  state.tangent /= std::sqrt(inner(state.tangent, state.tangent));
+  state.displacement_tangent[contacts * rows] = 1.0;
+  state.displacement = q * state.displacement_tangent;
+  state.parameter = problem.linear_omega() / problem.omega();
+  normalize(state);
   return state;
-}
-
-// Newton's method on the equations and row . y = offset.
-bool ModeCurve::solve(const Eigen::VectorXd& row, double offset, CurveState& state) {
-  const Eigen::Index size = state.y.size();
-  Eigen::MatrixXd matrix(size, size);
-  Eigen::VectorXd right(size);
-  for (state.iterations = 0; state.iterations <= options_.max_corrections; ++state.iterations) {
-    if (!state.y.allFinite() || !(state.y[size - 1] > 0.0)) return false;
-    equations_.evaluate(state.y);
-    right << equations_.residual(), row.dot(state.y) - offset;
-    if (!right.allFinite()) return false;
-    const bool on_plane = std::abs(right[size - 1]) <= 1e-9 * row.cwiseProduct(state.y).cwiseAbs().sum();
-    if (on_plane && equations_.relative_residual() <= tolerance_) return true;
-    matrix << equations_.jacobian(), row.transpose();
-    const detail::Lu<double> lu(matrix);
-    if (lu.is_singular(0.0)) return false;
-    state.y -= lu.solve(right);
-  }
-  return false;
-}
-
-// The tangent at an evaluated state that goes along with `along`.
-bool ModeCurve::set_tangent(CurveState& state, const Eigen::VectorXd& along) {
-  const Eigen::Index size = state.y.size();
-  Eigen::MatrixXd matrix(size, size);
-  matrix << equations_.jacobian(), metric_.cwiseProduct(along).transpose();
-  const detail::Lu<double> lu(matrix);
-  if (lu.is_singular(0.0)) return false;
-  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(size, size - 1);
-  state.tangent = lu.solve(unit);
-  state.tangent /= std::sqrt(inner(state.tangent, state.tangent));
-  return state.tangent.allFinite();
 }
 
 bool ModeCurve::correct(const CurveState& from, double distance, CurveState& to) {
   // Where a sample comes into contact the tangent may jump by any angle, so that short chords have any
   // direction.
   constexpr double most_chord = 3.0;
-  const Eigen::VectorXd row = metric_.cwiseProduct(from.tangent);
-  to.y = from.y + distance * from.tangent;
-  if (!solve(row, row.dot(to.y), to)) return false;
-  const Eigen::VectorXd chord = to.y - from.y;
+  static_cast<CurvePoint&>(to) = ahead(from, distance);
+  if (!solve_in(plane_across(from, to), nullptr, to, to.iterations)) return false;
+  CurvePoint way = chord(from, to);
   const double longest = std::max(most_chord * std::abs(distance), options_.initial_step);
-  if (std::sqrt(inner(chord, chord)) > longest) return false;
-  return set_tangent(to, distance < 0.0 ? Eigen::VectorXd(-chord) : chord);
+  if (std::sqrt(inner(way, way)) > longest) return false;
+  if (distance < 0.0) way = chord(to, from);
+  return tangent_at(to, way);
 }
 
 bool ModeCurve::settle(CurveState& state) {
-  const Eigen::VectorXd along = state.tangent, row = metric_.cwiseProduct(along);
-  return solve(row, row.dot(state.y), state) && set_tangent(state, along);
+  const CurvePoint along = state;
+  return solve_in(plane_across(along, along), nullptr, state, state.iterations) && tangent_at(state, along);
 }
 
 bool ModeCurve::settle_at(double frequency, double direction, CurveState& state) {
-  const Eigen::Index last = state.y.size() - 1;
-  state.y[last] = frequency;
-  const Eigen::VectorXd row = Eigen::VectorXd::Unit(state.y.size(), last);
-  return solve(row, frequency, state) && set_tangent(state, direction * row);
+  const CurvePlane plane{Eigen::VectorXd::Zero(state.displacement.size()), 1.0, frequency, 1e-9};
+  CurvePoint along;
+  along.displacement_tangent = plane.row;
+  along.parameter_tangent = direction;
+  state.parameter = frequency;
+  return solve_in(plane, nullptr, state, state.iterations) && tangent_at(state, along);
+}
+
+bool ModeCurve::between(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double share, CurveState& state) {
+  constexpr double farthest = 0.25;  // from the chord, over its length
+  const CurveState from = state_of(a), to = state_of(b);
+  if (!CurveCorrector::between(from, to, share, state, state.iterations)) return false;
+  const CurvePoint way = chord(from, to), aside = chord(state_of(a + share * (b - a)), state);
+  return std::sqrt(inner(aside, aside)) <= farthest * std::sqrt(inner(way, way));
 }
 
 bool ModeCurve::advance(CurveState& state) {
   CurveState next;
   int spent = 0;
-  for (; step_ >= options_.min_step; step_ *= 0.5) {
+  return halve_until_taken(step_, options_.min_step, [&] {
     const bool found = correct(state, step_, next);
     spent += next.iterations;
-    if (!found) continue;
+    if (!found) return StepAttempt::too_long;
     last_step_ = step_;
     step_ *= next.iterations <= 3 ? 1.6 : next.iterations <= 5 ? 1.0 : 0.6;
     step_ = std::clamp(step_, options_.min_step, options_.max_step);
     state = next;
     state.iterations = spent;
-    return true;
-  }
-  step_ = options_.min_step;
-  return false;
+    return StepAttempt::taken;
+  });
 }
 
 bool ModeCurve::leap(CurveState& state, const std::function<bool()>& accepts) {
@@ -120,7 +131,7 @@ bool ModeCurve::leap(CurveState& state, const std::function<bool()>& accepts) {
   CurveState next;
   for (double length = 2.0 * options_.initial_step; length <= longest; length *= 1.5) {
     if (!correct(state, length, next)) continue;
-    equations_.evaluate(next.y);
+    curve().evaluate(next, nullptr);
     if (!accepts()) continue;
     last_step_ = length;
     step_ = options_.initial_step;

@@ -3,20 +3,44 @@
 #include <functional>
 
 #include "modes/mode_equations.hpp"
+#include "wavebalance/solvers/continuation/curve_corrector.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 
 namespace wavebalance::solvers {
 
-/// A point of the curve of free motions, in the unknowns of ModeEquations.
-struct CurveState {
-  Eigen::VectorXd y;
-  Eigen::VectorXd tangent;  ///< of length 1 in the metric of ModeCurve
+/// A point of the curve of free motions: its displacement holds the unknowns of ModeEquations but the last,
+/// omega over omega_m, which is the parameter.
+struct CurveState : CurvePoint {
   int iterations = 0;
 };
 
-/// The curve of ModeEquations by arc length. The length of a change dy is that of the contacts' samples, rms
+/// ModeEquations as the equations of a curve. The length of a change dy is that of the contacts' samples, rms
 /// over their gaps, and of the frequency, over the scale of the options.
-class ModeCurve {
+class FreeMotions {
+ public:
+  struct Pieces {};
+
+  FreeMotions(ModeEquations& equations, const ElasticBackboneOptions& options, double tolerance);
+
+  double evaluate(const CurvePoint& point, const Pieces*);
+  const Eigen::VectorXd& residual() const { return equations_.residual(); }
+  bool solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
+                      double last_right, Eigen::VectorXd& change, double& parameter_change) const;
+  int determinant_sign() const { return 0; }
+  Eigen::VectorXd weighted(const Eigen::VectorXd& change) const { return metric_.cwiseProduct(change); }
+  double squared_parameter_scale() const { return squared_parameter_scale_; }
+  double tolerance() const { return tolerance_; }
+  int max_corrections(bool) const { return options_.max_corrections; }
+
+ private:
+  ModeEquations& equations_;
+  const ElasticBackboneOptions& options_;
+  double tolerance_, squared_parameter_scale_;
+  Eigen::VectorXd metric_;
+};
+
+/// The curve of free motions by arc length.
+class ModeCurve : private CurveCorrector<FreeMotions> {
  public:
   ModeCurve(ModeEquations& equations, const ElasticBackboneOptions& options, double tolerance);
 
@@ -39,20 +63,17 @@ class ModeCurve {
   void restart() { step_ = options_.initial_step; }
 
   /// omega of a state over that of the linear mode without a time basis.
-  double frequency(const CurveState& state) const { return state.y[state.y.size() - 1]; }
-  double inner(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  double frequency(const CurveState& state) const { return state.parameter; }
+  /// A state between two unknowns of ModeEquations, in the plane across their chord at `share` of it. False
+  /// where Newton's method does not converge, or does so farther from the chord than a quarter of its length.
+  bool between(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double share, CurveState& state);
   ModeEquations& equations() { return equations_; }
   /// Arc length of the last advance().
   double last_step() const { return last_step_; }
 
  private:
-  bool solve(const Eigen::VectorXd& row, double offset, CurveState& state);
-  bool set_tangent(CurveState& state, const Eigen::VectorXd& along);
-
   ModeEquations& equations_;
   const ElasticBackboneOptions& options_;
-  double tolerance_;
-  Eigen::VectorXd metric_;
   double step_, last_step_ = 0.0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <cstddef>
 #include <deque>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace wavebalance::solvers {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_system.hpp"
+#include "wavebalance/solvers/continuation/curve_corrector.hpp"
 
 namespace wavebalance::solvers {
 
@@ -74,18 +75,34 @@ struct ArcLengthOptions {
   void validate() const;
 };
 
-/// A point of a solution curve with its unit tangent in the scaled inner product
-/// <(u, p), (v, q)> = u.v / (samples() displacement_scale^2) + p q / parameter_scale^2.
-struct CurvePoint {
-  Eigen::VectorXd displacement;  ///< m, samples() values
-  double parameter = 0.0;
-  Eigen::VectorXd displacement_tangent;
-  double parameter_tangent = 0.0;
-  double residual = 0.0;
-  int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
-  /// A grazing event: the law's slope jumps here, and the tangent is that of the next piece.
-  bool grazing = false;
+namespace detail {
+
+/// The equations of ArcLength.
+struct ResponseEquations {
+  using Pieces = LawPieces;
+
+  ResponseEquations(ContactSystem& contacts, const CurveParameter& along, const ArcLengthOptions& lengths);
+
+  ContactSystem& system;
+  const CurveParameter& parameter;
+  ArcLengthOptions options;
+  bool many_samples;  ///< so many that steps pass grazing events together
+  /// Value of the operation counter at which the curve must stop.
+  double operation_limit = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd slope;
+
+  double evaluate(const CurvePoint& point, const LawPieces* sides);
+  const Eigen::VectorXd& residual() const { return system.residual(); }
+  bool solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
+                      double last_right, Eigen::VectorXd& change, double& parameter_change);
+  int determinant_sign() const { return system.determinant_sign(); }
+  Eigen::VectorXd weighted(const Eigen::VectorXd& tangent) const;
+  double squared_parameter_scale() const { return options.parameter_scale * options.parameter_scale; }
+  double tolerance() const { return options.tolerance; }
+  int max_corrections(bool in_piece) const;
 };
+
+}  // namespace detail
 
 /// Pseudo-arc-length continuation [H. B. Keller, in: Applications of Bifurcation Theory, 1977; R. Seydel,
 /// Practical Bifurcation and Stability Analysis, 2010, chapter 4] of a piecewise smooth solution curve.
@@ -100,7 +117,7 @@ struct CurvePoint {
 /// cross. That happens in symmetric structures, where several samples reach their gaps together: all of them
 /// change sides. From there on the curve is followed piece by piece; with more than 512 samples, which would
 /// take too many pieces, by long steps that do not compare the sign.
-class ArcLength {
+class ArcLength : private CurveCorrector<detail::ResponseEquations> {
  public:
   /// no_point: no further point was found, or the operations are used up.
   enum class Status { advanced, no_point };
@@ -130,22 +147,8 @@ class ArcLength {
   const CurvePoint& previous() const { return previous_; }
 
  private:
-  /// The points (u, p) with row.u + parameter p = offset.
-  struct Plane {
-    Eigen::VectorXd row;
-    double parameter = 0.0;
-    double offset = 0.0;
-    double tolerance = 0.0;  // on miss()
-    double miss(const CurvePoint& point) const;
-  };
+  using Plane = CurvePlane;
 
-  double evaluate(const CurvePoint& point, const LawPieces* sides);
-  int max_corrections(bool in_piece) const;
-  bool solve_in(const Plane& plane, const LawPieces* sides, CurvePoint& point, int& corrections);
-  bool correct(const CurvePoint& from, double step, const LawPieces* sides, CurvePoint& to, int& corrections);
-  bool tangent_at(CurvePoint& point, const CurvePoint& along);
-  CurvePoint ahead(const CurvePoint& from, double step) const;
-  CurvePoint chord(const CurvePoint& to) const;
   bool is_ahead(const CurvePoint& candidate, double max_turn) const;
   double max_turn() const;
   double growth(int corrections, double turn) const;
@@ -173,26 +176,20 @@ class ArcLength {
   bool grazing_tangent(int sample, const std::vector<Crossing>& together, const std::vector<bool>& beyond,
                        CurvePoint& event);
   bool leave_grazing_event(Crossing crossing, const LawPieces& sides, CurvePoint& event);
-  void normalize(CurvePoint& point) const;
-  double inner(const CurvePoint& a, const CurvePoint& b) const;
-  Eigen::VectorXd scaled(const Eigen::VectorXd& tangent) const;
 
   ContactSystem& system_;
   const CurveParameter& parameter_;
   ArcLengthOptions options_;
   bool events_first_ = false;  // long steps only where the next grazing event is not found
-  bool many_samples_ = false;  // so many that steps pass grazing events together
   CurvePoint point_, previous_;
   double step_ = 0.0;
-  double last_step_ = 0.0;      // from previous_ to point_, along the tangent of previous_
-  LawPieces last_sides_;        // sides of the piece that both lie on; empty if there may be several
-  double reversal_step_ = 0.0;  // length of the last long step that contained a turning point
-  // Value of the operation counter at which the curve must stop.
-  double operation_limit_ = std::numeric_limits<double>::infinity();
+  double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
+  LawPieces last_sides_;               // sides of the piece that both lie on; empty if there may be several
+  double reversal_step_ = 0.0;         // length of the last long step that contained a turning point
   double piecewise_arc_length_ = 0.0;  // arc length that is to be followed piece by piece
   // Curves have crossed, so that the orientation is no check of long steps.
   bool orientation_unknown_ = false;
-  Eigen::VectorXd slope_, change_;
+  Eigen::VectorXd slope_;
 };
 
 }  // namespace wavebalance::solvers

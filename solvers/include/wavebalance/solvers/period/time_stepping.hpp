@@ -62,9 +62,9 @@ struct TimeSteppingResult {
 /// analytic Jacobian; [JL14, section 4] used the closely related NDF. Steps do not end at output times:
 /// samples come from the quintic that matches displacement, velocity and acceleration at both ends of a step.
 ///
-/// A motion repeats after p periods, up to `longest`, if it agrees likewise with that p periods ago. For p > 1
-/// at least 50 periods have passed, and any two of the last p periods differ a hundred times as much, and as
-/// much as they did 16 or more periods ago.
+/// A motion repeats after p periods, up to `longest`, if it agrees likewise with that p periods ago. For p >
+/// 1 at least 50 periods have passed, and any two of the last p periods differ a hundred times as much, and
+/// as much as they did 16 or more periods ago.
 ///
 /// The periods needed are about log(period_tolerance) / log(multiplier), with the modulus of the leading
 /// Floquet multiplier; the distance to the periodic motion is then about multiplier / (1 - multiplier)
