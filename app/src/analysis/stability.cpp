@@ -12,6 +12,7 @@
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/subharmonic_response.hpp"
 
 namespace wavebalance::app {
@@ -35,11 +36,12 @@ std::string status_of(const solvers::UnstableMultipliers& count) {
 }
 
 std::complex<double> leading_multiplier(const solvers::ContactDynamics& dynamics,
-                                        const solvers::PeriodicStiffness& stiffness, double frequency,
-                                        const solvers::StabilityOptions& how) {
+                                        const solvers::CondensedProblem& problem,
+                                        const solvers::ContactLaws& laws,
+                                        const solvers::PeriodicResponse& found) {
   solvers::FloquetOptions options;
-  options.stability = how;
-  const auto exponents = solvers::floquet_exponents(dynamics, stiffness, frequency, options);
+  options.stability = options_for(problem);
+  const auto exponents = solvers::floquet_exponents(dynamics, problem, laws, found, options);
   if (exponents.status != solvers::StabilityStatus::converged || exponents.values.empty())
     return {missing, missing};
   return exponents.values.front().multiplier;
@@ -125,6 +127,46 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s"));
 }
 
+/// For a motion whose phases of contact are known: all multipliers at once, which have no harmonics to
+/// truncate.
+ResponseStability stability_by_phases(const solvers::ContactDynamics& dynamics,
+                                      const solvers::PhaseMotion& motion,
+                                      const solvers::CondensedProblem& problem) {
+  const solvers::StabilityOptions options = options_for(problem);
+  const solvers::PeriodicStiffness stiffness = contact_stiffness(motion);
+  ResponseStability result;
+  result.by_phases = true;
+  if (2 * dynamics.poles().size() <= static_cast<std::size_t>(options.max_states)) {
+    const Eigen::VectorXcd multipliers = solvers::monodromy(dynamics, stiffness, problem.frequency());
+    if (multipliers.allFinite()) {
+      result.unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
+      result.status = result.unstable > 0 ? "unstable" : "stable";
+      if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
+      return result;
+    }
+  }
+  const auto count = solvers::unstable_multipliers(dynamics, stiffness, problem.frequency(), options);
+  result.status = status_of(count);
+  result.unstable = count.count;
+  result.leading = count.leading;
+  return result;
+}
+
+ResponseStability stability_by_balance(const solvers::ContactDynamics& dynamics,
+                                       const solvers::CondensedProblem& problem,
+                                       const solvers::ContactLaws& laws,
+                                       const solvers::PeriodicResponse& found) {
+  const auto count = solvers::unstable_multipliers(dynamics, problem, laws, found, options_for(problem));
+  ResponseStability result;
+  result.status = status_of(count);
+  result.unstable = count.count;
+  result.leading = count.leading;
+  const bool known = std::isfinite(count.leading.real());
+  if (count.status == solvers::StabilityStatus::converged && !known)
+    result.leading = leading_multiplier(dynamics, problem, laws, found);
+  return result;
+}
+
 }  // namespace
 
 ResponseStability response_stability(const solvers::CondensedProblem& problem,
@@ -138,20 +180,8 @@ ResponseStability response_stability(const solvers::CondensedProblem& problem,
     result.status = to_string(motion->status);
     return result;
   }
-  result.by_phases = motion && motion->converged();
-  const auto stiffness = [&] {
-    return result.by_phases ? contact_stiffness(*motion) : contact_stiffness(problem, laws, found);
-  };
-  const solvers::StabilityOptions options = options_for(problem);
-  const auto count = result.by_phases
-                         ? solvers::unstable_multipliers(*dynamics, stiffness(), problem.frequency(), options)
-                         : solvers::unstable_multipliers(*dynamics, problem, laws, found, options);
-  result.status = status_of(count);
-  result.unstable = count.count;
-  result.leading = count.leading;
-  const bool known = std::isfinite(count.leading.real());
-  if (count.status == solvers::StabilityStatus::converged && !known)
-    result.leading = leading_multiplier(*dynamics, stiffness(), problem.frequency(), options);
+  result = motion && motion->converged() ? stability_by_phases(*dynamics, *motion, problem)
+                                         : stability_by_balance(*dynamics, problem, laws, found);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
