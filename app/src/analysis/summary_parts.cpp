@@ -147,10 +147,11 @@ void append_phases(Record& record, const Response& response) {
   for (const solvers::ContactPhase& phase : found.motion.phases)
     phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
   record.summary.emplace_back("phases", std::move(phases));
-  if (response.stability)
+  const bool none = found.motion.status == solvers::PhasesStatus::no_motion_near;
+  if (response.stability && !none)
     record.summary.emplace_back("stability_by",
                                 std::string(response.stability->by_phases ? "phases" : "balance"));
-  if (found.motion.status != solvers::PhasesStatus::no_motion_near) return;
+  if (!none) return;
   record.warnings.emplace_back(
       "No motion of the structure was found near this response, which solves the equations at its samples alone. "
       "More functions may lead to one.");
