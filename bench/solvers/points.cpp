@@ -58,7 +58,8 @@ void point(benchmark::State& state) {
   solve_points(state, problem, scene);
 }
 
-// From a balance of 63 functions to the motion of the structure; the second argument is the tolerance's exponent.
+// From a balance of 63 functions to the motion of the structure; the second argument is the tolerance's
+// exponent.
 void phases(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
   auto problem = fourier_problem(scene, 63, 256);

@@ -129,16 +129,6 @@ solvers::ShootingResult shot(const Scene& scene, const StructureModel& model,
   }
 }
 
-/// Its multipliers come by falling modulus.
-ResponseStability stability_of_shot(const solvers::ShootingResult& found) {
-  const Eigen::VectorXcd& multipliers = found.floquet_multipliers;
-  ResponseStability stability;
-  stability.unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
-  stability.status = stability.unstable > 0 ? "unstable" : "stable";
-  if (multipliers.size() > 0) stability.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
-  return stability;
-}
-
 }  // namespace
 
 void note_solution(Response& result, solvers::CondensedProblem& problem,
@@ -163,6 +153,13 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   if (scene.contact.law != ContactLawType::rigid) return;
   const auto held = solvers::complementarity(found.displacement, found.contact_force, model.gaps);
   result.rigid = {held.max_penetration, held.min_force, held.product};
+}
+
+ResponseStability stability_of_multipliers(const Eigen::VectorXcd& multipliers) {
+  const auto unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
+  ResponseStability result{unstable > 0 ? "unstable" : "stable", unstable};
+  if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
+  return result;
 }
 
 double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& start) {
@@ -261,7 +258,7 @@ Response shooting_response(const Scene& scene, const StructureModel& model, cons
   result.unknowns = 2 * model.size();
   result.contacts = found.contacts;
   result.structure = found.structure;
-  if (result.converged) result.stability = stability_of_shot(found);
+  if (result.converged) result.stability = stability_of_multipliers(found.floquet_multipliers);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/response_parts.hpp"
 #include "analysis/summary_parts.hpp"
 #include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
@@ -33,6 +34,10 @@ solvers::StabilityOptions options_for(const solvers::CondensedProblem& problem) 
 std::string status_of(const solvers::UnstableMultipliers& count) {
   if (count.status != solvers::StabilityStatus::converged) return std::string(to_string(count.status));
   return count.count > 0 ? "unstable" : "stable";
+}
+
+ResponseStability stability_of(const solvers::UnstableMultipliers& count) {
+  return {status_of(count), count.count, count.leading};
 }
 
 std::complex<double> leading_multiplier(const solvers::ContactDynamics& dynamics,
@@ -134,21 +139,14 @@ ResponseStability stability_by_phases(const solvers::ContactDynamics& dynamics,
                                       const solvers::CondensedProblem& problem) {
   const solvers::StabilityOptions options = options_for(problem);
   const solvers::PeriodicStiffness stiffness = contact_stiffness(motion);
-  ResponseStability result;
+  Eigen::VectorXcd all;
+  if (2 * dynamics.poles().size() <= static_cast<std::size_t>(options.max_states))
+    all = solvers::monodromy(dynamics, stiffness, problem.frequency());
+  const bool known = all.size() > 0 && all.allFinite();
+  ResponseStability result =
+      known ? stability_of_multipliers(all)
+            : stability_of(solvers::unstable_multipliers(dynamics, stiffness, problem.frequency(), options));
   result.by_phases = true;
-  if (2 * dynamics.poles().size() <= static_cast<std::size_t>(options.max_states)) {
-    const Eigen::VectorXcd multipliers = solvers::monodromy(dynamics, stiffness, problem.frequency());
-    if (multipliers.allFinite()) {
-      result.unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
-      result.status = result.unstable > 0 ? "unstable" : "stable";
-      if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
-      return result;
-    }
-  }
-  const auto count = solvers::unstable_multipliers(dynamics, stiffness, problem.frequency(), options);
-  result.status = status_of(count);
-  result.unstable = count.count;
-  result.leading = count.leading;
   return result;
 }
 
@@ -157,10 +155,7 @@ ResponseStability stability_by_balance(const solvers::ContactDynamics& dynamics,
                                        const solvers::ContactLaws& laws,
                                        const solvers::PeriodicResponse& found) {
   const auto count = solvers::unstable_multipliers(dynamics, problem, laws, found, options_for(problem));
-  ResponseStability result;
-  result.status = status_of(count);
-  result.unstable = count.count;
-  result.leading = count.leading;
+  ResponseStability result = stability_of(count);
   const bool known = std::isfinite(count.leading.real());
   if (count.status == solvers::StabilityStatus::converged && !known)
     result.leading = leading_multiplier(dynamics, problem, laws, found);

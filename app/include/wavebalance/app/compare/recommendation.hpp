@@ -11,8 +11,8 @@ namespace wavebalance::app {
 
 /// The cheapest converged weighted residual with at most this error, of those whose next size, if it was
 /// solved, has converged with at most this error too: a single size may be close to the reference by chance.
-/// Where there is none of these, the cheapest of all. Times differ by a tenth from run to run, so that within a
-/// tenth the one of the same pair with the fewest functions is taken.
+/// Where there is none of these, the cheapest of all. Times differ by a tenth from run to run, so that within
+/// a tenth the one of the same pair with the fewest functions is taken.
 std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double error);
 /// Whether the next size of its series, with twice the functions and points, keeps to the error, or is none.
 bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, double error);
