@@ -1,7 +1,11 @@
 #include "balance/active_block.hpp"
 
-namespace wavebalance::solvers {
+#include <vector>
 
+namespace wavebalance::solvers {
+namespace {
+
+// The contacts of ascending samples, ascending.
 std::vector<int> contacts_of(std::span<const int> samples, int points) {
   std::vector<int> contacts;
   for (const int sample : samples)
@@ -9,60 +13,30 @@ std::vector<int> contacts_of(std::span<const int> samples, int points) {
   return contacts;
 }
 
-void fill_active_compliance(CondensedProblem& problem, std::span<const int> active, Eigen::MatrixXd& matrix) {
-  if (active.empty()) return;
-  fill_active_block(problem, problem.columns(contacts_of(active, problem.points())), active, matrix);
-}
+}  // namespace
 
-// K is invariant under shifts by the shift period. The column of a point is that of the point modulo the
-// period, with the samples of each contact shifted by the remaining points.
-void fill_active_block(const CondensedProblem& problem, const Eigen::MatrixXd& columns,
-                       std::span<const int> active, Eigen::MatrixXd& matrix) {
-  const int points = problem.points(), period = problem.pair().shift_period();
-  std::vector<int> row_point(active.size()), row_start(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    row_point[i] = active[i] % points;
-    row_start[i] = active[i] - row_point[i];
-  }
-  for (std::size_t j = 0; j < active.size(); ++j) {
-    const int remainder = row_point[j] % period, shift = row_point[j] - remainder;
-    const double* column = columns.col(row_start[j] / points * period + remainder).data();
-    double* out = matrix.col(static_cast<Eigen::Index>(j)).data();
-    for (std::size_t i = 0; i < active.size(); ++i) {
-      const int point = row_point[i] - shift;
-      out[i] = column[row_start[i] + (point < 0 ? point + points : point)];
-    }
-  }
-}
-
-void ActiveBlock::collect(const Eigen::VectorXd& tangent) {
-  active_.clear();
-  for (int l = 0; l < tangent.size(); ++l)
-    if (tangent[l] != 0.0) active_.push_back(l);
-  stiffness_ = tangent(active_);
-}
-
-// I + K_AA D_A in the leading block.
+// I + B K S in the leading block.
 void ActiveBlock::fill(CondensedProblem& problem) {
-  fill_active_compliance(problem, active_, matrix_);
-  auto block = matrix_.topLeftCorner(count(), count());
-  block *= stiffness_.asDiagonal();
-  block.diagonal().array() += 1.0;
+  if (count() == 0) return;
+  const std::vector<int> contacts = contacts_of(slopes_->samples(), problem.points());
+  const Eigen::MatrixXd& columns = problem.columns(contacts);
+  const int period = problem.pair().shift_period();
+  slopes_->fill(problem.points(), period, columns, slopes_->rates_of(columns, contacts, period), matrix_);
 }
 
-// x = r - K D x, from the known active values of x.
+// x = r - K S z.
 void ActiveBlock::complete(CondensedProblem& problem, const Eigen::VectorXd& r,
                            const Eigen::VectorXd& active_values, Eigen::VectorXd& x) {
   x = r;
-  if (active_.empty()) return;
+  if (count() == 0) return;
   weighted_.setZero(r.size());
-  weighted_(active_) = stiffness_.cwiseProduct(active_values);
+  slopes_->write(active_values, weighted_);
   problem.apply(weighted_, product_);
   x -= product_;
 }
 
-bool ActiveBlock::factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent) {
-  collect(tangent);
+bool ActiveBlock::factorize(CondensedProblem& problem, ActiveSlopes& slopes) {
+  slopes_ = &slopes;
   matrix_.resize(count(), count());
   fill(problem);
   lu_.compute(matrix_);
@@ -70,22 +44,24 @@ bool ActiveBlock::factorize(CondensedProblem& problem, const Eigen::VectorXd& ta
 }
 
 void ActiveBlock::solve(CondensedProblem& problem, const Eigen::VectorXd& r, Eigen::VectorXd& x) {
-  Eigen::VectorXd values = r(active_);
-  if (!active_.empty()) values = lu_.solve(values);
+  Eigen::VectorXd values;
+  if (count() > 0) values = lu_.solve(slopes_->read(r));
   complete(problem, r, values, x);
 }
 
-bool ActiveBlock::factorize_bordered(CondensedProblem& problem, const Eigen::VectorXd& tangent,
-                                     const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
-  collect(tangent);
+// Eliminating x = r - K S z - b y leaves (I + B K S) z + B b y = B r and -(S K^T c).z + (d - c.b) y = s - c.r.
+bool ActiveBlock::factorize_bordered(CondensedProblem& problem, ActiveSlopes& slopes, const Eigen::VectorXd& b,
+                                     const Eigen::VectorXd& c, double d) {
+  slopes_ = &slopes;
   border_column_ = b;
   border_row_ = c;
   matrix_.resize(count() + 1, count() + 1);
   fill(problem);
   if (count() > 0) {
     problem.apply_transposed(c, product_);
-    matrix_.col(count()).head(count()) = b(active_);
-    matrix_.row(count()).head(count()) = -product_(active_).cwiseProduct(stiffness_).transpose();
+    matrix_.col(count()).head(count()) = slopes_->read(b);
+    matrix_.row(count()).head(count()) =
+        -product_(slopes_->samples()).cwiseProduct(slopes_->scale()).transpose();
   }
   matrix_(count(), count()) = d - c.dot(b);
   lu_.compute(matrix_);
@@ -95,7 +71,7 @@ bool ActiveBlock::factorize_bordered(CondensedProblem& problem, const Eigen::Vec
 void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s,
                                  Eigen::VectorXd& x, double& y) {
   Eigen::VectorXd values(count() + 1);
-  values.head(count()) = r(active_);
+  values.head(count()) = slopes_->read(r);
   values[count()] = s - border_row_.dot(r);
   values = lu_.solve(values);
   y = values[count()];
@@ -105,7 +81,7 @@ void ActiveBlock::solve_bordered(CondensedProblem& problem, const Eigen::VectorX
 double ActiveBlock::condition() const { return lu_.condition(); }
 
 // Eliminating the samples without stiffness, on whose columns J is the identity, does not change the
-// determinant.
+// determinant, and nor does the scale S of the unknowns.
 int ActiveBlock::determinant_sign() const { return lu_.determinant_sign(); }
 
 }  // namespace wavebalance::solvers

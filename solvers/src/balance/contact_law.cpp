@@ -27,7 +27,14 @@ double AnyContactLaw::force(double displacement) const { return model_->force(di
 double AnyContactLaw::tangent(double displacement) const { return model_->tangent(displacement); }
 double AnyContactLaw::potential(double displacement) const { return model_->potential(displacement); }
 
+void AnyContactLaw::refuse_instant() {
+  throw std::invalid_argument(
+      "a contact law acts over a period, and what was asked for needs the force of one instant; responses and "
+      "sweeps in the displacement form take such laws");
+}
+
 bool AnyContactLaw::is_rigid() const {
+  if (acts_over_period()) return false;
   const double at = gap();
   return std::isfinite(at) && std::isinf(tangent(at));
 }

@@ -11,10 +11,21 @@ namespace wavebalance::solvers {
 
 ContactLaws::ContactLaws(std::vector<AnyContactLaw> laws) : laws_(std::move(laws)) {
   if (laws_.empty()) throw std::invalid_argument("ContactLaws: the list of laws is empty; give one or more");
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    if (laws_[i].rows() < 1)
+      throw std::invalid_argument("ContactLaws: law " + std::to_string(i + 1) + " has " +
+                                  std::to_string(laws_[i].rows()) + " rows; it must have at least 1");
+    law_of_row_.insert(law_of_row_.end(), static_cast<std::size_t>(laws_[i].rows()), i);
+  }
 }
 
 void ContactLaws::require(int contacts) const {
-  if (laws_.size() == 1 || laws_.size() == static_cast<std::size_t>(contacts)) return;
+  const bool one_for_all = laws_.size() == 1 && !laws_.front().acts_over_period();
+  if (one_for_all || law_of_row_.size() == static_cast<std::size_t>(contacts)) return;
+  if (act_over_period())
+    throw std::invalid_argument("ContactLaws: the laws act along " + std::to_string(law_of_row_.size()) +
+                                " contact directions, but the structure has " + std::to_string(contacts) +
+                                "; a law over a period takes as many as it has rows");
   throw std::invalid_argument("ContactLaws: there are " + std::to_string(laws_.size()) + " laws for " +
                               std::to_string(contacts) + " contacts; give one for all or one each");
 }
@@ -57,6 +68,10 @@ bool ContactLaws::depend_on_velocity() const {
                      [](const AnyContactLaw& law) { return law.depends_on_velocity(); });
 }
 
+bool ContactLaws::act_over_period() const {
+  return std::any_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.acts_over_period(); });
+}
+
 ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
   std::vector<AnyContactLaw> laws;
   for (int c = 0; c < flexibility.size(); ++c) laws.emplace_back(ResolventLaw((*this)[c], flexibility[c]));
@@ -74,18 +89,37 @@ void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, Ei
 }
 
 void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
-                           Eigen::VectorXd& force, Eigen::VectorXd& tangent, Eigen::VectorXd& damping) const {
-  const Eigen::Index points = displacement.size() / contacts;
-  for (Eigen::Index l = 0; l < displacement.size(); ++l) {
-    const ForceSlopes at = (*this)[static_cast<int>(l / points)].at(displacement[l], velocity[l]);
-    force[l] = at.force;
-    tangent[l] = at.tangent;
-    damping[l] = at.damping;
+                           ContactForces& forces) const {
+  forces.force.setZero(displacement.size());
+  forces.slopes.displacement.setZero(displacement.size());
+  forces.slopes.velocity.setZero(velocity.size());
+  forces.slopes.others.clear();
+  forces.pieces.setZero(act_over_period() ? displacement.size() : 0);
+  const int points = static_cast<int>(displacement.size()) / contacts;
+  for (int c = 0; c < contacts; c += (*this)[c].rows()) evaluate_law(c, points, displacement, velocity, forces);
+}
+
+void ContactLaws::evaluate_law(int row, int points, const Eigen::VectorXd& displacement,
+                               const Eigen::VectorXd& velocity, ContactForces& forces) const {
+  const AnyContactLaw& law = (*this)[row];
+  const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(points);
+  const auto count = static_cast<std::size_t>(law.rows()) * static_cast<std::size_t>(points);
+  const auto own = [&](auto& values) {
+    return values.size() > 0 ? std::span(values.data() + first, count) : std::span(values.data(), 0);
+  };
+  const std::size_t before = forces.slopes.others.size();
+  PeriodForces result{own(forces.force), own(forces.slopes.displacement), own(forces.slopes.velocity),
+                      forces.slopes.others, own(forces.pieces)};
+  law.evaluate({points, own(displacement), own(velocity)}, result);
+  for (std::size_t i = before; i < forces.slopes.others.size(); ++i) {
+    forces.slopes.others[i].force += static_cast<int>(first);
+    forces.slopes.others[i].displacement += static_cast<int>(first);
   }
 }
 
 void ContactLaws::require_numbers(int contacts, const Eigen::VectorXd& displacement) const {
   constexpr double largest = 1e9;
+  if (act_over_period()) return;
   const Eigen::Index points = displacement.size() / contacts;
   for (Eigen::Index l = 0; l < displacement.size(); ++l) {
     const double u = displacement[l];

@@ -6,8 +6,8 @@
 
 #include "balance/jacobian_solver.hpp"
 #include "balance/rigid_position.hpp"
-#include "balance/velocity_block.hpp"
 #include "linalg/safe_norm.hpp"
+#include "time/rate_map.hpp"
 
 namespace wavebalance::solvers {
 
@@ -44,28 +44,20 @@ int rest_piece_of(const AnyContactLaw& law, const std::vector<LawKink>& kinks) {
 
 }  // namespace
 
-struct ContactSystem::VelocityPart {
-  VelocityPart(const TimePair& pair, int samples) : map(pair), block(map), damping(samples) {}
-  VelocityMap map;
-  VelocityBlock block;
-  Eigen::VectorXd velocity, damping;  // at the samples, m/s and N s/m
-};
-
 ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
     : problem_(&problem),
       laws_(std::move(laws)),
-      force_(problem.samples()),
-      tangent_(problem.samples()),
       position_(problem.is_free() ? std::make_unique<RigidPosition>() : nullptr),
-      jacobian_(std::make_unique<JacobianSolver>()) {
+      rates_(laws_.depend_on_velocity() ? std::make_unique<RateMap>(problem.pair()) : nullptr),
+      jacobian_(std::make_unique<JacobianSolver>(rates_.get())) {
   laws_.require(problem.contacts());
-  if (laws_.depend_on_velocity()) {
-    if (problem.regularization().size() > 0)
+  if (problem.regularization().size() > 0) {
+    if (laws_.depend_on_velocity() || laws_.act_over_period())
       throw std::invalid_argument(
-          "ContactSystem: the force of a law depends on the velocity; it is solved in the displacement form");
-    velocity_ = std::make_unique<VelocityPart>(problem.pair(), problem.samples());
+          "ContactSystem: the force of a law depends on the velocity or on the whole period; it is solved in the "
+          "displacement form");
+    laws_ = laws_.resolvents(problem.regularization());
   }
-  if (problem.regularization().size() > 0) laws_ = laws_.resolvents(problem.regularization());
   for (int c = 0; c < problem.contacts(); ++c) {
     kinks_.push_back(kinks_of(laws_[c]));
     rest_pieces_.push_back(rest_piece_of(laws_[c], kinks_.back()));
@@ -82,10 +74,8 @@ int ContactSystem::piece_at(int sample, double displacement) const {
 }
 
 void ContactSystem::evaluate_laws(const Eigen::VectorXd& displacement) {
-  if (!velocity_) return laws_.evaluate(problem_->contacts(), displacement, force_, tangent_);
-  velocity_->map.apply(displacement, problem_->frequency(), velocity_->velocity);
-  laws_.evaluate(problem_->contacts(), displacement, velocity_->velocity, force_, tangent_,
-                 velocity_->damping);
+  if (rates_) rates_->apply(displacement, problem_->frequency(), velocity_);
+  laws_.evaluate(problem_->contacts(), displacement, velocity_, forces_);
 }
 
 double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
@@ -107,47 +97,47 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const LawPie
 }
 
 void ContactSystem::continue_piece(int sample, double displacement, const LawKink& kink, bool beyond) {
-  const double past = displacement - kink.at;
-  take_side(sample, kink, beyond);
-  force_[sample] = kink.force + tangent_[sample] * past;
-  if (!velocity_) return;
-  const double inside = beyond ? std::nextafter(kink.at, -far_below) : std::nextafter(kink.at, far_below);
-  const AnyContactLaw& law = laws_[sample / problem_->points()];
-  force_[sample] = law.at(inside, velocity_->velocity[sample]).force + tangent_[sample] * past;
+  const ForceSlopes side = side_of(sample, kink, beyond);
+  take_side(sample, side);
+  forces_.force[sample] = side.force + side.tangent * (displacement - kink.at);
 }
 
 void ContactSystem::take_side(int sample, int kink, bool beyond) {
-  take_side(sample, kinks_at(sample)[static_cast<std::size_t>(kink)], beyond);
+  take_side(sample, side_of(sample, kinks_at(sample)[static_cast<std::size_t>(kink)], beyond));
 }
 
-void ContactSystem::take_side(int sample, const LawKink& kink, bool beyond) {
-  tangent_[sample] = beyond ? kink.beyond : kink.below;
-  if (!velocity_) return;
-  const double inside = beyond ? std::nextafter(kink.at, -far_below) : std::nextafter(kink.at, far_below);
-  const ForceSlopes at = laws_[sample / problem_->points()].at(inside, velocity_->velocity[sample]);
-  tangent_[sample] = at.tangent;
-  velocity_->damping[sample] = at.damping;
+void ContactSystem::take_side(int sample, const ForceSlopes& side) {
+  forces_.slopes.displacement[sample] = side.tangent;
+  if (rates_) forces_.slopes.velocity[sample] = side.damping;
+}
+
+// Force and slopes at a kink from one side of it, at the velocity that the sample has.
+ForceSlopes ContactSystem::side_of(int sample, const LawKink& kink, bool beyond) const {
+  const AnyContactLaw& law = laws_[sample / problem_->points()];
+  if (!law.depends_on_velocity()) return {kink.force, beyond ? kink.beyond : kink.below, 0.0};
+  const double inside = std::nextafter(kink.at, beyond ? -far_below : far_below);
+  return law.at(inside, velocity_[sample]);
 }
 
 void ContactSystem::add_velocity_slope(Eigen::VectorXd& slope) {
-  if (!velocity_) return;
+  if (!rates_) return;
   // At fixed samples the velocities f V u grow like the frequency.
-  problem_->apply(velocity_->damping.cwiseProduct(velocity_->velocity) / problem_->frequency(), product_);
+  problem_->apply(forces_.slopes.velocity.cwiseProduct(velocity_) / problem_->frequency(), product_);
   slope += product_;
 }
 
 double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
   const Eigen::VectorXd& free = problem_->contact_free_response();
-  if (force_.isZero(0.0)) {
+  if (forces_.force.isZero(0.0)) {
     product_.setZero(displacement.size());
   } else {
-    problem_->apply(force_, product_);
+    problem_->apply(forces_.force, product_);
     const double contacts = problem_->contacts(), points = problem_->points();
     products_ += contacts * points * (20.0 * std::log2(points + 1.0) + 8.0 * contacts);
   }
   if (position_) {
     state_ = displacement;
-    product_ -= problem_->hold_response() * problem_->rigid_position(displacement, force_);
+    product_ -= problem_->hold_response() * problem_->rigid_position(displacement, forces_.force);
   }
   residual_ = displacement - free + product_;
   if (added_motion_.size() > 0) residual_ -= added_motion_;
@@ -159,75 +149,53 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
 void ContactSystem::set_linear_solver(LinearSolver method) { jacobian_->set_method(method); }
 
 Eigen::VectorXd ContactSystem::held_force() const {
-  return position_ ? problem_->held_force(force_, state_) : force_;
+  return position_ ? problem_->held_force(forces_.force, state_) : forces_.force;
 }
 
 bool ContactSystem::factorize_position(bool bordered) {
   constexpr double reduction = 1e-12;
   return position_->factorize(
-      *problem_, tangent_, [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
+      *problem_, tangent(), [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
         y = 0.0;
-        return bordered ? solve_at_position(r, 0.0, x, y, reduction) : solve_at_position(r, x, reduction);
+        return bordered ? jacobian_->solve_bordered(*problem_, r, 0.0, reduction, x, y)
+                        : jacobian_->solve(*problem_, r, reduction, x);
       });
 }
 
 bool ContactSystem::factorize() {
-  const bool factorized = velocity_ ? velocity_->block.factorize(*problem_, tangent_, velocity_->damping)
-                                    : jacobian_->factorize(*problem_, tangent_);
-  return factorized && (!position_ || factorize_position(false));
-}
-
-bool ContactSystem::solve_at_position(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
-  if (velocity_) {
-    velocity_->block.solve(*problem_, r, x);
-    return true;
-  }
-  return jacobian_->solve(*problem_, r, reduction, x);
+  return jacobian_->factorize(*problem_, slopes()) && (!position_ || factorize_position(false));
 }
 
 bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
-  const bool solved = solve_at_position(r, x, reduction);
+  const bool solved = jacobian_->solve(*problem_, r, reduction, x);
   double none = 0.0;
-  if (position_) position_->correct(*problem_, tangent_, x, none);
+  if (position_) position_->correct(*problem_, tangent(), x, none);
   return solved;
 }
 
-double ContactSystem::operations() const {
-  return products_ + jacobian_->operations() + (velocity_ ? velocity_->block.operations() : 0.0);
-}
+double ContactSystem::operations() const { return products_ + jacobian_->operations(); }
 
-double ContactSystem::condition() {
-  return velocity_ ? velocity_->block.condition() : jacobian_->condition(*problem_);
-}
+double ContactSystem::condition() { return jacobian_->condition(*problem_); }
 
 bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   column_scale_ = border_scale(b);
   row_scale_ = border_scale(c);
   const Eigen::VectorXd column = column_scale_ * b, row = row_scale_ * c;
   const double corner = column_scale_ * d * row_scale_;
-  const bool factorized = velocity_ ? velocity_->block.factorize_bordered(
-                                          *problem_, tangent_, velocity_->damping, column, row, corner)
-                                    : jacobian_->factorize_bordered(*problem_, tangent_, column, row, corner);
-  return factorized && (!position_ || factorize_position(true));
-}
-
-bool ContactSystem::solve_at_position(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
-                                      double reduction) {
-  if (!velocity_) return jacobian_->solve_bordered(*problem_, r, s, reduction, x, y);
-  velocity_->block.solve_bordered(*problem_, r, s, x, y);
-  return true;
+  return jacobian_->factorize_bordered(*problem_, slopes(), column, row, corner) &&
+         (!position_ || factorize_position(true));
 }
 
 bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                                    double reduction) {
-  const bool solved = solve_at_position(r, row_scale_ * s, x, y, reduction);
-  if (position_) position_->correct(*problem_, tangent_, x, y);
+  const bool solved = jacobian_->solve_bordered(*problem_, r, row_scale_ * s, reduction, x, y);
+  if (position_) position_->correct(*problem_, tangent(), x, y);
   y *= column_scale_;
   return solved;
 }
 
 int ContactSystem::determinant_sign() const {
-  const int sign = velocity_ ? velocity_->block.determinant_sign() : jacobian_->determinant_sign();
+  const int sign = jacobian_->determinant_sign();
   return position_ ? sign * position_->sign() : sign;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
+#include <queue>
 #include <utility>
 
 #include "linalg/spans.hpp"
@@ -12,50 +13,55 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// An orthonormal basis of the columns of a response, the largest remaining column first.
-struct Directions {
-  Eigen::MatrixXcd basis;
-  std::vector<double> remainders;  // Frobenius norm of what the columns before each one leave out
-};
-
-// Modified Gram-Schmidt with pivoting, at least one column and on until the remainder is small enough.
-Directions directions_of(Eigen::MatrixXcd rest, double enough) {
-  Directions found{Eigen::MatrixXcd(rest.rows(), rest.cols()), {}};
-  Eigen::Index count = 0;
-  for (; count < rest.cols(); ++count) {
-    Eigen::Index pivot = 0;
-    const double largest = rest.colwise().norm().maxCoeff(&pivot);
-    const double remainder = rest.norm();
-    if (!(largest > 0.0) || (count > 0 && remainder < enough)) break;
-    found.remainders.push_back(remainder);
-    Eigen::VectorXcd next = rest.col(pivot) / largest;
-    for (Eigen::Index i = 0; i < count; ++i) next -= found.basis.col(i).dot(next) * found.basis.col(i);
-    next.normalize();
-    found.basis.col(count) = next;
-    for (Eigen::Index c = 0; c < rest.cols(); ++c) rest.col(c) -= next.dot(rest.col(c)) * next;
-  }
-  found.basis.conservativeResize(Eigen::NoChange, count);
-  return found;
-}
-
 Eigen::Index unknowns_per_direction(int n) { return n == 0 ? 1 : 2; }
 
-// The number of directions to keep at each harmonic: of all of them those with the largest remainders.
-std::vector<Eigen::Index> numbers_kept(const std::vector<Directions>& all, const CoarseSize& wanted) {
-  std::vector<std::pair<double, int>> order;
-  for (int n = 0; n < static_cast<int>(all.size()); ++n)
-    for (const double remainder : all[static_cast<std::size_t>(n)].remainders)
-      order.emplace_back(remainder, n);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<Eigen::Index> kept(all.size(), 0);
-  Eigen::Index size = 0;
-  for (const auto& [remainder, n] : order) {
+/// An orthonormal basis of the columns of a response that grows by the largest remaining column: modified
+/// Gram-Schmidt with pivoting.
+class Directions {
+ public:
+  explicit Directions(Eigen::MatrixXcd response)
+      : response_(std::move(response)), rest_(response_), basis_(rest_.rows(), rest_.cols()) {}
+
+  const Eigen::MatrixXcd& response() const { return response_; }
+  Eigen::MatrixXcd basis() const { return basis_.leftCols(count_); }
+  /// The Frobenius norm of what the basis leaves out.
+  double remainder() const { return rest_.norm(); }
+
+  /// False where nothing is left out.
+  bool grow() {
+    if (count_ == rest_.cols()) return false;
+    Eigen::Index pivot = 0;
+    const double largest = rest_.colwise().norm().maxCoeff(&pivot);
+    if (!(largest > 0.0)) return false;
+    Eigen::VectorXcd next = rest_.col(pivot) / largest;
+    for (Eigen::Index i = 0; i < count_; ++i) next -= basis_.col(i).dot(next) * basis_.col(i);
+    next.normalize();
+    basis_.col(count_++) = next;
+    rest_ -= next * (next.adjoint() * rest_).eval();
+    return true;
+  }
+
+ private:
+  Eigen::MatrixXcd response_, rest_, basis_;
+  Eigen::Index count_ = 0;
+};
+
+// Of all harmonics the direction with the largest remainder next, until there are enough.
+void grow(std::vector<Directions>& all, const CoarseSize& wanted) {
+  std::priority_queue<std::pair<double, int>> open;  // the remainder of D K, and minus the harmonic
+  const auto add = [&](int n) {
+    open.emplace(all[static_cast<std::size_t>(n)].remainder() * wanted.slope_at(n), -n);
+  };
+  for (int n = 0; n < static_cast<int>(all.size()); ++n) add(n);
+  for (Eigen::Index size = 0; !open.empty();) {
+    const double remainder = open.top().first;
+    const int n = -open.top().second;
+    open.pop();
+    if (!(remainder > 0.0)) continue;
     size += unknowns_per_direction(n);
     if (size > wanted.largest || (size > wanted.smallest && remainder < wanted.remainder)) break;
-    ++kept[static_cast<std::size_t>(n)];
+    if (all[static_cast<std::size_t>(n)].grow()) add(n);
   }
-  return kept;
 }
 
 }  // namespace
@@ -65,25 +71,24 @@ void HarmonicCoarseSpace::set(const ComplianceOperator& compliance, int harmonic
   contacts_ = compliance.contacts;
   points_ = compliance.points;
   spectra_.resize(fft_->harmonics(), contacts_);
-  std::vector<Eigen::MatrixXcd> responses;
   std::vector<Directions> all;
   for (int n = 0; n <= harmonics; ++n) {
-    responses.push_back(compliance.response(n));
-    if (n == 0) responses.back().imag().setZero();
-    all.push_back(directions_of(responses.back(), wanted.remainder));
+    Eigen::MatrixXcd response = compliance.response(n);
+    if (n == 0) response.imag().setZero();
+    all.emplace_back(std::move(response));
   }
-  const std::vector<Eigen::Index> numbers = numbers_kept(all, wanted);
-  const Eigen::Index count = std::accumulate(numbers.begin(), numbers.end(), Eigen::Index{0});
-  basis_.resize(contacts_, count);
-  responses_.resize(contacts_, count);
+  grow(all, wanted);
   directions_.clear();
   size_ = 0;
-  for (std::size_t n = 0; n < all.size(); ++n)
-    keep(static_cast<int>(n), all[n].basis.leftCols(numbers[n]), responses[n]);
+  basis_.resize(contacts_, 0);
+  responses_.resize(contacts_, 0);
+  for (std::size_t n = 0; n < all.size(); ++n) keep(static_cast<int>(n), all[n].basis(), all[n].response());
 }
 
 void HarmonicCoarseSpace::keep(int n, const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& response) {
   const auto first = static_cast<Eigen::Index>(directions_.size());
+  basis_.conservativeResize(Eigen::NoChange, first + basis.cols());
+  responses_.conservativeResize(Eigen::NoChange, first + basis.cols());
   basis_.middleCols(first, basis.cols()) = basis;
   responses_.middleCols(first, basis.cols()).noalias() = response.adjoint() * basis;
   for (Eigen::Index i = 0; i < basis.cols(); ++i) {
@@ -135,28 +140,33 @@ void HarmonicCoarseSpace::synthesise(const Eigen::VectorXd& coefficients, Eigen:
                   {samples.data() + c * points_, static_cast<std::size_t>(points_)});
 }
 
-// The Fourier coefficients -K to K of D at each contact, aliased where there are fewer samples, K the largest
-// sum of two harmonics that are kept.
-void HarmonicCoarseSpace::set_tangent(const Eigen::VectorXd& tangent) {
-  transform(tangent);
-  largest_sum_ = directions_.empty() ? 0 : 2 * directions_.back().n;
-  tangent_.resize(contacts_, 2 * largest_sum_ + 1);
+// The Fourier coefficients -K to K of slopes at each contact, aliased where there are fewer samples, K the
+// largest sum of two harmonics that are kept.
+Eigen::MatrixXcd HarmonicCoarseSpace::harmonics_of(const Eigen::VectorXd& samples) {
+  transform(samples);
+  Eigen::MatrixXcd result(contacts_, 2 * largest_sum_ + 1);
   for (int n = 0; n <= largest_sum_; ++n) {
     const bool upper = 2 * n > points_;
-    tangent_.col(largest_sum_ + n) = spectra_.row(upper ? points_ - n : n).transpose() / double(points_);
-    if (upper) tangent_.col(largest_sum_ + n) = tangent_.col(largest_sum_ + n).conjugate().eval();
-    tangent_.col(largest_sum_ - n) = tangent_.col(largest_sum_ + n).conjugate();
+    result.col(largest_sum_ + n) = spectra_.row(upper ? points_ - n : n).transpose() / double(points_);
+    if (upper) result.col(largest_sum_ + n) = result.col(largest_sum_ + n).conjugate().eval();
+    result.col(largest_sum_ - n) = result.col(largest_sum_ + n).conjugate();
   }
+  return result;
 }
 
 // D times Re(x exp(2 pi i n t)) has the amplitude d(m - n) x + d(m + n) conj(x) at harmonic m, d the Fourier
-// coefficients of D. Both parts of each direction x of each harmonic n.
+// coefficients of D; of slopes by the velocity x is i n x. Both parts of each direction x of each harmonic n.
 void HarmonicCoarseSpace::set_products(int m) {
   for (Eigen::Index d = 0; d < basis_.cols(); ++d) {
     const int n = directions_[static_cast<std::size_t>(d)].n;
     const double scale = (m == 0 ? std::sqrt(0.5) : 1.0) * (n == 0 ? std::sqrt(0.5) : 1.0);
-    forwards_.col(d) = scale * tangent_.col(largest_sum_ + m - n).cwiseProduct(basis_.col(d));
-    backwards_.col(d) = scale * tangent_.col(largest_sum_ + m + n).cwiseProduct(basis_.col(d).conjugate());
+    const auto ahead = largest_sum_ + m - n, back = largest_sum_ + m + n;
+    forwards_.col(d) = scale * tangent_.col(ahead).cwiseProduct(basis_.col(d));
+    backwards_.col(d) = scale * tangent_.col(back).cwiseProduct(basis_.col(d).conjugate());
+    if (damping_.size() == 0) continue;
+    const Complex rate(0.0, scale * n);
+    forwards_.col(d) += rate * damping_.col(ahead).cwiseProduct(basis_.col(d));
+    backwards_.col(d) -= rate * damping_.col(back).cwiseProduct(basis_.col(d).conjugate());
   }
 }
 
@@ -176,8 +186,11 @@ void HarmonicCoarseSpace::fill_rows(Eigen::Index first, Eigen::Index count, Eige
     }
 }
 
-void HarmonicCoarseSpace::fill(const Eigen::VectorXd& tangent, Eigen::MatrixXd& matrix) {
-  set_tangent(tangent);
+void HarmonicCoarseSpace::fill(const PeriodSlopes& slopes, double frequency, Eigen::MatrixXd& matrix) {
+  largest_sum_ = directions_.empty() ? 0 : 2 * directions_.back().n;
+  tangent_ = harmonics_of(slopes.displacement);
+  damping_.resize(0, 0);
+  if (slopes.velocity.size() > 0) damping_ = 2.0 * std::numbers::pi * frequency * harmonics_of(slopes.velocity);
   forwards_.resize(contacts_, basis_.cols());
   backwards_.resize(contacts_, basis_.cols());
   for (Eigen::Index first = 0, count = 0; first < basis_.cols(); first += count) {

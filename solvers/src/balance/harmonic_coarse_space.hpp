@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "wavebalance/solvers/balance/period_law.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::solvers {
@@ -21,11 +22,16 @@ struct ComplianceOperator {
 };
 
 /// How many unknowns a coarse space has. At most `largest`; of these at least `smallest`, and all without
-/// which a part of K of norm `remainder` (m/N) or more would be left out at one harmonic.
+/// which a part of D K of norm `remainder` or more would be left out at one harmonic n, where the slopes D of
+/// the forces are `slope` + n `velocity_slope`, N/m.
 struct CoarseSize {
   Eigen::Index smallest = 0;
   Eigen::Index largest = 0;
   double remainder = 0.0;
+  double slope = 1.0;
+  double velocity_slope = 0.0;
+
+  double slope_at(int n) const { return slope + n * velocity_slope; }
 };
 
 /// Where the compliance is large: on few harmonics n, and at each of them along few directions of the C
@@ -49,8 +55,10 @@ class HarmonicCoarseSpace {
   void analyse(const Eigen::VectorXd& samples, Eigen::VectorXd& coefficients);
   /// U g. O(C N log N + C size()).
   void synthesise(const Eigen::VectorXd& coefficients, Eigen::VectorXd& samples);
-  /// I + V D U in the leading block of `matrix`, D = diag(tangent). O(C N log N + C size()^2).
-  void fill(const Eigen::VectorXd& tangent, Eigen::MatrixXd& matrix);
+  /// I + V D U in the leading block of `matrix`, D the slopes by the displacement and the velocity of the same
+  /// sample at a frequency in Hz, those by a harmonic's velocity as of its exact derivative. O(C N log N + C
+  /// size()^2).
+  void fill(const PeriodSlopes& slopes, double frequency, Eigen::MatrixXd& matrix);
 
  private:
   using Complex = std::complex<double>;
@@ -63,7 +71,7 @@ class HarmonicCoarseSpace {
   void keep(int n, const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& response);
   void transform(const Eigen::VectorXd& samples);
   void gather(const Eigen::VectorXd& samples, const Eigen::MatrixXcd& along, Eigen::VectorXd& coefficients);
-  void set_tangent(const Eigen::VectorXd& tangent);
+  Eigen::MatrixXcd harmonics_of(const Eigen::VectorXd& samples);
   void set_products(int m);
   void fill_rows(Eigen::Index first, Eigen::Index count, Eigen::MatrixXd& matrix);
 
@@ -74,7 +82,9 @@ class HarmonicCoarseSpace {
   std::unique_ptr<spectral::RealFft> fft_;
   Eigen::MatrixXcd spectra_;                              // N/2 + 1 x C, of samples
   int largest_sum_ = 0;                                   // K
-  Eigen::MatrixXcd tangent_;                              // C x 2 K + 1, Fourier coefficients of D from -K on
+  // C x 2 K + 1, Fourier coefficients from -K on of the slopes by displacement and, times 2 pi f, by velocity;
+  // the latter empty where there are none.
+  Eigen::MatrixXcd tangent_, damping_;
   Eigen::MatrixXcd forwards_, backwards_, ahead_, back_;  // C or r_n x directions, work of fill()
 };
 

@@ -26,15 +26,15 @@ ComplianceOperator compliance_of(CondensedProblem& problem) {
 
 }  // namespace
 
-void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::VectorXd& tangent) {
-  active_ = (tangent.array() != 0.0).count();
+void JacobianSolver::choose(const CondensedProblem& problem, const PeriodSlopes& slopes) {
+  active_.set(slopes, rates_, problem.frequency());
   // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
   const bool decays = problem.regularization().size() == 0;
   const Eigen::Index limit = !decays                   ? largest_dense
                              : problem.contacts() == 1 ? crossover
                                                        : crossover_of_several;
-  const bool large = active_ > limit;
-  const bool given_up = krylov_failures_ >= most_failures && active_ <= largest_dense;
+  const bool large = active_.count() > limit;
+  const bool given_up = krylov_failures_ >= most_failures && active_.count() <= largest_dense;
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
   used_ = krylov ? Used::krylov : Used::dense;
@@ -42,11 +42,11 @@ void JacobianSolver::choose(const CondensedProblem& problem, const Eigen::Vector
 }
 
 bool JacobianSolver::may_fall_back() const {
-  return method_ == LinearSolver::automatic && active_ <= largest_dense;
+  return method_ == LinearSolver::automatic && active_.count() <= largest_dense;
 }
 
 void JacobianSolver::count_dense() {
-  const auto active = static_cast<double>(active_);
+  const auto active = static_cast<double>(active_.count());
   operations_ += 2.0 / 3.0 * active * active * active;
 }
 
@@ -57,11 +57,10 @@ void JacobianSolver::count_krylov(const CondensedProblem& problem, int iteration
   operations_ += (10.0 * points * std::log2(points + 1.0) * contacts) * iterations;
 }
 
-bool JacobianSolver::factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent) {
-  choose(problem, tangent);
-  if (used_ == Used::dense) return dense_.factorize(problem, tangent);
-  tangent_ = tangent;
-  return krylov_.factorize(compliance_of(problem), tangent);
+bool JacobianSolver::factorize(CondensedProblem& problem, const PeriodSlopes& slopes) {
+  choose(problem, slopes);
+  if (used_ == Used::dense) return dense_.factorize(problem, active_);
+  return krylov_.factorize(compliance_of(problem), active_, slopes, problem.frequency());
 }
 
 bool JacobianSolver::solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction,
@@ -72,22 +71,21 @@ bool JacobianSolver::solve(CondensedProblem& problem, const Eigen::VectorXd& r, 
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
     count_dense();
-    if (!may_fall_back() || !dense_.factorize(problem, tangent_)) return false;
+    if (!may_fall_back() || !dense_.factorize(problem, active_)) return false;
     used_ = Used::dense;
   }
   dense_.solve(problem, r, x);
   return true;
 }
 
-bool JacobianSolver::factorize_bordered(CondensedProblem& problem, const Eigen::VectorXd& tangent,
+bool JacobianSolver::factorize_bordered(CondensedProblem& problem, const PeriodSlopes& slopes,
                                         const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
-  choose(problem, tangent);
-  if (used_ == Used::dense) return dense_.factorize_bordered(problem, tangent, b, c, d);
-  tangent_ = tangent;
+  choose(problem, slopes);
+  if (used_ == Used::dense) return dense_.factorize_bordered(problem, active_, b, c, d);
   border_column_ = b;
   border_row_ = c;
   border_corner_ = d;
-  return krylov_.factorize_bordered(compliance_of(problem), tangent, b, c, d);
+  return krylov_.factorize_bordered(compliance_of(problem), active_, slopes, problem.frequency(), b, c, d);
 }
 
 bool JacobianSolver::solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s,
@@ -100,7 +98,7 @@ bool JacobianSolver::solve_bordered(CondensedProblem& problem, const Eigen::Vect
     if (outcome.solved) return true;
     count_dense();
     if (!may_fall_back() ||
-        !dense_.factorize_bordered(problem, tangent_, border_column_, border_row_, border_corner_))
+        !dense_.factorize_bordered(problem, active_, border_column_, border_row_, border_corner_))
       return false;
     used_ = Used::dense;
   }

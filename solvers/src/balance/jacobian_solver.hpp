@@ -7,20 +7,23 @@
 
 namespace wavebalance::solvers {
 
-/// Solves with J = I + K D, plain or bordered, by LU of the active samples or by GMRES, chosen by their
-/// number. Where GMRES does not converge and an LU is affordable, the LU is used, and after three times in a
+/// Solves with J = I + K D, D the slopes of the contact forces, plain or bordered, by LU of the active
+/// samples or by GMRES, chosen by their number. Where GMRES does not converge and an LU is affordable, the LU is used, and after three times in a
 /// row from then on.
 class JacobianSolver {
  public:
+  /// `rates` gives the velocities of motions and is kept; null where no law reads them.
+  explicit JacobianSolver(RateMap* rates) : rates_(rates) {}
+
   void set_method(LinearSolver method) { method_ = method; }
 
   /// False when singular to working precision.
-  bool factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent);
+  bool factorize(CondensedProblem& problem, const PeriodSlopes& slopes);
   /// Solves J x = r to `reduction` of r on the active samples, by LU exactly. False when that was not
   /// reached.
   bool solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction, Eigen::VectorXd& x);
 
-  bool factorize_bordered(CondensedProblem& problem, const Eigen::VectorXd& tangent, const Eigen::VectorXd& b,
+  bool factorize_bordered(CondensedProblem& problem, const PeriodSlopes& slopes, const Eigen::VectorXd& b,
                           const Eigen::VectorXd& c, double d);
   bool solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, double reduction,
                       Eigen::VectorXd& x, double& y);
@@ -38,19 +41,20 @@ class JacobianSolver {
 
  private:
   enum class Used { none, dense, krylov };
-  void choose(const CondensedProblem& problem, const Eigen::VectorXd& tangent);
+  void choose(const CondensedProblem& problem, const PeriodSlopes& slopes);
   bool may_fall_back() const;
   void count_dense();
   void count_krylov(const CondensedProblem& problem, int iterations);
 
   LinearSolver method_ = LinearSolver::automatic;
   Used used_ = Used::none;
-  Eigen::Index active_ = 0;
+  RateMap* rates_;
+  ActiveSlopes active_;
   int krylov_failures_ = 0;
   double operations_ = 0.0;
   ActiveBlock dense_;
   KrylovBlock krylov_;
-  Eigen::VectorXd tangent_, border_column_, border_row_;  // those of the last factorisation, for a later LU
+  Eigen::VectorXd border_column_, border_row_;  // those of the last factorisation, for a later LU
   double border_corner_ = 0.0;
 };
 

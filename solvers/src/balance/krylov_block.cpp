@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace wavebalance::solvers {
 namespace {
@@ -11,41 +12,41 @@ constexpr int max_iterations = 200;
 // GMRES starts anew from the true residual where rounding has separated it from the one that it updates.
 constexpr int max_refinements = 2;
 
-// As many directions are kept as are needed for |D| ||H(n)|| <= largest_remainder beyond them, up to a limit.
-// This bounds J - P, and with it the number of iterations.
+// As many directions are kept as are needed for |D(n)| ||H(n)|| <= largest_remainder beyond them, up to a
+// limit, D(n) the slopes of the forces by a motion of harmonic n. This bounds J - P, and with it the number
+// of iterations.
 constexpr double largest_remainder = 0.25;
 
-// The dense system of the preconditioner costs as much as one product with K at 4 N^(1/3) unknowns, and as
-// much as a solve of about twenty iterations at three times that.
-CoarseSize coarse_size(Eigen::Index samples, double largest_tangent) {
-  const auto balanced = static_cast<Eigen::Index>(4.0 * std::cbrt(double(samples)));
-  const double remainder = largest_tangent > 0.0 ? largest_remainder / largest_tangent : 1.0;
-  return {balanced, 3 * balanced, remainder};
+// The dense system of the preconditioner of one contact costs as much as one product with K at 4 N^(1/3)
+// unknowns, and as much as a solve of about twenty iterations at three times that. Products of many contacts
+// grow like C^2 N, and with them the size that is worth its cost.
+CoarseSize coarse_size(int contacts, const PeriodSlopes& slopes, double frequency) {
+  const auto samples = double(slopes.displacement.size());
+  const auto largest = [](const Eigen::VectorXd& all) {
+    return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0.0;
+  };
+  return {static_cast<Eigen::Index>(4.0 * std::cbrt(samples)),
+          static_cast<Eigen::Index>(12.0 * std::cbrt(samples * contacts)), largest_remainder,
+          largest(slopes.displacement),
+          2.0 * std::numbers::pi * frequency * largest(slopes.velocity)};
 }
 
 }  // namespace
 
-Eigen::VectorXd KrylovBlock::gather(const Eigen::VectorXd& samples) const { return samples(active_); }
+void KrylovBlock::scatter_weighted(const Eigen::VectorXd& active) { active_->write(active, weighted_); }
 
-void KrylovBlock::scatter_weighted(const Eigen::VectorXd& active) {
-  weighted_(active_) = stiffness_.cwiseProduct(active);
-}
-
-bool KrylovBlock::prepare(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent) {
-  active_.clear();
-  for (int l = 0; l < tangent.size(); ++l)
-    if (tangent[l] != 0.0) active_.push_back(l);
-  stiffness_ = tangent(active_);
-  weighted_.setZero(tangent.size());
+bool KrylovBlock::prepare(const ComplianceOperator& compliance, ActiveSlopes& active,
+                          const PeriodSlopes& slopes, double frequency) {
+  active_ = &active;
+  weighted_.setZero(slopes.displacement.size());
   largest_gain_ = smallest_gain_ = 0.0;
-  if (!std::isfinite(stiffness_.squaredNorm())) return false;
-  const double largest = active_.empty() ? 0.0 : stiffness_.cwiseAbs().maxCoeff();
-  const CoarseSize wanted = coarse_size(tangent.size(), largest);
+  if (!std::isfinite(active.scale().squaredNorm())) return false;
+  const CoarseSize wanted = coarse_size(compliance.contacts, slopes, frequency);
   const auto harmonics = std::min<Eigen::Index>((compliance.points - 1) / 2, wanted.largest / 2);
   coarse_.set(compliance, static_cast<int>(harmonics), wanted);
   const Eigen::Index size = coarse_.size() + (bordered_ ? 1 : 0);
   matrix_.resize(size, size);
-  coarse_.fill(tangent, matrix_);
+  coarse_.fill(slopes, frequency, matrix_);
   return true;
 }
 
@@ -54,30 +55,30 @@ bool KrylovBlock::factorize_coarse() {
   return !lu_.is_singular();
 }
 
-bool KrylovBlock::factorize(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent) {
+bool KrylovBlock::factorize(const ComplianceOperator& compliance, ActiveSlopes& active,
+                            const PeriodSlopes& slopes, double frequency) {
   bordered_ = false;
-  return prepare(compliance, tangent) && factorize_coarse();
+  return prepare(compliance, active, slopes, frequency) && factorize_coarse();
 }
 
-// On the active samples x = r - K D z - b y. The last row is then -(D K^T c).z + (d - c.b) y = s - c.r. With
-// the preconditioner's z = v - U g - b y it becomes an equation for y and g = V D z.
-bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent,
-                                     const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
+// With x = r - K S z - b y the last row is -(S K^T c).z + (d - c.b) y = s - c.r. With the preconditioner's
+// z = v - B (U g + b y) it becomes an equation for y and g = V S z.
+bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, ActiveSlopes& active,
+                                     const PeriodSlopes& slopes, double frequency, const Eigen::VectorXd& b,
+                                     const Eigen::VectorXd& c, double d) {
   bordered_ = true;
-  if (!prepare(compliance, tangent)) return false;
+  if (!prepare(compliance, active, slopes, frequency)) return false;
   column_ = b;
   row_ = c;
   corner_ = d - c.dot(b);
   compliance.apply_transposed(c, samples_);
-  active_row_ = -gather(samples_).cwiseProduct(stiffness_);
-  active_column_ = gather(b);
+  active_row_ = -samples_(active_->samples()).cwiseProduct(active_->scale());
+  active_column_ = active_->read(b);
   const Eigen::Index size = coarse_.size();
   scatter_weighted(active_column_);
   coarse_.respond(weighted_, coefficients_);
   matrix_.col(size).head(size) = coefficients_;
-  samples_.setZero();
-  samples_(active_) = active_row_;
-  coarse_.analyse(samples_, coefficients_);
+  coarse_.analyse(active_->read_transposed(active_row_, weighted_.size()), coefficients_);
   matrix_.row(size).head(size) = -coefficients_.transpose();
   matrix_(size, size) = corner_ - active_row_.dot(active_column_);
   return factorize_coarse();
@@ -93,17 +94,17 @@ void KrylovBlock::precondition(const Eigen::VectorXd& v, double s, Unknown& unkn
   }
   const Eigen::VectorXd solution = lu_.solve(coefficients_);
   coarse_.synthesise(solution, samples_);
-  unknown.z = v - gather(samples_);
+  unknown.z = v - active_->read(samples_);
   unknown.y = bordered_ ? solution[coarse_.size()] : 0.0;
   if (bordered_) unknown.z -= unknown.y * active_column_;
 }
 
-// z + K D z + b y on the active samples.
+// z + B (K S z + b y).
 void KrylovBlock::multiply(const ComplianceOperator& compliance, const Unknown& unknown,
                            Eigen::VectorXd& product) {
   scatter_weighted(unknown.z);
   compliance.apply(weighted_, samples_);
-  product = unknown.z + gather(samples_);
+  product = unknown.z + active_->read(samples_);
   const double gain = product.norm() / unknown.z.norm();
   if (std::isfinite(gain)) {
     largest_gain_ = std::max(largest_gain_, gain);
@@ -147,16 +148,16 @@ KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& complia
   return outcome;
 }
 
-// x = r - K D z differs from z by the residual on the active samples. There x = z is used, because K D would
-// magnify the residual.
+// B x = B (r - K S z) differs from z by the residual. Where B takes samples x = z is used there, because K D
+// would magnify the residual.
 void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
                            const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome) {
   scatter_weighted(z);
   compliance.apply(weighted_, x);
   const double product = x.norm();
   x = r - x;
-  const double size = size_of_terms(gather(r).norm(), z), residual = (gather(x) - z).norm();
-  x(active_) = z;
+  const double size = size_of_terms(active_->read(r).norm(), z), residual = (active_->read(x) - z).norm();
+  if (active_->takes_samples()) x(active_->samples()) = z;
   // The residual that GMRES updates differs from the true one when J is nearly singular.
   constexpr double rounding = 1e-13, drift = 2.0;
   outcome.solved = outcome.solved && residual <= drift * reduction * size + rounding * (product + r.norm());
@@ -165,12 +166,12 @@ void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::Ve
 
 KrylovBlock::Outcome KrylovBlock::solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
                                         double reduction, Eigen::VectorXd& x) {
-  if (active_.empty()) {
+  if (active_->count() == 0) {
     x = r;
     return {true, 0, 0.0};
   }
   Unknown unknown;
-  Outcome outcome = solve_active(compliance, gather(r), 0.0, reduction, unknown);
+  Outcome outcome = solve_active(compliance, active_->read(r), 0.0, reduction, unknown);
   complete(compliance, r, reduction, unknown.z, x, outcome);
   return outcome;
 }
@@ -179,7 +180,7 @@ KrylovBlock::Outcome KrylovBlock::solve_bordered(const ComplianceOperator& compl
                                                  const Eigen::VectorXd& r, double s, double reduction,
                                                  Eigen::VectorXd& x, double& y) {
   Unknown unknown;
-  Outcome outcome = solve_active(compliance, gather(r), s - row_.dot(r), reduction, unknown);
+  Outcome outcome = solve_active(compliance, active_->read(r), s - row_.dot(r), reduction, unknown);
   y = unknown.y;
   const Eigen::VectorXd reduced = r - y * column_;
   complete(compliance, reduced, reduction, unknown.z, x, outcome);
@@ -190,10 +191,10 @@ KrylovBlock::Outcome KrylovBlock::solve_bordered(const ComplianceOperator& compl
 // start from a vector with all frequencies, because the smallest singular value may belong to a smooth
 // motion.
 double KrylovBlock::condition(const ComplianceOperator& compliance) {
-  if (active_.empty()) return 1.0;
+  if (active_->count() == 0) return 1.0;
   Unknown unknown;
   Eigen::VectorXd product;
-  const Eigen::ArrayXd samples = Eigen::ArrayXd::LinSpaced(stiffness_.size(), 0.0, stiffness_.size() - 1.0);
+  const Eigen::ArrayXd samples = Eigen::ArrayXd::LinSpaced(active_->count(), 0.0, double(active_->count()) - 1.0);
   const Eigen::VectorXd all_frequencies = samples.square().cos().matrix();
   unknown.z = (1.0 + all_frequencies.array()).matrix();
   multiply(compliance, unknown, product);

@@ -2,21 +2,23 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "balance/active_slopes.hpp"
 #include "balance/harmonic_coarse_space.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/gmres.hpp"
 
 namespace wavebalance::solvers {
 
-/// Solves with J = I + K D, D diagonal, plain or bordered [J b; c^T d], without the matrix over the active
-/// samples (those where D is not zero): GMRES with FFT products.
+/// Solves with J = I + K D, D = S B (ActiveSlopes), plain or bordered [J b; c^T d], without the matrix over
+/// the active samples: GMRES with FFT products for the z of x = r - K S z, (I + B K S) z = B r.
 ///
 /// K decays over harmonics and over the directions of the contacts at each, so that J is the identity plus a
 /// part of few of them, U V D. The preconditioner
-///   P = I + U V D   (bordered: with b, c, d as J)
-/// leaves out the rest of K; its inverse costs two FFTs per contact and a dense solve of the size s of the
-/// coarse space. J P^-1 = I + (K - U V) D P^-1 is then the identity plus what is small and compact, and the
-/// number of iterations does not grow with the number of samples or contacts.
+///   P = I + B U V S   (bordered: with b, c, d as J)
+/// leaves out the rest of K; its inverse costs two FFTs per contact and a dense solve with I + V D U of the
+/// size s of the coarse space. What it leaves is then small and compact, and the number of iterations does
+/// not grow with the number of samples or contacts. In I + V D U the entries of D beside those of a sample by
+/// its own motion are left out.
 /// An iteration costs two products with K, factorize() O(C N log N + C^2 M + C s^2 + s^3).
 class KrylovBlock {
  public:
@@ -27,18 +29,20 @@ class KrylovBlock {
     double reduction = 0.0;  ///< ||r - J x|| over ||r|| on the active samples
   };
 
-  /// Makes the preconditioner for the diagonal `tangent` of D. False when it is singular to working precision
-  /// or D is not finite.
-  bool factorize(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent);
+  /// Makes the preconditioner for D = `slopes`, of which `active` was set and must outlive the solves, at a
+  /// frequency in Hz. False when it is singular to working precision or D is not finite.
+  bool factorize(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
+                 double frequency);
   /// x = J^-1 r until the residual on the active samples is at most `reduction` of r; it vanishes on the
   /// others.
   Outcome solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
                 Eigen::VectorXd& x);
 
-  bool factorize_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent,
-                          const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d);
+  bool factorize_bordered(const ComplianceOperator& compliance, ActiveSlopes& active,
+                          const PeriodSlopes& slopes, double frequency, const Eigen::VectorXd& b,
+                          const Eigen::VectorXd& c, double d);
   /// J x + b y = r, c.x + d y = s to `reduction` of r - b y or of x, whichever is larger on the active
-  /// samples; the last equation holds for x = r - K D x - b y to rounding.
+  /// samples; the last equation holds for x = r - K S z - b y to rounding.
   Outcome solve_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s,
                          double reduction, Eigen::VectorXd& x, double& y);
 
@@ -59,7 +63,8 @@ class KrylovBlock {
     double y = 0.0;
   };
 
-  bool prepare(const ComplianceOperator& compliance, const Eigen::VectorXd& tangent);
+  bool prepare(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
+               double frequency);
   bool factorize_coarse();
   void precondition(const Eigen::VectorXd& v, double s, Unknown& unknown);
   void multiply(const ComplianceOperator& compliance, const Unknown& unknown, Eigen::VectorXd& product);
@@ -68,11 +73,9 @@ class KrylovBlock {
   double size_of_terms(double right, const Eigen::VectorXd& z) const;
   void complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
                 const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome);
-  Eigen::VectorXd gather(const Eigen::VectorXd& samples) const;
   void scatter_weighted(const Eigen::VectorXd& active);
 
-  std::vector<int> active_;
-  Eigen::VectorXd stiffness_;  // D at the active samples
+  ActiveSlopes* active_ = nullptr;
   HarmonicCoarseSpace coarse_;
   Eigen::MatrixXd matrix_;
   detail::Lu<double> lu_;
@@ -80,8 +83,8 @@ class KrylovBlock {
   double largest_gain_ = 0.0, smallest_gain_ = 0.0;    // extremes of ||J z|| / ||z||
   bool bordered_ = false;
   Eigen::VectorXd column_, row_;   // b and c over all samples
-  Eigen::VectorXd active_column_;  // b at the active samples
-  Eigen::VectorXd active_row_;     // c^T (x - r) of the active values: -D K^T c
+  Eigen::VectorXd active_column_;  // B b
+  Eigen::VectorXd active_row_;     // c^T (x - r) of the active values: -S K^T c
   double corner_ = 0.0;            // d - c.b
 };
 

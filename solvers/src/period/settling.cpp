@@ -227,7 +227,7 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
   options.validate();
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
-  if (structure.size() > options.max_size || structure.is_free()) return {};
+  if (structure.size() > options.max_size || structure.is_free() || laws.act_over_period()) return {};
   const double frequency = load_periods(problem) * problem.frequency();
   const double step = 1.0 / (frequency * options.steps);
   auto flow = ModalFlow::make(structure, frequency, step, options.max_modes);

@@ -186,15 +186,17 @@ class Sweep {
     return arc;
   }
 
-  // The least displacement from `least` on, by doubling, at which a law without a gap has a force that
-  // matters beside the stiffness of its contact; `least` where there is none.
+  // The least displacement from `least` on, by doubling, at which a law of one instant without a gap has a
+  // force that matters beside the stiffness of its contact; `least` where there is none.
   double length_of_springs(double least) const {
     constexpr double share = 0.3;
     constexpr int doublings = 20;
     const Eigen::VectorXd compliance = problem_.contact_compliance();
     for (double length = least; length <= std::ldexp(least, doublings) && length > 0.0; length *= 2.0)
       for (int c = 0; c < problem_.contacts(); ++c)
-        if (compliance[c] * std::abs(laws_[c].force(length)) > share * length) return length;
+        if (!laws_[c].acts_over_period() &&
+            compliance[c] * std::abs(laws_[c].force(length)) > share * length)
+          return length;
     return least;
   }
 

@@ -160,7 +160,7 @@ TEST_F(CoarseSpaceTest, MatrixIsThatOfTheExplicitProducts) {
   const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(space_.size(), space_.size()) +
                                    response() * tangent.asDiagonal() * synthesis();
   Eigen::MatrixXd matrix(space_.size() + 1, space_.size() + 1);
-  space_.fill(tangent, matrix);
+  space_.fill({tangent, {}, {}}, 0.23, matrix);
   EXPECT_LE((matrix.topLeftCorner(space_.size(), space_.size()) - expected).norm(),
             1e3 * eps * expected.norm());
 }

@@ -174,6 +174,23 @@ TEST_F(VelocitySystem, TheBorderedSolveHasTheResidualAndTheSignOfTheWholeMatrix)
   }
 }
 
+TEST_F(VelocitySystem, SolutionsByGmresAndByLuAreEqual) {
+  for (const TimePair& pair : {testing::fourier_pair(31, 128), testing::pair_kinds(32, 128)[5]}) {
+    CondensedProblem problem = this->problem(pair);
+    const Eigen::VectorXd u = motion(problem), r = testing::random_vector(problem.samples(), generator_);
+    for (const AnyContactLaw& law : everywhere_and_at_few_samples(u)) {
+      ContactSystem system(problem, law);
+      system.evaluate(u);
+      Eigen::VectorXd by_lu, by_gmres;
+      system.set_linear_solver(LinearSolver::dense);
+      ASSERT_TRUE(system.factorize() && system.solve(r, by_lu));
+      system.set_linear_solver(LinearSolver::krylov);
+      ASSERT_TRUE(system.factorize() && system.solve(r, by_gmres, 1e-12));
+      EXPECT_LE((by_lu - by_gmres).norm(), 1e-9 * by_lu.norm());
+    }
+  }
+}
+
 TEST_F(VelocitySystem, TheSlopeByFrequencyIsTheDerivative) {
   for (const TimePair& pair : smooth_pairs()) {
     CondensedProblem problem = this->problem(pair);

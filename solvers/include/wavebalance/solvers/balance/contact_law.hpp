@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "wavebalance/solvers/balance/period_law.hpp"
+
 namespace wavebalance::solvers {
 
 /// A force that depends on the displacement of one contact.
@@ -92,6 +94,9 @@ struct ForceSlopes {
 
 /// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which
 /// makes the indirection free; copies share the (immutable) law and may be used from several threads.
+///
+/// A PeriodLaw has forces over a period only: what asks for its force at one displacement throws
+/// std::invalid_argument. It has no gap (0), no kinks and no form of the force.
 class AnyContactLaw {
  public:
   /// No contact: force, tangent and potential are zero and the gap is infinite.
@@ -101,6 +106,20 @@ class AnyContactLaw {
   requires(!std::same_as<Law, AnyContactLaw> && ContactLaw<Law>)
       AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
       : model_(std::make_shared<Model<Law>>(std::move(law))) {}
+
+  template <class Law>
+  requires(!std::same_as<Law, AnyContactLaw> && !ContactLaw<Law> && PeriodLaw<Law>)
+      AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
+      : model_(std::make_shared<PeriodModel<Law>>(std::move(law))) {}
+
+  /// The number of contact directions that it acts along; 1 but for a PeriodLaw.
+  int rows() const { return model_->rows(); }
+  /// Whether it is a PeriodLaw.
+  bool acts_over_period() const { return model_->acts_over_period(); }
+  /// Its forces over a period.
+  void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const {
+    model_->evaluate(motion, forces);
+  }
 
   double force(double displacement) const;    ///< of a law that depends on the velocity: at rest
   double tangent(double displacement) const;  ///< likewise
@@ -142,6 +161,9 @@ class AnyContactLaw {
  private:
   struct Interface {
     virtual ~Interface() = default;
+    virtual int rows() const = 0;
+    virtual bool acts_over_period() const = 0;
+    virtual void evaluate(const PeriodKinematics&, PeriodForces&) const = 0;
     virtual double force(double displacement) const = 0;
     virtual double tangent(double displacement) const = 0;
     virtual double potential(double displacement) const = 0;
@@ -160,6 +182,17 @@ class AnyContactLaw {
   template <class Law>
   struct Model final : Interface {
     explicit Model(Law law) : law_(std::move(law)) {}
+    int rows() const override { return 1; }
+    bool acts_over_period() const override { return false; }
+    void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const override {
+      if (!DependsOnVelocity<Law>) return evaluate(motion.displacement, forces.force, forces.displacement_slope);
+      for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
+        const ForceSlopes now = at(motion.displacement[i], motion.velocity[i]);
+        forces.force[i] = now.force;
+        forces.displacement_slope[i] = now.tangent;
+        forces.velocity_slope[i] = now.damping;
+      }
+    }
     double force(double displacement) const override {
       if constexpr (DependsOnVelocity<Law>)
         return law_.force(displacement, 0.0);
@@ -232,6 +265,35 @@ class AnyContactLaw {
     void evaluate(std::span<const double> u, std::span<double> f) const override {
       for (std::size_t i = 0; i < u.size(); ++i) f[i] = force(u[i]);
     }
+    Law law_;
+  };
+
+  [[noreturn]] static void refuse_instant();
+
+  /// A law over a period, which has no force at one displacement.
+  template <class Law>
+  struct PeriodModel final : Interface {
+    explicit PeriodModel(Law law) : law_(std::move(law)) {}
+    int rows() const override { return law_.rows(); }
+    bool acts_over_period() const override { return true; }
+    void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const override {
+      law_.evaluate(motion, forces);
+    }
+    double force(double) const override { refuse_instant(); }
+    double tangent(double) const override { refuse_instant(); }
+    double potential(double) const override { refuse_instant(); }
+    double gap() const override { return 0.0; }
+    ForceSlope resolvent(double, double) const override { refuse_instant(); }
+    bool unilateral() const override { return false; }
+    bool monotone() const override { return false; }
+    bool depends_on_velocity() const override { return false; }
+    ForceSlopes at(double, double) const override { refuse_instant(); }
+    std::vector<double> kinks() const override { return {}; }
+    std::vector<double> breakpoints() const override { return {}; }
+    void evaluate(std::span<const double>, std::span<double>, std::span<double>) const override {
+      refuse_instant();
+    }
+    void evaluate(std::span<const double>, std::span<double>) const override { refuse_instant(); }
     Law law_;
   };
 

@@ -7,26 +7,35 @@
 
 namespace wavebalance::solvers {
 
+/// The forces of all contacts over a period, samples contact-major.
+struct ContactForces {
+  Eigen::VectorXd force;  ///< N
+  PeriodSlopes slopes;
+  Eigen::ArrayXi pieces;  ///< of laws over a period, 0 of others; empty where there is none
+};
+
 /// The laws of all contacts of a structure: one law for all of them, or one each, in the order of
-/// LinearStructure::contact_directions. Samples are contact-major: contact c has entries [c N, (c + 1) N).
+/// LinearStructure::contact_directions. Samples are contact-major: contact c has entries [c N, (c + 1) N). A
+/// PeriodLaw takes as many consecutive directions as it has rows; it is never one law for several contacts.
 class ContactLaws {
  public:
   /// No contact.
-  ContactLaws() : laws_(1) {}
+  ContactLaws() : ContactLaws(AnyContactLaw()) {}
 
-  /// One law for all contacts: any ContactLaw, or an AnyContactLaw.
+  /// One law for all contacts: any ContactLaw, or an AnyContactLaw; a PeriodLaw for its rows.
   template <class Law>
-  requires(!std::same_as<Law, ContactLaws> && ContactLaw<Law>) ContactLaws(Law law)
-      : laws_{AnyContactLaw(std::move(law))} {}  // NOLINT: a law is meant to convert
+  requires(!std::same_as<Law, ContactLaws> && std::constructible_from<AnyContactLaw, Law>)
+      ContactLaws(Law law)  // NOLINT: a law is meant to convert
+      : ContactLaws(std::vector<AnyContactLaw>{AnyContactLaw(std::move(law))}) {}
 
   /// One law each. Throws std::invalid_argument when empty.
   ContactLaws(std::vector<AnyContactLaw> laws);  // NOLINT
 
   /// The law of contact c >= 0.
   const AnyContactLaw& operator[](int contact) const {
-    return laws_.size() == 1 ? laws_.front() : laws_[static_cast<std::size_t>(contact)];
+    return laws_.size() == 1 ? laws_.front() : laws_[law_of_row_[static_cast<std::size_t>(contact)]];
   }
-  /// Throws std::invalid_argument when there are neither one nor `contacts` laws.
+  /// Throws std::invalid_argument when the rows of the laws are neither one nor `contacts`.
   void require(int contacts) const;
   /// The gaps of `contacts` contacts, m.
   Eigen::VectorXd gaps(int contacts) const;
@@ -43,6 +52,8 @@ class ContactLaws {
   bool have_force_form() const;
   /// Whether the force of one depends on the velocity.
   bool depend_on_velocity() const;
+  /// Whether one is a PeriodLaw.
+  bool act_over_period() const;
   /// The laws of the force form: the resolvents of the laws for a flexibility 1 / epsilon (m/N) per contact.
   ContactLaws resolvents(const Eigen::VectorXd& flexibility) const;
 
@@ -50,9 +61,10 @@ class ContactLaws {
   /// the three vectors have one length. O(samples).
   void evaluate(int contacts, const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
                 Eigen::VectorXd& tangent) const;
-  /// The same for laws that depend on the velocities (m/s), too, with the slopes by them (N s/m).
+  /// The forces of a motion over a period and their derivative. `velocity` (m/s) may be empty where no law
+  /// depends on it. O(samples), and the cost of laws over a period.
   void evaluate(int contacts, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
-                Eigen::VectorXd& force, Eigen::VectorXd& tangent, Eigen::VectorXd& damping) const;
+                ContactForces& forces) const;
   /// Throws std::invalid_argument that names the contact (from 1) and the displacement if the force or its
   /// slope, at rest, is not a number at one of the displacements (m), which are contact-major. Displacements
   /// that are not finite or beyond 1e9 m, where powers overflow, are left out. O(samples).
@@ -63,7 +75,11 @@ class ContactLaws {
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& velocity) const;
 
  private:
+  void evaluate_law(int row, int points, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
+                    ContactForces& forces) const;
+
   std::vector<AnyContactLaw> laws_;
+  std::vector<std::size_t> law_of_row_;
 };
 
 }  // namespace wavebalance::solvers

@@ -10,6 +10,7 @@
 namespace wavebalance::solvers {
 
 class JacobianSolver;
+class RateMap;
 class RigidPosition;
 
 /// The piece of its law that each sample lies on: the number of kinks below its displacement. With one kink,
@@ -33,16 +34,17 @@ enum class LinearSolver {
 
 /// The nonlinear system of a CondensedProblem and its contact laws at one state u (samples() displacements,
 /// m, contact-major):
-///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = diag(f_c'(u)).
-/// A linear solve with J reduces exactly to the active samples, those where D is not zero: x = r - K D x, an
-/// LU of their number and one product with K. Where a law depends on the velocity v = f V u of the motion, D
-/// is D_u + D_v f V (VelocityBlock). In the force form of the problem u stands for its unknown v, and the
-/// laws are their resolvents. Many of them are solved for by GMRES, which forms no matrix over them.
+///   R(u) = u - u0 + K f_c(u),   J = I + K D,   D = df_c/du.
+/// D has one block per sample for laws of one instant, and few entries per row for laws over a period. A
+/// velocity f V u of the motion u is read by D_u + D_v f V. A linear solve with J reduces exactly to the
+/// active samples, those whose force changes with u: x = r - K D x, an LU of their number and one product
+/// with K. Many of them are solved for by GMRES, which forms no matrix over them. In the force form of the
+/// problem u stands for its unknown v, and the laws are their resolvents.
 class ContactSystem {
  public:
-  /// Throws std::invalid_argument when there are neither one law nor one for each contact, and for a law that
-  /// depends on the velocity where the trial functions have no pointwise derivative or the problem is in the
-  /// force form.
+  /// Throws std::invalid_argument when there are neither one law nor one for each contact, for a law that
+  /// depends on the velocity where the trial functions have no pointwise derivative, and for one that depends
+  /// on the velocity or acts over a period where the problem is in the force form.
   ContactSystem(CondensedProblem& problem, ContactLaws laws);
   ContactSystem(ContactSystem&&) noexcept;
   ContactSystem& operator=(ContactSystem&&) noexcept;
@@ -62,17 +64,22 @@ class ContactSystem {
     return rest_pieces_[static_cast<std::size_t>(sample / problem_->points())];
   }
 
-  /// Computes force, tangent and residual at `displacement`. Returns relative_residual(). One product with K.
+  /// Computes force, its slopes and residual at `displacement`. Returns relative_residual(). One product with K.
   double evaluate(const Eigen::VectorXd& displacement);
   /// The same with every sample kept on one piece of its law, samples() values, which is continued beyond its
   /// kinks by the tangents there. Equal to evaluate() where the pieces are those of `displacement`, and
   /// smooth across the kinks.
   double evaluate(const Eigen::VectorXd& displacement, const LawPieces& pieces);
 
-  const Eigen::VectorXd& force() const { return force_; }  ///< f_c(u), N
+  const Eigen::VectorXd& force() const { return forces_.force; }  ///< f_c(u), N
   /// CondensedProblem::held_force() of the state: force() where the structure is held.
   Eigen::VectorXd held_force() const;
-  const Eigen::VectorXd& tangent() const { return tangent_; }    ///< D, N/m
+  /// The slopes of each force by the displacement of the same sample, N/m: D of laws that read it alone.
+  const Eigen::VectorXd& tangent() const { return forces_.slopes.displacement; }
+  /// D.
+  const PeriodSlopes& slopes() const { return forces_.slopes; }
+  /// The pieces of laws over a period, as ContactForces has them.
+  const Eigen::ArrayXi& period_pieces() const { return forces_.pieces; }
   const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
   /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
   double relative_residual() const { return relative_residual_; }
@@ -82,14 +89,12 @@ class ContactSystem {
   /// solution.
   void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }
 
-  /// Whether a law depends on the velocity.
-  bool has_velocity() const { return velocity_ != nullptr; }
   /// Of a residual at fixed samples, the change with frequency (m/Hz) through the velocities is added to
   /// `slope`; nothing where no law depends on them.
   void add_velocity_slope(Eigen::VectorXd& slope);
 
   /// Overrides the tangent of a sample.
-  void set_tangent(int sample, double value) { tangent_[sample] = value; }
+  void set_tangent(int sample, double value) { forces_.slopes.displacement[sample] = value; }
   /// Takes J at a sample that lies at a kink of its law from one side of it.
   void take_side(int sample, int kink, bool beyond);
 
@@ -120,16 +125,12 @@ class ContactSystem {
   double operations() const;
 
  private:
-  struct VelocityPart;
-
   double evaluate_residual(const Eigen::VectorXd& displacement);
   void evaluate_laws(const Eigen::VectorXd& displacement);
-  void take_side(int sample, const LawKink& kink, bool beyond);
+  void take_side(int sample, const ForceSlopes& side);
+  ForceSlopes side_of(int sample, const LawKink& kink, bool beyond) const;
   void continue_piece(int sample, double displacement, const LawKink& kink, bool beyond);
   bool factorize_position(bool bordered);
-  // With J at a fixed position of a free structure, bordered or not.
-  bool solve_at_position(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction);
-  bool solve_at_position(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y, double reduction);
 
   CondensedProblem* problem_;
   ContactLaws laws_;
@@ -139,11 +140,13 @@ class ContactSystem {
   double relative_residual_ = 0.0;
   double column_scale_ = 1.0, row_scale_ = 1.0;  // of the border last factorized
   double products_ = 0.0;                        // operations of products with K
-  Eigen::VectorXd force_, tangent_, residual_, product_;
+  ContactForces forces_;
+  Eigen::VectorXd velocity_;  // m/s; empty where no law reads it
+  Eigen::VectorXd residual_, product_;
   Eigen::VectorXd state_;                    // of a free structure
   std::unique_ptr<RigidPosition> position_;  // of a free structure
+  std::unique_ptr<RateMap> rates_;  // null where no law depends on the velocity
   std::unique_ptr<JacobianSolver> jacobian_;
-  std::unique_ptr<VelocityPart> velocity_;  // null where no law depends on the velocity
 };
 
 }  // namespace wavebalance::solvers

@@ -14,25 +14,20 @@ namespace wavebalance::solvers {
 /// trial functions, by least squares where there are more samples than functions, and these to the samples of
 /// the derivative in scaled time. It is exact for the motions u_0 - K f of a balance, whose samples are sums
 /// of trial functions. Owns a plan: one object per thread.
-class VelocityMap {
+class RateMap {
  public:
   /// Throws std::invalid_argument for trial functions without a pointwise derivative.
-  explicit VelocityMap(const TimePair& pair);
-  ~VelocityMap();
+  explicit RateMap(const TimePair& pair);
+  ~RateMap();
 
   /// `samples` contact-major, m; the result in m/s for a frequency in Hz. O(C N log N).
   void apply(const Eigen::VectorXd& samples, double frequency, Eigen::VectorXd& velocity);
-
-  /// The number of trial functions.
-  int functions() const { return functions_; }
-  /// The coefficients of such a motion, C M and contact-major, and the samples of coefficients, m. O(C N log
-  /// N).
-  Eigen::VectorXd coefficients(const Eigen::VectorXd& samples);
-  Eigen::VectorXd motion(const Eigen::VectorXd& coefficients);
+  /// Its transpose: V^T times values at the samples, times the frequency.
+  void apply_transposed(const Eigen::VectorXd& values, double frequency, Eigen::VectorXd& samples);
 
  private:
-  // The spectrum over translates of the coefficients of one contact.
-  void analyse(const Eigen::VectorXd& samples, int contact);
+  void map(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis, const Eigen::VectorXcd& synthesis,
+           double frequency, Eigen::VectorXd& out);
 
   int functions_, points_;
   Eigen::VectorXcd trial_, rate_;  // spectra over samples of the generator and its derivative

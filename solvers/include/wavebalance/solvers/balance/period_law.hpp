@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Core>
+#include <concepts>
+#include <span>
+#include <vector>
+
+namespace wavebalance::solvers {
+
+/// What a law reads over a period: the displacements of its rows at N samples, row after row, and where it
+/// reads velocities those. A row is a contact direction of the structure. The samples are periodic: the one
+/// before the first is the last.
+struct PeriodKinematics {
+  int points = 0;                        ///< N
+  std::span<const double> displacement;  ///< m, rows x N values
+  std::span<const double> velocity;      ///< m/s; empty where no law of the structure reads velocities
+};
+
+/// One entry of the derivative of the forces by displacements.
+struct SlopeEntry {
+  int force = 0;         ///< the sample of the force
+  int displacement = 0;  ///< the sample of the displacement
+  double slope = 0.0;    ///< N/m
+};
+
+/// The forces of a law over a period along its rows, and their derivative. All are zero before, so that a law
+/// writes where it acts.
+struct PeriodForces {
+  std::span<double> force;               ///< N, rows x N values
+  std::span<double> displacement_slope;  ///< N/m: of each force by the displacement of the same sample
+  std::span<double> velocity_slope;      ///< N s/m: by its velocity; empty like PeriodKinematics::velocity
+  std::vector<SlopeEntry>& others;       ///< by the displacements of other samples; samples count in the law
+  std::span<int> piece;                  ///< the analytic piece of the law on which each force lies
+};
+
+/// A law whose force follows from the motion over a whole period: of several rows, or with memory. Its forces
+/// along the rows oppose positive displacements. A law of one instant, ContactLaw, is the case of one row
+/// whose force depends on the motion of the same sample alone.
+template <class Law>
+concept PeriodLaw = std::copy_constructible<Law> && requires(const Law& law, const PeriodKinematics& motion,
+                                                             PeriodForces& forces) {
+  { law.rows() } -> std::convertible_to<int>;  // consecutive contact directions, at least 1
+  law.evaluate(motion, forces);                // any displacements that are finite
+};
+
+/// The derivative of the contact forces over a period by the motion of the contacts, samples contact-major.
+struct PeriodSlopes {
+  Eigen::VectorXd displacement;    ///< N/m: of each force by the displacement of the same sample
+  Eigen::VectorXd velocity;        ///< N s/m: by its velocity; empty where no law reads velocities
+  std::vector<SlopeEntry> others;  ///< by the displacements of other samples
+};
+
+}  // namespace wavebalance::solvers
