@@ -11,7 +11,6 @@
 #include <limits>
 #include <numeric>
 
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 
 namespace wavebalance::app {
@@ -70,45 +69,11 @@ double output_bytes(const Scene& scene, const Sizes& sizes) {
 
 double balance_bytes(const Sizes& s) {
   const double squared = s.contacts * s.contacts;
+  // Unknowns of the dense system that preconditions GMRES.
+  const double coarse = std::min(12.0 * std::cbrt(squared * s.points), s.contacts * s.points);
   return 130.0 * s.contacts * s.points + (150.0 + 32.0 * squared) * s.functions +
-         8.0 * squared * s.points * s.period + 16.0 * s.active * s.active;
-}
-
-bool is_damped(const Scene& scene) {
-  const auto& pairs = scene.contact.pairs;
-  return pairs.empty()
-             ? is_damped(scene.contact.law)
-             : std::any_of(pairs.begin(), pairs.end(), [](const auto& one) { return is_damped(one.law); });
-}
-
-/// The samples of the contact-free response that lie beyond their gaps.
-double closed_samples(const Scene& scene) {
-  const StructureModel model = make_model(scene);
-  const ComposedProblem composed = compose_problem(scene, model);
-  const Eigen::VectorXd& free = composed.problem.contact_free_response();
-  const Eigen::VectorXd gaps = composed.laws.gaps(model.contacts());
-  const Eigen::Index points = free.size() / gaps.size();
-  Eigen::Index closed = 0;
-  for (Eigen::Index l = 0; l < free.size(); ++l) closed += free[l] > gaps[l / points] ? 1 : 0;
-  return static_cast<double>(closed);
-}
-
-/// Samples in contact of which a law of the velocity makes dense matrices: those of the contact-free response
-/// where it is computed in little time and memory, and half of all otherwise.
-double velocity_samples(const Scene& scene, const Sizes& s) {
-  constexpr double few = 700;         // whose matrices take less than 20 MB
-  constexpr double affordable = 1e9;  // bytes
-  constexpr int most_unknowns = 2000;
-  const double half = 0.5 * s.contacts * s.points;
-  const bool composed = scene.analysis.type == AnalysisType::forced_response &&
-                        structure_dofs(scene) <= most_unknowns && balance_bytes(s) <= affordable;
-  return half <= few || !composed ? half : closed_samples(scene);
-}
-
-/// Two matrices of the samples in contact at a time, of which Newton's method may have 1.6 times as many as
-/// the contact-free response, and the velocities of the columns of the compliance.
-double velocity_bytes(const Sizes& s, double samples) {
-  return 40.0 * samples * samples + 8.0 * s.contacts * s.contacts * s.points * s.period;
+         8.0 * squared * s.points * s.period + 16.0 * s.active * s.active +
+         16.0 * coarse * coarse + 100.0 * s.contacts * coarse;
 }
 
 double response_seconds(const Sizes& s) {
@@ -152,15 +117,8 @@ CostEstimate estimate_cost(const Scene& scene) {
   const double reduction =
       scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(structure_dofs(scene)) : 0.0;
   cost.bytes += balance_bytes(sizes);
-  double response = response_seconds(sizes);
-  if (is_damped(scene)) {
-    // The coefficients of the motions are the unknowns where they are fewer.
-    const double samples = std::min(velocity_samples(scene, sizes), sizes.contacts * sizes.functions);
-    cost.bytes += velocity_bytes(sizes, samples);
-    response += 7e-11 * std::pow(samples, 3);
-  }
   cost.seconds =
-      responses(scene.analysis) * response + modes + reduction + 3e-6 * sizes.contacts * sizes.output_points;
+      responses(scene.analysis) * response_seconds(sizes) + modes + reduction + 3e-6 * sizes.contacts * sizes.output_points;
   return cost;
 }
 
