@@ -226,7 +226,7 @@ solvers::PeriodicResponse first_point(const Scene& scene, const StructureModel& 
 Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                        const StartMotion& start) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
-  options.observer = of_load(observer, scene.analysis.subharmonic);
+  options.observer = observer;
   options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
   Sweep sweep;
   ComposedProblem composed = compose_problem(scene, model);
@@ -234,13 +234,12 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
     sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
     return sweep;
   }
-  composed.problem.set_frequency(options.from);
+  composed.problem.set_load_frequency(options.from);
   options.start.observer = options.observer;
   const auto first = first_point(scene, model, composed, options.start, start, sweep.start_distance);
   sweep.periods = scene.analysis.subharmonic;
   sweep.motion_periods = solvers::motion_periods(composed.problem, first);
   sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options, {first, {}, {}});
-  if (sweep.periods > 1) scale_frequencies(sweep.curve, sweep.periods);
   return sweep;
 }
 
@@ -279,13 +278,12 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
   const auto start = std::chrono::steady_clock::now();
   const ReferenceLoad load = reference_load(scene.forcing).value();
   solvers::FrequencySweepOptions options = sweep_options(scene);
-  options.observer = of_amplitude(observer, std::abs(load.amplitude), load.unit);
+  options.observer = observer;
   options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
   Sweep sweep;
   ComposedProblem composed = compose_problem(scene, model);
   sweep.curve = solvers::amplitude_sweep(composed.problem, composed.laws, options);
   sweep.amplitude_unit = load.unit;
-  scale_loads(sweep.curve, std::abs(load.amplitude));
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sweep;
 }

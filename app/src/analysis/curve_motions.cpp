@@ -19,17 +19,11 @@
 namespace wavebalance::app {
 namespace {
 
-/// Measures responses of the curve of `sweep`, whose frequencies and load scales are those of the problem
-/// while it lives.
+/// Measures responses of the curve of `sweep`.
 class MotionsOfCurve {
  public:
-  MotionsOfCurve(const Scene& scene, const StructureModel& model, Sweep& sweep)
-      : scene_(scene), model_(model), sweep_(sweep), composed_(compose_problem(scene, model)) {
-    scale(1.0 / unit_);
-  }
-  ~MotionsOfCurve() { scale(unit_); }
-  MotionsOfCurve(const MotionsOfCurve&) = delete;
-  MotionsOfCurve& operator=(const MotionsOfCurve&) = delete;
+  MotionsOfCurve(const Scene& scene, const StructureModel& model, const Sweep& sweep)
+      : scene_(scene), model_(model), sweep_(sweep), composed_(compose_problem(scene, model)) {}
 
   CurveMotion peak() {
     const auto& points = sweep_.curve.points;
@@ -46,40 +40,28 @@ class MotionsOfCurve {
 
   /// At a frequency or amplitude of the load.
   std::vector<CurveMotion> at_place(double place) {
-    const double value = place / unit_;
     std::vector<CurveMotion> motions;
-    for (const auto& one : solvers::responses_at(composed_.problem, composed_.laws, sweep_.curve, value)) {
-      hold(value);
+    for (const auto& one : solvers::responses_at(composed_.problem, composed_.laws, sweep_.curve, place)) {
+      hold(place);
       motions.push_back(measured(over_amplitude_ ? "amplitude" : "frequency", place, one));
     }
     return motions;
   }
 
  private:
-  void scale(double factor) {
-    if (factor == 1.0) return;
-    if (over_amplitude_) {
-      scale_loads(sweep_.curve, factor);
-      scale_loads(sweep_.stability, factor);
-    } else {
-      scale_frequencies(sweep_.curve, factor);
-      scale_frequencies(sweep_.stability, factor);
-    }
-  }
-
   /// Puts the problem at a frequency or load scale, since responses_at() leaves it at any.
   void hold(double value) {
     solvers::CondensedProblem& problem = composed_.problem;
     if (over_amplitude_)
       problem.set_load_scale(value);
-    else if (problem.frequency() != value)
-      problem.set_frequency(value);
+    else
+      problem.set_load_frequency(value);
   }
 
   CurveMotion measured(std::string at, double value, const Eigen::VectorXd& unknown) {
     const auto response =
         solvers::curve_response(composed_.problem, composed_.laws, sweep_.curve, value, unknown);
-    return measured(std::move(at), value * unit_, response);
+    return measured(std::move(at), value, response);
   }
 
   /// Of a response at which the problem is held.
@@ -103,10 +85,9 @@ class MotionsOfCurve {
 
   const Scene& scene_;
   const StructureModel& model_;
-  Sweep& sweep_;
+  const Sweep& sweep_;
   ComposedProblem composed_;
   const bool over_amplitude_ = sweep_.curve.parameter == solvers::SweepParameter::load_scale;
-  const double unit_ = sweep_unit(scene_);
 };
 
 void append_numbered(std::vector<CurveMotion>& all, std::vector<CurveMotion> motions,

@@ -212,7 +212,6 @@ namespace {
 /// Period of a branch over that of the curve, at most. Each doubling takes twice the functions and points.
 constexpr int largest_period = 4;
 
-/// The curve in frequencies of its problem; those of the branches become frequencies of the load.
 void add_branches(const Scene& scene, const StructureModel& model, const solvers::ContactLaws& laws,
                   const solvers::ContactDynamics& dynamics, const solvers::CurveStabilityOptions& stability,
                   const Observer& observer, Sweep& sweep) {
@@ -220,13 +219,9 @@ void add_branches(const Scene& scene, const StructureModel& model, const solvers
   options.sweep = sweep_options(scene);
   options.stability = stability;
   options.largest_period = largest_period;
-  options.observer = of_load(observer, sweep.periods);
+  options.observer = observer;
   const auto problems = [&](int periods) { return make_problem(with_longer_period(scene, periods), model); };
   sweep.branches = solvers::follow_branches(problems, laws, dynamics, sweep.curve, sweep.stability, options);
-  for (solvers::Branch& branch : sweep.branches) {
-    scale_frequencies(branch.curve, branch.periods * sweep.periods);
-    scale_frequencies(branch.stability, branch.periods * sweep.periods);
-  }
 }
 
 }  // namespace
@@ -238,27 +233,13 @@ void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep
   solvers::CurveStabilityOptions options;
   options.stability = options_for(composed.problem);
   options.output_points = scene.analysis.output_points;
-  options.observer = of_load(observer, sweep.periods);
-  const bool over_amplitude = sweep.curve.parameter == solvers::SweepParameter::load_scale;
-  const double unit = over_amplitude ? sweep_unit(scene) : 1.0;
-  if (over_amplitude) {
-    options.observer = of_amplitude(observer, unit, sweep.amplitude_unit);
-    scale_loads(sweep.curve, 1.0 / unit);
-  }
-  scale_frequencies(sweep.curve, 1.0 / sweep.periods);
+  options.observer = observer;
   sweep.stability =
       solvers::curve_stability(composed.problem, composed.laws, sweep.curve, *dynamics, options);
   if (scene.analysis.branches && !sweep.stability.cancelled) {
     options.observer = {};
     add_branches(scene, model, composed.laws, *dynamics, options, observer, sweep);
   }
-  if (over_amplitude) {
-    scale_loads(sweep.curve, unit);
-    scale_loads(sweep.stability, unit);
-    return;
-  }
-  scale_frequencies(sweep.curve, sweep.periods);
-  scale_frequencies(sweep.stability, sweep.periods);
 }
 
 void append_stability(Record& record, const Sweep& sweep) {

@@ -76,8 +76,9 @@ double CondensedProblem::load_power(Eigen::Index load) const {
 }
 
 void CondensedProblem::update_load() {
-  load_ = load_scale_ == 1.0 ? unit_loads_
-                             : Eigen::MatrixXcd(static_loads_ + load_scale_ * (unit_loads_ - static_loads_));
+  load_ = load_factor() == 1.0
+              ? unit_loads_
+              : Eigen::MatrixXcd(static_loads_ + load_factor() * (unit_loads_ - static_loads_));
   for (Eigen::Index l = 0; l < load_.cols(); ++l)
     if (load_power(l) > 0.0) load_.col(l) *= std::pow(frequency_, load_power(l));
 }
@@ -106,6 +107,24 @@ void CondensedProblem::set_load_scale(double scale) {
   load_scale_ = scale;
   update_load();
   if (frequency_ > 0.0) update_free_response();
+}
+
+void CondensedProblem::set_load_unit(double amplitude, std::string unit) {
+  if (!(amplitude > 0.0) || !std::isfinite(amplitude))
+    throw std::invalid_argument("CondensedProblem::set_load_unit: amplitude is " + std::to_string(amplitude) +
+                                "; it must be positive and finite");
+  full_load_ = amplitude;
+  load_unit_ = std::move(unit);
+  load_scale_ = amplitude;
+  update_load();
+  if (frequency_ > 0.0) update_free_response();
+}
+
+void CondensedProblem::set_periods(int periods) {
+  if (periods < 1)
+    throw std::invalid_argument("CondensedProblem::set_periods: periods is " + std::to_string(periods) +
+                                "; it must be at least 1");
+  periods_ = periods;
 }
 
 ImpedanceCoefficients CondensedProblem::factors(int k) const {
@@ -203,7 +222,7 @@ const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
 }
 
 Eigen::VectorXd CondensedProblem::contact_free_response_by_scale() {
-  Eigen::MatrixXcd varying = unit_loads_ - static_loads_;
+  Eigen::MatrixXcd varying = (unit_loads_ - static_loads_) / full_load_;
   for (Eigen::Index l = 0; l < varying.cols(); ++l) varying.col(l) *= std::pow(frequency_, load_power(l));
   Eigen::VectorXd samples;
   synthesize(combine_loads(condensed_.load_response, varying), samples);

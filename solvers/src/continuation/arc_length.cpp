@@ -14,12 +14,15 @@ namespace wavebalance::solvers {
 
 bool FrequencyParameter::contains(double p) const { return std::isfinite(p) && p > 0.0; }
 
-void FrequencyParameter::set(ContactSystem& system, double p) const { system.problem().set_frequency(p); }
+void FrequencyParameter::set(ContactSystem& system, double p) const {
+  system.problem().set_load_frequency(p);
+}
 
 void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
   system.problem().apply_slope(system.force(), slope);
   slope -= system.problem().contact_free_response_slope();
   system.add_velocity_slope(slope);
+  slope /= system.problem().periods();
 }
 
 bool LoadScaleParameter::contains(double p) const { return std::isfinite(p); }

@@ -45,7 +45,7 @@ Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
   amplitudes.conservativeResize(Eigen::NoChange, count);
   amplitudes.rightCols(count - before).setZero();
   amplitudes.leftCols(harmonics.size()) += structure.load.cast<Complex>() * harmonics.transpose();
-  if (problem.load_scale() != 1.0) amplitudes.rightCols(count - 1) *= problem.load_scale();
+  if (problem.load_factor() != 1.0) amplitudes.rightCols(count - 1) *= problem.load_factor();
   return amplitudes;
 }
 

@@ -43,7 +43,7 @@ CurvePoint solution_of(const FrequencySweep& curve, std::size_t index) {
 /// A curve over the load has one frequency.
 void set_frequency_of(const FrequencySweep& curve, CondensedProblem& problem) {
   if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
-    problem.set_frequency(curve.points.front().frequency);
+    problem.set_load_frequency(curve.points.front().frequency);
 }
 
 /// The scaled distances in which chords are perpendicular to planes.

@@ -99,7 +99,7 @@ class Sweep {
     if (parameter_ == SweepParameter::load_scale)
       problem_.set_load_scale(options_.from);
     else
-      problem_.set_frequency(options_.from);
+      problem_.set_load_frequency(options_.from);
     ForcedResponseOptions how = options_.start;
     if (!how.observer) how.observer = options_.observer;
     return forced_response(problem_, laws_, how);
@@ -121,7 +121,7 @@ class Sweep {
   CurvePoint first_point(const PeriodicResponse& first) const {
     CurvePoint point;
     point.displacement = first.unknown;
-    point.parameter = parameter_ == SweepParameter::frequency ? first.frequency : options_.from;
+    point.parameter = parameter_ == SweepParameter::frequency ? first.frequency * problem_.periods() : options_.from;
     const bool directed = start_ && start_->direction.size() > 0;
     point.displacement_tangent = directed ? start_->direction : Eigen::VectorXd::Zero(first.unknown.size());
     point.parameter_tangent = directed ? 0.0 : options_.to - options_.from;
@@ -258,10 +258,9 @@ class Sweep {
     turns_at_point_.push_back(result_.turning_points.size());
     const double done = (point.parameter - options_.from) / (options_.to - options_.from);
     const int count = static_cast<int>(result_.points.size());
-    const bool frequency = parameter_ == SweepParameter::frequency;
-    return goes_on(options_.observer,
-                   {frequency ? "frequency sweep" : "amplitude sweep", count, point.parameter,
-                    frequency ? "Hz" : "of the load", std::clamp(done, 0.0, 1.0)});
+    const char* phase = parameter_ == SweepParameter::frequency ? "frequency sweep" : "amplitude sweep";
+    return goes_on(options_.observer, {phase, count, point.parameter, unit_of(problem_, parameter_),
+                                       std::clamp(done, 0.0, 1.0)});
   }
 
   CondensedProblem& problem_;
@@ -287,6 +286,10 @@ const CurveParameter& curve_parameter(SweepParameter parameter) {
   return load_scale;
 }
 
+std::string_view unit_of(const CondensedProblem& problem, SweepParameter parameter) {
+  return parameter == SweepParameter::frequency ? std::string_view("Hz") : problem.load_unit();
+}
+
 SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point,
                        SweepParameter parameter) {
   CondensedProblem& problem = system.problem();
@@ -294,7 +297,7 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
   system.evaluate(point.displacement);
   const Eigen::MatrixXcd coefficients = problem.coefficients(system.held_force());
   SweepPoint measured;
-  measured.frequency = problem.frequency();
+  measured.frequency = problem.load_frequency();
   measured.load_scale = problem.load_scale();
   measured.max_displacement = -std::numeric_limits<double>::infinity();
   measured.min_displacement = std::numeric_limits<double>::infinity();

@@ -32,6 +32,7 @@ PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown) {
   response.status = SolveStatus::converged;
   response.residual = system.evaluate(unknown);
   response.frequency = problem.frequency();
+  response.load_scale = problem.load_scale();
   response.contact_force = system.force();
   response.held_force = system.held_force();
   response.coefficients = system.problem().coefficients(response.held_force);

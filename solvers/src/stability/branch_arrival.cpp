@@ -74,7 +74,7 @@ Arrival::Arrival(const Parent& parent, int special_point, int contacts, Scales s
     if (other.type != type) continue;
     CurvePoint point;
     point.displacement = repeated(other.unknown, contacts, times);
-    point.parameter = other.frequency / times;
+    point.parameter = other.frequency;
     ends_.emplace_back(int(i), std::move(point));
   }
 }

@@ -41,7 +41,11 @@ class Branches {
  public:
   Branches(const BranchProblems& problems, const ContactLaws& laws, const ContactDynamics& dynamics,
            const BranchOptions& options)
-      : problems_(problems), laws_(laws), dynamics_(dynamics), options_(options) {}
+      : problems_(problems),
+        laws_(laws),
+        dynamics_(dynamics),
+        options_(options),
+        load_periods_(problems(1).periods()) {}
 
   std::vector<Branch> run(const FrequencySweep& main, const CurveStability& stability) {
     branches_.reserve(std::size_t(options_.max_branches));  // parents point at them
@@ -83,7 +87,7 @@ class Branches {
     branch.parent = parent.index;
     branch.special_point = special_point;
     branch.periods = times * parent.periods;
-    CondensedProblem problem = problems_(branch.periods);
+    CondensedProblem problem = problem_of(branch.periods);
     if (problem.samples() != times * from.unknown.size())
       throw std::invalid_argument("follow_branches: the problem of " + std::to_string(branch.periods) +
                                   " periods has " + std::to_string(problem.samples()) +
@@ -97,6 +101,12 @@ class Branches {
     return branch;
   }
 
+  CondensedProblem problem_of(int periods) const {
+    CondensedProblem problem = problems_(periods);
+    problem.set_periods(periods * load_periods_);
+    return problem;
+  }
+
   double scale_of(const SpecialPoint& from) const {
     const double given = options_.sweep.arc_length.displacement_scale, gap = laws_.largest_gap();
     return given > 0.0 ? given : gap > 0.0 ? gap : std::max(from.max_abs_displacement, 1e-300);
@@ -104,31 +114,19 @@ class Branches {
 
   FrequencySweepOptions sweep_options(int periods) const {
     FrequencySweepOptions sweep = options_.sweep;
-    sweep.from /= periods;
-    sweep.to /= periods;
     auto& scale = sweep.arc_length.parameter_scale;
-    scale = scale == 0.0 ? std::abs(sweep.to - sweep.from) / 20.0 : scale / periods;
-    sweep.smallest_return /= periods;
+    if (scale == 0.0) scale = std::abs(sweep.to - sweep.from) / 20.0;
     sweep.output_points *= periods;
     sweep.keep_unknowns = true;
-    sweep.observer = observer(periods);
+    sweep.observer = options_.observer;
     return sweep;
-  }
-
-  // Of the load's frequency in place of that of a problem of several periods.
-  Observer observer(int periods) const {
-    if (!options_.observer) return {};
-    return [this, periods](Progress progress) {
-      progress.value *= periods;
-      return options_.observer(progress);
-    };
   }
 
   // The direction of the branch in the unknown of a problem with this pair; empty where the perturbation was
   // not found.
   Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times, const TimePair& pair) {
-    CondensedProblem before = problems_(parent.periods);
-    before.set_frequency(from.frequency);
+    CondensedProblem before = problem_of(parent.periods);
+    before.set_load_frequency(from.frequency);
     before.set_regularization(parent.curve->regularization);
     ContactSystem system(before, laws_);
     FloquetOptions how;
@@ -160,13 +158,13 @@ class Branches {
     ArcLength path(system, frequency, lengths);
     CurvePoint origin, beyond, first;
     origin.displacement = repeated(from.unknown, problem.contacts(), times);
-    origin.parameter = beyond.parameter = from.frequency / times;
+    origin.parameter = beyond.parameter = from.frequency;
     const double rms = origin.displacement.norm() / std::sqrt(double(origin.displacement.size()));
     for (const double size : {0.01, 0.03, 0.1}) {
       beyond.displacement = origin.displacement + 2.0 * size * rms * way;
       if (!path.between(origin, beyond, 0.5, first)) continue;
       if (times == 1 && lies_on(*parent.curve, origin, first, scales)) continue;
-      problem.set_frequency(first.parameter);
+      problem.set_load_frequency(first.parameter);
       start.response = response_at(system, first.displacement);
       start.direction = way;
       return true;
@@ -191,7 +189,7 @@ class Branches {
       if (branch.end_point < 0) branch.end = BranchEnd::parent_curve;
     }
     CurveStabilityOptions stability = options_.stability;
-    stability.observer = observer(branch.periods);
+    stability.observer = options_.observer;
     stability.output_points *= branch.periods;
     branch.stability = curve_stability(problem, laws_, branch.curve, dynamics_, stability);
     if (branch.stability.cancelled) branch.end = BranchEnd::cancelled;
@@ -232,7 +230,7 @@ class Branches {
       const int times = branch.periods / parent.periods;
       CurvePoint point;
       point.displacement = repeated(from.unknown, problem.contacts(), times);
-      point.parameter = from.frequency / times;
+      point.parameter = from.frequency;
       return sweep_point(system, evaluator, point);
     };
     auto& points = branch.curve.points;
@@ -248,6 +246,7 @@ class Branches {
   const ContactLaws& laws_;
   const ContactDynamics& dynamics_;
   const BranchOptions& options_;
+  int load_periods_;  // in a period of the main curve
   std::vector<Branch> branches_;
   bool cancelled_ = false;
 };

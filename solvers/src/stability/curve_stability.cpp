@@ -88,7 +88,7 @@ class Tracker {
         path_(system_, curve_parameter(curve.parameter), scales()),
         evaluator_(problem.pair().trial(), options.output_points, 0) {
     if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
-      problem.set_frequency(curve.points.front().frequency);
+      problem.set_load_frequency(curve.points.front().frequency);
   }
 
   ~Tracker() { problem_.set_regularization({}); }
@@ -118,8 +118,8 @@ class Tracker {
     const double done =
         static_cast<double>(result_.points.size()) / static_cast<double>(curve_.points.size());
     const int count = static_cast<int>(result_.points.size());
-    const char* unit = curve_.parameter == SweepParameter::frequency ? "Hz" : "of the load";
-    result_.cancelled = !goes_on(options_.observer, {"stability", count, value, unit, done});
+    result_.cancelled = !goes_on(options_.observer,
+                                 {"stability", count, value, unit_of(problem_, curve_.parameter), done});
     return !result_.cancelled;
   }
 
@@ -240,7 +240,7 @@ class Tracker {
     point.unknown = a.point.displacement;
     point.unknown_parameter = a.point.parameter;
     const PeriodicResponse at = response(a.point);
-    if (curve_.parameter == SweepParameter::load_scale) point.frequency = at.frequency;
+    if (curve_.parameter == SweepParameter::load_scale) point.frequency = problem_.load_frequency();
     point.multiplier = type == SpecialPointType::grazing ? Complex(not_a_number, not_a_number)
                                                          : critical_multiplier(type, at);
     point.max_displacement = -std::numeric_limits<double>::infinity();

@@ -87,8 +87,9 @@ class Search {
     for (const double size : {0.03, 0.1, -0.03, -0.1}) {
       const auto start = beside(response, size * rms * direction, rms);
       if (!start || start->response.frequency == wanted) continue;
-      const FrequencySweep curve =
-          frequency_sweep(problem_, laws_, towards(start->response.frequency, wanted, rms), *start);
+      const int load = problem_.periods();
+      const FrequencySweep curve = frequency_sweep(
+          problem_, laws_, towards(load * start->response.frequency, load * wanted, rms), *start);
       problem_.set_regularization(response.regularization);
       if (curve.status != SweepStatus::reached_end) continue;
       problem_.set_frequency(wanted);
@@ -110,14 +111,14 @@ class Search {
     const FrequencyParameter frequency;
     ArcLengthOptions lengths;
     lengths.displacement_scale = rms;
-    lengths.parameter_scale = 0.1 * response.frequency;
+    lengths.parameter_scale = 0.1 * response.frequency * problem_.periods();
     lengths.max_corrections = 32;
     CurvePoint here, beyond, first;
     here.displacement = response.unknown;
     beyond.displacement = response.unknown + 2.0 * change;
-    here.parameter = beyond.parameter = response.frequency;
+    here.parameter = beyond.parameter = response.frequency * problem_.periods();
     if (!ArcLength(system, frequency, lengths).between(here, beyond, 0.5, first)) return std::nullopt;
-    problem_.set_frequency(first.parameter);
+    problem_.set_load_frequency(first.parameter);
     return SweepStart{response_at(system, first.displacement), change, {}};
   }
 

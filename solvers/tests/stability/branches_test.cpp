@@ -61,7 +61,7 @@ std::vector<double> frequencies(const CurveStability& stability, SpecialPointTyp
 
 /// The response of the problem of a branch at one of its points.
 PeriodicResponse response_of(CondensedProblem& problem, const ContactLaws& laws, const SweepPoint& point) {
-  problem.set_frequency(point.frequency);
+  problem.set_load_frequency(point.frequency);
   ContactSystem system(problem, laws);
   return response_at(system, point.unknown);
 }
@@ -71,6 +71,7 @@ PeriodicResponse response_of(CondensedProblem& problem, const ContactLaws& laws,
 void expect_motions_of_the_period(const Branch& branch, const BranchProblems& problems,
                                   const ContactLaws& laws, double largest_residual = 1e-9) {
   CondensedProblem problem = problems(branch.periods);
+  problem.set_periods(branch.periods);
   for (std::size_t i = 1; i + 1 < branch.curve.points.size(); ++i) {
     const PeriodicResponse response = response_of(problem, laws, branch.curve.points[i]);
     EXPECT_LE(response.residual, largest_residual);
@@ -96,13 +97,13 @@ TEST(Branches, OfAnOscillatorLeaveAtOnePeriodDoublingAndArriveAtTheOther) {
   EXPECT_EQ(at(doubled.end_point).type, SpecialPointType::period_doubling);
   EXPECT_NEAR(two_pi * at(doubled.special_point).frequency, 2.206199894019, 1e-4);
   EXPECT_NEAR(two_pi * at(doubled.end_point).frequency, 2.973736781998, 1e-4);
-  EXPECT_EQ(doubled.curve.points.front().frequency, 0.5 * at(doubled.special_point).frequency);
-  EXPECT_EQ(doubled.curve.points.back().frequency, 0.5 * at(doubled.end_point).frequency);
-  const auto further = frequencies(doubled.stability, SpecialPointType::period_doubling, 2.0 * two_pi);
+  EXPECT_EQ(doubled.curve.points.front().frequency, at(doubled.special_point).frequency);
+  EXPECT_EQ(doubled.curve.points.back().frequency, at(doubled.end_point).frequency);
+  const auto further = frequencies(doubled.stability, SpecialPointType::period_doubling, two_pi);
   ASSERT_EQ(further.size(), 2u);
   EXPECT_NEAR(further[0], 2.36300, 2e-4);
   EXPECT_NEAR(further[1], 2.44572, 2e-4);
-  const auto folds = frequencies(doubled.stability, SpecialPointType::fold, 2.0 * two_pi);
+  const auto folds = frequencies(doubled.stability, SpecialPointType::fold, two_pi);
   ASSERT_EQ(folds.size(), 2u);
   EXPECT_NEAR(folds[0], 3.02430, 2e-4);
   EXPECT_NEAR(folds[1], 2.92686, 2e-4);
@@ -125,7 +126,7 @@ TEST(Branches, OfAnOscillatorAreStableButWhereTheyDoubleAndBetweenTheirFolds) {
   const auto peak = std::max_element(branch.curve.points.begin(), branch.curve.points.end(),
                                      [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
   for (auto point = branch.curve.points.begin(); point != peak; ++point) {
-    const double omega = 2.0 * two_pi * point->frequency;
+    const double omega = two_pi * point->frequency;
     if (std::abs(omega - 2.36300) < 1e-3 || std::abs(omega - 2.44572) < 1e-3 || omega > 3.024) continue;
     const bool doubled = omega > 2.36300 && omega < 2.44572;
     EXPECT_EQ(branch.stability.points[std::size_t(point - branch.curve.points.begin())].unstable,
@@ -144,12 +145,12 @@ TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
   ASSERT_EQ(traced.branches.size(), 1u);
   const Branch& branch = traced.branches[0];
   EXPECT_EQ(branch.end, BranchEnd::special_point);
-  EXPECT_NEAR(2.0 * branch.curve.points.front().frequency, 2840.476702, 0.5);
-  EXPECT_NEAR(2.0 * branch.curve.points.back().frequency, 2988.746353, 0.5);
+  EXPECT_NEAR(branch.curve.points.front().frequency, 2840.476702, 0.5);
+  EXPECT_NEAR(branch.curve.points.back().frequency, 2988.746353, 0.5);
   for (const PointStability& point : branch.stability.points) EXPECT_EQ(point.unstable, 1);
   for (const SweepPoint& point : branch.curve.points) {
-    EXPECT_GT(2.0 * point.frequency, 2840.0);
-    EXPECT_LT(2.0 * point.frequency, 2991.0);
+    EXPECT_GT(point.frequency, 2840.0);
+    EXPECT_LT(point.frequency, 2991.0);
   }
   expect_motions_of_the_period(branch, problems, law);
 }
@@ -164,7 +165,7 @@ TEST(Branches, OfTheBarHaveAFoldWhereTheyTurn) {
   const TracedBranches traced = trace_branches(problems, bar, law, 2550.0, 3300.0, 2);
   const auto from_grazing =
       std::find_if(traced.branches.begin(), traced.branches.end(), [](const Branch& branch) {
-        return std::abs(2.0 * branch.curve.points.front().frequency - 2734.17) < 0.5;
+        return std::abs(branch.curve.points.front().frequency - 2734.17) < 0.5;
       });
   ASSERT_NE(from_grazing, traced.branches.end());
   const auto& points = from_grazing->curve.points;

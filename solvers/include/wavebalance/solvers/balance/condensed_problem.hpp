@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "wavebalance/solvers/structure/condensation.hpp"
@@ -75,10 +76,25 @@ class CondensedProblem {
   void set_frequency(double frequency_hz);
   double frequency() const { return frequency_; }
 
-  /// The factor on every harmonic of load and forces but the static one, 1 at first. Finite, or
-  /// std::invalid_argument. No condensation: O(C (L M + N log N)).
+  /// Says that a period of the problem is `periods` of the load, 1 until it is said: curves are told in
+  /// frequencies of the load. The harmonics of the load stay as they are. Throws std::invalid_argument below
+  /// 1.
+  void set_periods(int periods);
+  int periods() const { return periods_; }
+  /// Hz, periods() times frequency().
+  double load_frequency() const { return periods_ * frequency_; }
+  void set_load_frequency(double frequency_hz) { set_frequency(frequency_hz / periods_); }
+
+  /// The size of the load without its static part, 1 at first, where it is that of structure and harmonics.
+  /// Finite, or std::invalid_argument. No condensation: O(C (L M + N log N)).
   void set_load_scale(double scale);
   double load_scale() const { return load_scale_; }
+  /// Tells it in a unit, in which the load of structure and harmonics has the size `amplitude`, and sets it
+  /// to that. Throws std::invalid_argument for an amplitude that is not positive and finite.
+  void set_load_unit(double amplitude, std::string unit);
+  const std::string& load_unit() const { return load_unit_; }
+  /// The factor on every harmonic of load and forces but the static one.
+  double load_factor() const { return load_scale_ / full_load_; }
 
   /// u0, m, samples() values, and its derivatives by frequency, m/Hz, and by load_scale(), m.
   const Eigen::VectorXd& contact_free_response() const { return free_response_; }
@@ -182,7 +198,10 @@ class CondensedProblem {
   Condensation condensation_;
   Eigen::MatrixXcd unit_loads_, static_loads_;  // projected at 1 Hz, over translates (rows): all, and static
   Eigen::MatrixXcd load_;                       // those that act at frequency_
-  double frequency_ = 0.0, load_scale_ = 1.0;
+  int periods_ = 1;
+  double frequency_ = 0.0;
+  double load_scale_ = 1.0, full_load_ = 1.0;
+  std::string load_unit_ = "of the load";
   double condensed_at_ = 0.0;                // Hz, at which all below is current; 0: none
   StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
   CondensedSpectrum condensed_;              // load responses to unit loads

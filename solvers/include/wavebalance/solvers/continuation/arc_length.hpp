@@ -21,7 +21,7 @@ class CurveParameter {
   virtual void slope(ContactSystem& system, Eigen::VectorXd& slope) const = 0;
 };
 
-/// p = frequency in Hz.
+/// p = CondensedProblem::load_frequency(), Hz.
 class FrequencyParameter final : public CurveParameter {
  public:
   bool contains(double p) const override;

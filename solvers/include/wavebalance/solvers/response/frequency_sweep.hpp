@@ -29,7 +29,7 @@ std::string_view to_string(SweepStatus status);
 /// A point of a response curve. Each value is the largest among the contacts, but min_displacement, which is
 /// the least.
 struct SweepPoint {
-  double frequency = 0.0;             ///< Hz
+  double frequency = 0.0;             ///< Hz, CondensedProblem::load_frequency()
   double max_displacement = 0.0;      ///< m, over output_points of the period
   double rms_displacement = 0.0;      ///< m
   double max_abs_displacement = 0.0;  ///< m
@@ -47,6 +47,9 @@ enum class SweepParameter { frequency, load_scale };
 
 /// The arc length's parameter of that kind.
 const CurveParameter& curve_parameter(SweepParameter parameter);
+
+/// The unit in which a curve of the problem tells it: Hz, or CondensedProblem::load_unit().
+std::string_view unit_of(const CondensedProblem& problem, SweepParameter parameter);
 
 /// The frequency (Hz) or load scale of a point or turning point, whichever varies.
 template <class Point>
@@ -71,7 +74,7 @@ struct TurningPoint {
 
 /// Where a curve starts and ends, and how it is followed.
 struct FrequencySweepOptions {
-  double from = 0.0;         ///< Hz
+  double from = 0.0;         ///< Hz, of the load
   double to = 0.0;           ///< Hz, either side of `from`
   int output_points = 1024;  ///< times per period at which the maximum and the rms are taken
   int max_points = 20000;

@@ -28,6 +28,7 @@ std::string_view to_string(Strategy strategy);
 struct PeriodicResponse {
   SolveStatus status = SolveStatus::iteration_limit;
   double frequency = 0.0;              ///< Hz
+  double load_scale = 1.0;             ///< CondensedProblem::load_scale()
   double residual = 0.0;               ///< ||R|| / (||u0|| + ||K f||)
   int iterations = 0;                  ///< Newton iterations of all attempts
   Strategy strategy = Strategy::none;  ///< what found it

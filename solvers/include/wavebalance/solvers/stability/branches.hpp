@@ -31,7 +31,7 @@ struct Branch {
   int periods = 1;        ///< period of its motions over that of the main curve's problem
   BranchEnd end = BranchEnd::no_start;
   int end_point = -1;        ///< index of the special point of the parent at which it arrived; -1 for none
-  FrequencySweep curve;      ///< of its own problem, whose frequency is that of the main curve over `periods`
+  FrequencySweep curve;      ///< of its own problem; frequencies are those of the load, as of the main curve
   CurveStability stability;  ///< likewise
 };
 
