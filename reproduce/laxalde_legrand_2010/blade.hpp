@@ -4,6 +4,7 @@
 
 #include "blade_motion.hpp"
 #include "ll10.hpp"
+#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 
 /// What the figures of Laxalde & Legrand (2010), section 5.2, share.
 namespace wavebalance::ll10 {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace wavebalance::ll10 {
 namespace {
@@ -40,6 +41,17 @@ LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics)
 contact::MultiplierUpdate lagrangian_strategy(const LagrangianMode& mode) {
   return contact::MultiplierUpdate(
       std::vector<double>(static_cast<std::size_t>(mode.constraints()), first_penalty), {first_penalty});
+}
+
+std::vector<LagrangianPoint> published_branch(const app::ModeStudy& study) {
+  const auto& analysis = study.scene().analysis;
+  LagrangianModeOptions options = lagrangian_options(study.scene(), analysis.harmonics);
+  options.formulation = solvers::ModeFormulation::published;
+  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
+  const LagrangianMode mode(study.mode().model(), options);
+  const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(analysis.points, 1.0, analysis.largest_energy);
+  return mode.branch(std::span(energies.data(), static_cast<std::size_t>(energies.size())),
+                     lagrangian_strategy(mode), mode.linear_start(1.0));
 }
 
 Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,

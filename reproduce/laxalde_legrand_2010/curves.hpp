@@ -14,6 +14,11 @@ inline constexpr double first_penalty = 300.0;
 solvers::LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics);
 contact::MultiplierUpdate lagrangian_strategy(const solvers::LagrangianMode& mode);
 
+/// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the scene's
+/// largest energy in analysis.points points, uniform. Ends at the first that is not accepted, which is kept.
+/// O(points (n N)^3).
+std::vector<solvers::LagrangianPoint> published_branch(const app::ModeStudy& study);
+
 /// Largest relative difference of omega between the condensed solver and the consistent augmented Lagrangian
 /// (Algorithm 1) started from it, over those of `energies` that both reach.
 struct Agreement {

@@ -209,9 +209,8 @@ void notes(report::Artefact& artefact, const RodCurves& curves) {
 void fig03(report::Artefact& artefact) {
   const app::ModeStudy study(artefact.scene("rod.toml")), remedy(artefact.scene("rod_half_lumped.toml"));
   const auto published_scene = artefact.scene("rod_published.toml");
-  const app::ModeStudy published(published_scene);
   const RodCurves curves{study, study.backbone(), remedy, remedy.backbone(),
-                         published.published_branch(published_scene.analysis.largest_energy)};
+                         published_branch(app::ModeStudy(published_scene))};
   for (const auto* backbone : {&curves.backbone, &curves.remedy_backbone})
     if (!backbone->converged()) throw report::NotConverged("backbone: " + backbone->status());
   const auto table = backbones_table(curves);

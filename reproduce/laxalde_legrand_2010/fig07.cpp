@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "blade.hpp"
+#include "curves.hpp"
 #include "figures.hpp"
 #include "wavebalance/report/rule.hpp"
 
@@ -204,7 +205,7 @@ void fig07(report::Artefact& artefact) {
   const auto curve = study.backbone();
   if (!curve.converged()) throw report::NotConverged("backbone: " + curve.status());
   const auto scene = artefact.scene("blade_published.toml");
-  const auto published = app::ModeStudy(scene, study.model()).published_branch(scene.analysis.largest_energy);
+  const auto published = published_branch(app::ModeStudy(scene, study.model()));
   const auto second = second_solutions(study, curve, {std::begin(energies), std::end(energies)});
   const auto table = blade_backbones(study, curve, published);
   const auto measures = blade_measures(study, curve);

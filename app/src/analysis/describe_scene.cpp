@@ -230,11 +230,9 @@ std::string mode_lines(const Scene& scene) {
         reduced_size(scene) * functions);
   }
   return fmt::format(
-      "mode       {}, {}{}\ntime       Fourier series, {} harmonics{}\n"
+      "mode       {}, {}\ntime       Fourier series, {} harmonics{}\n"
       "size       {} contact forces after condensation on the contact ({} unknowns before)\n",
-      analysis.mode, range,
-      analysis.formulation == ModeFormulation::published ? ", equations as published" : "",
-      analysis.harmonics, analysis.cosine_only ? " (cosines only)" : "",
+      analysis.mode, range, analysis.harmonics, analysis.cosine_only ? " (cosines only)" : "",
       std::int64_t{contact_count(scene)} * analysis.samples,
       std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1));
 }

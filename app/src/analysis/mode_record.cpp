@@ -194,81 +194,8 @@ Record motion_record(const ModeStudy& study) {
   return record;
 }
 
-/// Largest residuals and number of iterations over a branch of the printed equations.
-struct BranchMeasures {
-  double gradient = 0.0;  ///< largest gradient at the end of a Newton iteration
-  double equation = 0.0;  ///< largest residual of the equation of motion of an accepted point
-  int iterations = 0;
-};
-
-BranchMeasures measured(const std::vector<solvers::LagrangianPoint>& branch) {
-  BranchMeasures measures;
-  for (const auto& point : branch) {
-    measures.iterations += point.newton_iterations();
-    if (!point.history.empty())
-      measures.gradient = std::max(measures.gradient, point.history.back().gradient);
-    if (point.accepted()) measures.equation = std::max(measures.equation, point.equation_residual);
-  }
-  return measures;
-}
-
-void append_published(Summary& summary, const ModeStudy& study,
-                      const std::vector<solvers::LagrangianPoint>& branch, double equation) {
-  const solvers::LagrangianPoint& last = branch.back();
-  append_discretisation(summary, study);
-  summary.emplace_back("formulation", name_of(study.scene().analysis.formulation));
-  summary.emplace_back("points", static_cast<std::int64_t>(branch.size()));
-  summary.emplace_back("equation_of_motion_residual", equation);
-  summary.emplace_back("energy_ratio", last.accepted() ? last.energy_ratio : missing);
-  summary.emplace_back("frequency_ratio",
-                       last.accepted() ? last.omega / study.mode().linear_omega() : missing);
-}
-
-void draw_branch(Record& record, const ModeStudy& study,
-                 const std::vector<solvers::LagrangianPoint>& branch) {
-  record.backbone = backbone_table(study, branch);
-  record.figure = backbone_figure(study.scene(), record.backbone);
-  record.figure.title += record.converged ? ", as published" : " (INCOMPLETE: " + plain(record.status) + ")";
-}
-
-/// The curve of the printed equations, or its last motion.
-Record published_record(const ModeStudy& study) {
-  const Scene& scene = study.scene();
-  const double energy = scene.analysis.energy_ratio;
-  const auto start = std::chrono::steady_clock::now();
-  const auto branch = study.published_branch(energy > 1.0 ? energy : scene.analysis.largest_energy);
-  Response response;
-  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const solvers::LagrangianPoint& last = branch.back();
-  response.contacts = study.contact_motion(last, scene.analysis.output_points);
-  response.contact = leading_contact(response.contacts, study.model().gaps);
-  const BranchMeasures measures = measured(branch);
-  Record record;
-  record.converged = response.converged = last.accepted();
-  record.status = last.accepted() ? "converged"
-                                  : std::string(to_string(last.status)) + " at energy ratio " +
-                                        cell_text(last.prescribed_ratio);
-  const int unknowns = study.mode().model().modes() * (2 * scene.analysis.harmonics + 1);
-  record.summary = solution_entries(record.converged, record.status, measures.gradient, measures.iterations,
-                                    unknowns, response.wall_seconds);
-  append_motion(record.summary, last.accepted() ? response.leading() : solvers::Motion{});
-  append_published(record.summary, study, branch, measures.equation);
-  if (energy == 0.0) {
-    draw_branch(record, study, branch);
-  } else if (last.accepted()) {
-    record.response = response_table(response.leading());
-    record.figure =
-        motion_figure(scene, response, std::round(last.omega / (0.02 * std::numbers::pi)) / 100.0);
-  }
-  return record;
-}
-
 Record record_of(const ModeStudy& study, const Observer& observer) {
-  const Analysis& analysis = study.scene().analysis;
-  const double energy = analysis.energy_ratio;
-  const bool with_contact = energy == 0.0 || energy > 1.0;  // below it there is but the linear mode
-  if (analysis.formulation == ModeFormulation::published && with_contact) return published_record(study);
-  return energy > 0.0 ? motion_record(study) : curve_record(study, observer);
+  return study.scene().analysis.energy_ratio > 0.0 ? motion_record(study) : curve_record(study, observer);
 }
 
 }  // namespace

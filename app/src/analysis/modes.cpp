@@ -10,7 +10,6 @@
 
 #include "analysis/summary_parts.hpp"
 #include "files/number_text.hpp"
-#include "wavebalance/contact/multipliers.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -18,8 +17,7 @@ namespace {
 using solvers::ModePoint;
 using solvers::ModeStatus;
 
-constexpr double first_penalty = 300.0;  // in units omega_1 = gap = 1
-constexpr int linear_points = 6;         // points of the branch below contact, energies 0, 0.2, ..
+constexpr int linear_points = 6;  // points of the branch below contact, energies 0, 0.2, ..
 
 bool is_solution(const ModePoint& point) {
   return point.accepted() || point.status == ModeStatus::internal_resonance;
@@ -148,9 +146,8 @@ solvers::Motion synthesised_motion(const Eigen::MatrixXcd& amplitudes, double om
   return {synthesis(amplitudes, points), synthesis(rate(amplitudes, omega), points), {}};
 }
 
-/// That of the contacts in a ModePoint or a LagrangianPoint.
-template <class Point>
-solvers::Motion motion_of_contacts(const solvers::ModalModel& model, const Point& point, int points) {
+/// That of the contacts.
+solvers::Motion motion_of_contacts(const solvers::ModalModel& model, const ModePoint& point, int points) {
   solvers::Motion motion = synthesised_motion(model.contact_shapes * point.amplitudes, point.omega, points);
   motion.force = solvers::nearest_samples(point.force, points);
   return motion;
@@ -245,31 +242,9 @@ solvers::Motion ModeStudy::contact_motion(const ModePoint& point, int points) co
   return motion;
 }
 
-solvers::Motion ModeStudy::contact_motion(const solvers::LagrangianPoint& point, int points) const {
-  if (!point.accepted()) return {};
-  return motion_of_contacts(mode_.model(), point, points);
-}
-
 solvers::Motion ModeStudy::structure_motion(const ModePoint& point, int points) const {
   if (!has_motion(point)) return {};
   return synthesised_motion(physical(modes_, point), point.omega, points);
-}
-
-std::vector<solvers::LagrangianPoint> ModeStudy::published_branch(double largest) const {
-  const Analysis& analysis = scene_.analysis;
-  solvers::LagrangianModeOptions options;
-  options.mode = analysis.mode;
-  options.harmonics = analysis.harmonics;
-  options.samples = analysis.samples;
-  options.cosine_only = analysis.cosine_only;
-  options.formulation = solvers::ModeFormulation::published;
-  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
-  const solvers::LagrangianMode mode(mode_.model(), options);
-  const contact::MultiplierUpdate strategy(
-      std::vector<double>(static_cast<std::size_t>(mode.constraints()), first_penalty), {first_penalty});
-  const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(analysis.points, 1.0, largest);
-  return mode.branch(std::span(energies.data(), static_cast<std::size_t>(energies.size())), strategy,
-                     mode.linear_start(1.0));
 }
 
 double ModeStudy::residual(const ModePoint& point) const {
@@ -300,7 +275,7 @@ std::string resonance_name(const solvers::InternalResonance& resonance) {
 
 namespace {
 
-Table empty_backbone(bool elastic = false) {
+Table empty_table(bool elastic) {
   std::vector<std::string> columns{
       "energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio", "contact_fraction",
       "status",       "residual",     "virial_residual", "max_penetration_over_gap", "min_contact_force_N",
@@ -326,34 +301,9 @@ void append_amplitudes(std::vector<Cell>& row, const solvers::Motion& contacts) 
 
 }  // namespace
 
-Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch) {
-  Table table = empty_backbone();
-  const double linear = study.mode().linear_omega();
-  table.append_row({0.0, study.linear_frequency(), 1.0, 1.0, 0.0, "linear", missing, 0.0, -1.0, 0.0, "none",
-                    0.0, 0.0, 0.0, 0.0, 0.0});
-  for (const auto& point : branch) {
-    const auto value = [&](double number) { return point.accepted() ? number : missing; };
-    std::vector<Cell> row{point.prescribed_ratio,
-                          value(point.omega / (2.0 * std::numbers::pi)),
-                          value(point.omega / linear),
-                          value(std::sqrt(point.rayleigh) / linear),
-                          missing,
-                          std::string(to_string(point.status)),
-                          value(point.equation_residual),
-                          value(point.virial_residual),
-                          value(point.max_penetration),
-                          value(point.min_force),
-                          "none",
-                          missing};
-    append_amplitudes(row, study.contact_motion(point, study.scene().analysis.output_points));
-    table.append_row(std::move(row));
-  }
-  return table;
-}
-
 Table backbone_table(const ModeStudy& study, const Backbone& curve) {
   const bool elastic = study.elastic_mode().has_value();
-  Table table = empty_backbone(elastic);
+  Table table = empty_table(elastic);
   const double linear = study.mode().linear_omega();
   const auto add = [&](const ModePoint& point, double residual) {
     const bool found = is_solution(point);

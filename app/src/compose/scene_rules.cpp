@@ -219,11 +219,6 @@ void check_mode_pair(const Document& document, const Scene& scene) {
 
 void check_elastic_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  if (analysis.formulation == ModeFormulation::published)
-    fail_rule(
-        document, {"analysis.formulation"},
-        "expected \"consistent\"; the published equations are those of contact.law = \"rigid\" at contacts with "
-        "mass");
   if (scene.time.trial.empty() && analysis.samples <= 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));

@@ -73,9 +73,6 @@ template <>
 inline constexpr std::array<NamedValue<NyquistCoefficient>, 2> enum_names<NyquistCoefficient>{
     {{NyquistCoefficient::drop, "drop"}, {NyquistCoefficient::keep, "keep"}}};
 template <>
-inline constexpr std::array<NamedValue<ModeFormulation>, 2> enum_names<ModeFormulation>{
-    {{ModeFormulation::consistent, "consistent"}, {ModeFormulation::published, "published"}}};
-template <>
 inline constexpr std::array<NamedValue<LoadKind>, 3> enum_names<LoadKind>{
     {{LoadKind::force, "force"},
      {LoadKind::base_displacement, "base_displacement"},

@@ -16,7 +16,6 @@ std::string name_of(ObstacleSide value) { return enum_name(value); }
 std::string name_of(Formulation value) { return enum_name(value); }
 std::string name_of(InnerProducts value) { return enum_name(value); }
 std::string name_of(NyquistCoefficient value) { return enum_name(value); }
-std::string name_of(ModeFormulation value) { return enum_name(value); }
 std::string name_of(AnalysisType value) { return enum_name(value); }
 std::string name_of(LoadKind value) { return enum_name(value); }
 

@@ -62,6 +62,12 @@ std::string unknown_section_text(const std::string& section) {
   return "unknown section" + unknown_text(section, known_names(section), shown);
 }
 
+/// What records of earlier versions say of their modes, and what holds for all modes now.
+bool is_former(const DocumentEntry& entry) {
+  const auto* text = std::get_if<std::string>(&entry.value);
+  return entry.full_name() == "analysis.formulation" && text != nullptr && *text == "consistent";
+}
+
 [[noreturn]] void fail_unknown(const Document& document, const DocumentEntry& entry) {
   if (entry.section.empty() && is_section(entry.key))
     fail_at(document, entry, "expected a section [" + entry.key + "] of keys");
@@ -70,6 +76,11 @@ std::string unknown_section_text(const std::string& section) {
     fail_at(document, entry, "expected tables [[contact.pairs]], one for each direction of contact");
   if (entry.full_name() == "forcing.terms")
     fail_at(document, entry, "expected tables [[forcing.terms]], one for each further load");
+  if (entry.full_name() == "analysis.formulation")
+    fail_at(
+        document, entry,
+        "a mode has consistent equations, and the key is left out; those that Laxalde & Legrand published are "
+        "solved in reproduce/laxalde_legrand_2010");
   if (is_term_section(entry.section) && !document.has_section(entry.section))
     fail_at(document, entry,
             "the scene has " + std::to_string(count_terms(document)) + " [[forcing.terms]], counted from 1");
@@ -88,6 +99,7 @@ void reject_unknown(const Document& document) {
       throw SceneError({document.name, section.line, "", "[" + section.name + "]", "",
                         unknown_section_text(section.name)});
   const auto is_known = [&](const DocumentEntry& entry) {
+    if (is_former(entry)) return true;
     if (!is_table_section(entry.section)) return find_scene_key(entry.full_name()) != nullptr;
     const std::vector<std::string> names = known_names(entry.section);
     return document.has_section(entry.section) &&

@@ -161,31 +161,19 @@ TEST(Analyse, EnergyBelowContactIsTheLinearMode) {
   EXPECT_EQ(value_of<double>(record.summary, "frequency_ratio"), 1.0);
 }
 
-TEST(Analyse, PublishedEquationsRunWithTwoHarmonicsAndGiveNoMotion) {
-  const Record record = analyse(rod({"analysis.formulation=published", "analysis.harmonics=2",
-                                     "analysis.samples=20", "analysis.points=37"}));
-  EXPECT_TRUE(record.converged) << record.status;
-  EXPECT_LT(value_of<double>(record.summary, "residual"), 1e-9);
-  EXPECT_GT(value_of<double>(record.summary, "equation_of_motion_residual"), 0.01);
-  EXPECT_EQ(record.backbone.rows(), 38u);
-  const auto ratio = record.backbone.numbers("frequency_ratio");
-  EXPECT_EQ(ratio, record.backbone.numbers("rayleigh_frequency_ratio"));
-  EXPECT_GT(ratio.back(), ratio[10]);
+TEST(ModeScene, FormulationIsRefusedWithThePlaceWhereThePublishedEquationsAreSolved) {
+  try {
+    rod({"analysis.formulation=published"});
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    const std::string message = error.what();
+    for (const char* part : {"analysis.formulation", "published", "reproduce/laxalde_legrand_2010"})
+      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+  }
 }
 
-TEST(Analyse, PublishedEquationsWithManyHarmonicsFailHonestly) {
-  const Record record = analyse(rod({"analysis.formulation=published", "analysis.points=10"}));
-  EXPECT_FALSE(record.converged);
-  EXPECT_NE(record.status.find("at energy ratio"), std::string::npos) << record.status;
-}
-
-TEST(Analyse, PublishedMotionOfAnEnergy) {
-  const Record record =
-      analyse(rod({"analysis.formulation=published", "analysis.harmonics=2", "analysis.samples=20",
-                   "analysis.points=10", "analysis.energy_ratio=1.8"}));
-  EXPECT_TRUE(record.converged) << record.status;
-  EXPECT_EQ(record.response.rows(), 1024u);
-  EXPECT_LT(value_of<double>(record.summary, "energy_ratio"), 1.8);  // h without n^2 is not the energy
+TEST(ModeScene, ConsistentFormulationOfAnEarlierRecordIsAccepted) {
+  EXPECT_EQ(rod({"analysis.formulation=consistent"}), rod());
 }
 
 Scene rigid_bar(const std::vector<std::string>& overrides = {}) {

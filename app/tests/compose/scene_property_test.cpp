@@ -34,7 +34,6 @@ Structure any_structure() {
 Analysis any_mode(int elements) {
   Analysis analysis;
   analysis.type = AnalysisType::nonlinear_mode;
-  analysis.formulation = one_of({ModeFormulation::consistent, ModeFormulation::published});
   analysis.mode = *rc::gen::inRange(1, elements + 1);
   analysis.harmonics = *rc::gen::inRange(1, 50);
   analysis.samples = *rc::gen::inRange(2, 5) * analysis.harmonics;

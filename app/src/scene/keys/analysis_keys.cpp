@@ -52,11 +52,6 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
 
 void add_mode(std::vector<SceneKey>& keys) {
   const Section mode(keys, "analysis", analysis_part, analysis_is({"nonlinear_mode"}));
-  mode(&Analysis::formulation, "formulation", "",
-       "consistent: the equation of motion holds at every point; published: the equations of Laxalde & "
-       "Legrand as printed, by their augmented Lagrangian, with the root of the Rayleigh quotient as "
-       "frequency (runs with few harmonics only)",
-       optional);
   mode(&Analysis::mode, "mode", "", "the linear mode that the nonlinear one continues", within(1, 10'000'000),
        optional);
   mode(&Analysis::harmonics, "harmonics", "", "harmonics N of the Fourier series in time", within(1, 4096),
@@ -78,7 +73,7 @@ void add_mode(std::vector<SceneKey>& keys) {
   mode(&Analysis::last_frequency_ratio, "last_frequency_ratio", "",
        "or beyond this ratio of the frequency to the linear one", above(1.001), optional);
   mode(&Analysis::points, "points", "",
-       "of the curve, uniform in frequency up to there; in energy when published; about as many with an "
+       "of the curve, uniform in frequency up to there; about as many with an "
        "exponential or linear law",
        within(2, 1'000'000), optional);
 }

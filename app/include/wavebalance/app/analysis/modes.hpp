@@ -7,7 +7,6 @@
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
@@ -80,13 +79,6 @@ class ModeStudy {
   /// the whole structure's displacements from these. O(n N points).
   solvers::Motion structure_motion(const solvers::ModePoint& point, int points) const;
 
-  /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the energy
-  /// ratio `largest` > 1 in analysis.points points, uniform. Ends at the first that is not accepted, which is
-  /// kept. O(points (n N)^3).
-  std::vector<solvers::LagrangianPoint> published_branch(double largest) const;
-  /// As above, for an accepted point; empty otherwise.
-  solvers::Motion contact_motion(const solvers::LagrangianPoint& point, int points) const;
-
   /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
   /// structure's own coordinates; NaN without motion. That of an elastic law is relative to the motion. O(n
   /// N).
@@ -110,8 +102,5 @@ std::string resonance_name(const solvers::InternalResonance& resonance);
 /// is largest (least). Values of points that are not solutions are
 /// missing.
 Table backbone_table(const ModeStudy& study, const Backbone& curve);
-/// The same columns for a published branch, energies those prescribed; contact fractions and tongues are
-/// missing.
-Table backbone_table(const ModeStudy& study, const std::vector<solvers::LagrangianPoint>& branch);
 
 }  // namespace wavebalance::app

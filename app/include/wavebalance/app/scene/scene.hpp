@@ -8,7 +8,6 @@
 
 #include "wavebalance/fem/solid.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
 
 namespace wavebalance::app {
@@ -17,7 +16,6 @@ using fem::SolidElement;
 using solvers::ContactForm;
 using solvers::Formulation;
 using solvers::InnerProducts;
-using solvers::ModeFormulation;
 using solvers::NyquistCoefficient;
 
 /// Kinds of structure, structure.type.
@@ -282,7 +280,6 @@ struct Analysis {
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
 
-  ModeFormulation formulation = ModeFormulation::consistent;  ///< nonlinear_mode
   int mode = 1;                       ///< nonlinear_mode: the linear mode that is continued, from 1
   int harmonics = 10;                 ///< nonlinear_mode: N of the Fourier series
   int samples = 0;                    ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
@@ -290,8 +287,7 @@ struct Analysis {
   double energy_ratio = 0.0;          ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
   double largest_energy = 10.0;       ///< nonlinear_mode: energy ratio at which the curve ends
   double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
-  int points =
-      200;  ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio; published: in energy
+  int points = 200;                   ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio
 
   bool operator==(const Analysis&) const = default;
 };
@@ -318,7 +314,6 @@ std::string name_of(ObstacleSide value);
 std::string name_of(Formulation value);
 std::string name_of(InnerProducts value);
 std::string name_of(NyquistCoefficient value);
-std::string name_of(ModeFormulation value);
 std::string name_of(AnalysisType value);
 std::string name_of(LoadKind value);
 
