@@ -3,12 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
+#include "mode_augmented_lagrangian.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 
 // First nonlinear modes with a rigid obstacle, from contact to a largest energy, full Fourier series: the rod
@@ -84,7 +84,7 @@ void dense_mode_backbone(benchmark::State& state, ModeCase (*make)()) {
   const ModeCase study = make();
   const solvers::NonlinearMode condensed = condensed_mode(study);
   const auto backbone = curve(study, condensed);
-  const solvers::LagrangianMode mode(study.model, {.harmonics = study.harmonics, .samples = samples});
+  const ll10::LagrangianMode mode(study.model, {.harmonics = study.harmonics, .samples = samples});
   const double step = (study.largest_energy - 1.0) / study.points;
   constexpr double penalty = 300.0;
   const auto unknowns = static_cast<std::size_t>(study.model.contacts() * samples);

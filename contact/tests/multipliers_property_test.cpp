@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "bar_quadrature.hpp"
 #include "constants.hpp"
 #include "quadratic_program.hpp"
 #include "random_values.hpp"
@@ -96,28 +95,6 @@ RC_GTEST_PROP(MultiplierUpdateProperty, MultipliersAreTheForcesOfTheInnerProblem
   for (int i = 0; i < n; ++i)
     RC_ASSERT(std::abs(outer.inequality_multipliers()[i] - force[i]) <=
               8 * eps * (first[i] + outer.inequality_penalties()[i]));
-}
-
-RC_GTEST_PROP(ExactBarModeProperty, MeetsRigidContactForAnyBarModeAndEnergy, ()) {
-  const RigidObstacleBar bar{std::pow(10.0, any_between(-3, 12)), std::pow(10.0, any_between(-3, 5)),
-                             std::pow(10.0, any_between(-6, 1)), std::pow(10.0, any_between(-2, 2)),
-                             std::pow(10.0, any_between(-6, 0))};
-  const auto measure =
-      *rc::gen::element(EnergyMeasure::total, EnergyMeasure::mean_kinetic, EnergyMeasure::modal);
-  const int m = any_count(1, 12);
-  const double energy = ExactBarMode::onset_energy(m, measure) + std::pow(10.0, any_between(-4, 8));
-  const ExactBarMode mode = ExactBarMode::at_energy(bar, m, measure, energy);
-  RC_ASSERT(std::abs(mode.energy_ratio(measure) / energy - 1.0) <= 16 * eps);
-  for (int i = 0; i < 200; ++i) {
-    const double t = any_between(-3, 3) * mode.period();
-    const double g = mode.displacement(bar.length, t) - bar.gap, force = mode.contact_force(t);
-    const double rounding = 256 * eps * reach(mode);
-    RC_ASSERT(g <= rounding);
-    RC_ASSERT(force >= 0.0);
-    RC_ASSERT(force * std::abs(g) <= mode.contact_force(0.0) * rounding);
-    const double strain = mode.strain(bar.length, t) * bar.youngs_modulus * bar.area;
-    RC_ASSERT(std::abs(strain + force) <= 4 * eps * force);
-  }
 }
 
 }  // namespace

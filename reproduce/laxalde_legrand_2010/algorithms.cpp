@@ -13,10 +13,6 @@ namespace wavebalance::ll10 {
 namespace {
 
 using report::number;
-using solvers::EigenvalueUpdate;
-using solvers::LagrangianMode;
-using solvers::LagrangianPoint;
-using solvers::ModeFormulation;
 
 constexpr double branch_energy = 10.0;
 constexpr int energy_steps = 37;

@@ -23,7 +23,7 @@ std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const 
   auto options = lagrangian_options(study.scene(), study.scene().analysis.harmonics);
   options.cosine_only =
       true;  // the motions are even in time, and half the unknowns take an eighth of the time
-  const solvers::LagrangianMode mode(study.mode().model(), options);
+  const LagrangianMode mode(study.mode().model(), options);
   std::vector<SecondSolution> solutions;
   for (const double energy : energies) {
     const auto start = accepted_at(study, curve, energy);
@@ -36,7 +36,7 @@ std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const 
 }
 
 Table blade_backbones(const app::ModeStudy& study, const app::Backbone& curve,
-                      const std::vector<solvers::LagrangianPoint>& published) {
+                      const std::vector<LagrangianPoint>& published) {
   const double linear = study.mode().linear_omega();
   Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
   table.append_row({"published", 0.0, 1.0, 1.0});

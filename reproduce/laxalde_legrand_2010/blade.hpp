@@ -4,7 +4,7 @@
 
 #include "blade_motion.hpp"
 #include "ll10.hpp"
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
+#include "modes/mode_augmented_lagrangian.hpp"
 
 /// What the figures of Laxalde & Legrand (2010), section 5.2, share.
 namespace wavebalance::ll10 {
@@ -29,7 +29,7 @@ solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone&
 /// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
 /// root of r, points that were reached) and consistent (accepted points), both from the linear mode on.
 Table blade_backbones(const app::ModeStudy& study, const app::Backbone& curve,
-                      const std::vector<solvers::LagrangianPoint>& published);
+                      const std::vector<LagrangianPoint>& published);
 
 /// energy_ratio, torsion_share (of the kinetic energy), tip_twist_degrees_per_gap (amplitude, for a gap of 1
 /// mm), contact_fraction along the accepted points of a backbone.

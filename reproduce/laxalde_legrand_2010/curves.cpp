@@ -7,10 +7,6 @@
 namespace wavebalance::ll10 {
 namespace {
 
-using solvers::LagrangianMode;
-using solvers::LagrangianModeOptions;
-using solvers::LagrangianPoint;
-
 void add_row(Table& table, const std::string& formulation, double energy, double frequency, double rayleigh) {
   table.append_row({formulation, energy, frequency, rayleigh});
 }
@@ -46,8 +42,8 @@ contact::MultiplierUpdate lagrangian_strategy(const LagrangianMode& mode) {
 std::vector<LagrangianPoint> published_branch(const app::ModeStudy& study) {
   const auto& analysis = study.scene().analysis;
   LagrangianModeOptions options = lagrangian_options(study.scene(), analysis.harmonics);
-  options.formulation = solvers::ModeFormulation::published;
-  options.eigenvalue = solvers::EigenvalueUpdate::sequential;
+  options.formulation = ModeFormulation::published;
+  options.eigenvalue = EigenvalueUpdate::sequential;
   const LagrangianMode mode(study.mode().model(), options);
   const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(analysis.points, 1.0, analysis.largest_energy);
   return mode.branch(std::span(energies.data(), static_cast<std::size_t>(energies.size())),
@@ -94,7 +90,7 @@ Table backbones_table(const RodCurves& curves) {
   add_backbone(table, "consistent_half_lumped", curves.remedy, curves.remedy_backbone);
   add_row(table, "exact", 0.0, 1.0, 1.0);
   add_row(table, "exact", 1.0, 1.0, 1.0);
-  const double onset = contact::ExactBarMode::onset_energy(1, contact::EnergyMeasure::modal);
+  const double onset = ExactBarMode::onset_energy(1, EnergyMeasure::modal);
   constexpr int points = 200;
   for (int i = 1; i <= points; ++i) {
     const double energy = onset * std::pow(10.0 / onset, static_cast<double>(i) / points);

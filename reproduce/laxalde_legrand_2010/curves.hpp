@@ -3,21 +3,21 @@
 #include <vector>
 
 #include "ll10.hpp"
+#include "modes/mode_augmented_lagrangian.hpp"
 #include "wavebalance/contact/multipliers.hpp"
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
 
 namespace wavebalance::ll10 {
 
 /// In units omega_1 = gap = 1, where the inner Newton iterations are well scaled.
 inline constexpr double first_penalty = 300.0;
 /// The scene's mode with this many harmonics, and the outer iteration of Algorithm 3 from first_penalty.
-solvers::LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics);
-contact::MultiplierUpdate lagrangian_strategy(const solvers::LagrangianMode& mode);
+LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics);
+contact::MultiplierUpdate lagrangian_strategy(const LagrangianMode& mode);
 
 /// LL10's equations as printed (h without n^2, omega^2 = r) by Algorithm 2, from grazing to the scene's
 /// largest energy in analysis.points points, uniform. Ends at the first that is not accepted, which is kept.
 /// O(points (n N)^3).
-std::vector<solvers::LagrangianPoint> published_branch(const app::ModeStudy& study);
+std::vector<LagrangianPoint> published_branch(const app::ModeStudy& study);
 
 /// Largest relative difference of omega between the condensed solver and the consistent augmented Lagrangian
 /// (Algorithm 1) started from it, over those of `energies` that both reach.
@@ -42,7 +42,7 @@ struct RodCurves {
   app::Backbone backbone;
   const app::ModeStudy& remedy;
   app::Backbone remedy_backbone;
-  std::vector<solvers::LagrangianPoint> published;
+  std::vector<LagrangianPoint> published;
 };
 
 /// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the

@@ -33,7 +33,7 @@ Row row_of(report::Artefact& artefact, const char* file, int harmonics, int elem
                                            "structure.elements=" + std::to_string(elements)});
   const app::ModeStudy study(scene);
   const auto curve = study.backbone();
-  const double exact = contact::ExactBarMode::linear_frequency(exact_bar(scene), 1);
+  const double exact = ExactBarMode::linear_frequency(exact_bar(scene), 1);
   return {harmonics,
           elements,
           scene.structure.lumped_mass_fraction,

@@ -175,7 +175,7 @@ void check_quotient(report::Artefact& artefact, const app::ModeStudy& study, con
 }
 
 void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve,
-           const std::vector<solvers::LagrangianPoint>& published) {
+           const std::vector<LagrangianPoint>& published) {
   const auto& last = published.back();
   double reached = 0.0, defect = 0.0;
   for (const auto& point : published)

@@ -8,9 +8,6 @@
 namespace wavebalance::ll10 {
 namespace {
 
-using contact::EnergyMeasure;
-using contact::ExactBarMode;
-
 Eigen::VectorXd node_positions(int elements) { return Eigen::VectorXd::LinSpaced(elements + 1, 0.0, 1.0); }
 
 /// t/T from 0 to 1, both included.
@@ -55,7 +52,7 @@ report::Identity identity(const std::string& number, const std::string& title, c
   return {"laxalde_legrand_2010", "LL10 " + number, title, stem};
 }
 
-contact::RigidObstacleBar exact_bar(const app::Scene& scene) {
+RigidObstacleBar exact_bar(const app::Scene& scene) {
   const auto& bar = scene.structure;
   return {.youngs_modulus = bar.youngs_modulus,
           .density = bar.density,
@@ -64,7 +61,7 @@ contact::RigidObstacleBar exact_bar(const app::Scene& scene) {
           .gap = scene.contact.gap};
 }
 
-contact::ExactBarMode exact_mode(const app::Scene& scene, double energy_ratio) {
+ExactBarMode exact_mode(const app::Scene& scene, double energy_ratio) {
   return ExactBarMode::at_energy(exact_bar(scene), 1, EnergyMeasure::modal, energy_ratio);
 }
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "modes/exact_bar_mode.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/plot/plot.hpp"
-#include "wavebalance/contact/exact_bar_mode.hpp"
 #include "wavebalance/report/artefact.hpp"
 
 /// What the figures of Laxalde & Legrand (2010), section 5.1, share.
@@ -18,9 +18,9 @@ using app::Table;
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
 
 /// The scene's bar for the exact solution.
-contact::RigidObstacleBar exact_bar(const app::Scene& scene);
+RigidObstacleBar exact_bar(const app::Scene& scene);
 /// Its exact mode 1 at an energy ratio of LL10's measure.
-contact::ExactBarMode exact_mode(const app::Scene& scene, double energy_ratio);
+ExactBarMode exact_mode(const app::Scene& scene, double energy_ratio);
 
 /// A motion over one period at all nodes x = 0, ..., length, the clamped one included, in the units of LL10's
 /// pictures: displacements over the gap, velocities over gap times linear frequency (rad/s).

@@ -3,7 +3,7 @@
 #include <vector>
 
 /// Ways to treat the constraints of a mode other than the augmented Lagrangian, for comparison. Each meets
-/// solvers::MultiplierStrategy. An iteration ends when both measures of Powell are below 1e-10, as in
+/// MultiplierStrategy. An iteration ends when both measures of Powell are below 1e-10, as in
 /// contact::MultiplierUpdate.
 namespace wavebalance::ll10 {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "modes/rayleigh_quotient.hpp"
 #include "wavebalance/report/rule.hpp"
-#include "wavebalance/solvers/modes/rayleigh_quotient.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
@@ -70,7 +70,7 @@ void onset(report::Artefact& artefact, const RodCurves& curves) {
     readings.push_back(
         {fmt::format("N = {}", harmonics), at_unity(energy), "from " + number(energy, 4) + " on"});
   }
-  const double exact = contact::ExactBarMode::onset_energy(1, contact::EnergyMeasure::modal);
+  const double exact = ExactBarMode::onset_energy(1, EnergyMeasure::modal);
   const double remedy = first_contact(curves.remedy_backbone);
   Statement s{
       "section 5.1", "Contact occurs as soon as the modal energy reaches unity.",
@@ -221,8 +221,8 @@ void minimum(report::Artefact& artefact, const RodCurves& curves) {
   const auto& model = curves.study.mode().model();
   const int harmonics = curves.study.scene().analysis.harmonics;
   const Eigen::Index modes = model.omega_squared.size();
-  const solvers::RayleighQuotient quotient(model.omega_squared.asDiagonal(),
-                                           Eigen::MatrixXd::Identity(modes, modes), {harmonics, true});
+  const RayleighQuotient quotient(model.omega_squared.asDiagonal(), Eigen::MatrixXd::Identity(modes, modes),
+                                  {harmonics, true});
   Eigen::VectorXd x = Eigen::VectorXd::Zero(quotient.unknowns());
   x[harmonics * modes] = 1.0;  // of cos(N omega t) in mode 1
   const double root = std::sqrt(quotient.value(x)) / curves.study.mode().linear_omega();

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "linalg/dense.hpp"
-#include "support/ll10_rod.hpp"
+#include "ll10_rod.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"

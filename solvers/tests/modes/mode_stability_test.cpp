@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "constants.hpp"
-#include "support/ll10_rod.hpp"
+#include "ll10_rod.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"

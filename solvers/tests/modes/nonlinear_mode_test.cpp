@@ -7,7 +7,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "support/ll10_rod.hpp"
+#include "ll10_rod.hpp"
 
 namespace wavebalance::solvers {
 namespace {

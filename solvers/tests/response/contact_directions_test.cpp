@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "ll10_rod.hpp"
 #include "support/condensation_cases.hpp"
-#include "support/ll10_rod.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"

@@ -1,4 +1,4 @@
-#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "exact_bar_mode.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "bar_quadrature.hpp"
 #include "constants.hpp"
 
-namespace wavebalance::contact {
+namespace wavebalance::ll10 {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -211,4 +211,4 @@ TEST(ExactBarMode, RejectsPointsOutsideTheBarAndPassesOnWhatIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace wavebalance::contact
+}  // namespace wavebalance::ll10

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
+#include "mode_augmented_lagrangian.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "linalg/option_checks.hpp"
 #include "modes/mode_option_checks.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -27,7 +27,8 @@ ModalModel checked(ModalModel model, const LagrangianModeOptions& options) {
   model.validate();
   const int mode = options.mode;
   if (mode < 1 || mode > model.modes())
-    detail::reject("LagrangianMode", "mode", mode, ("in 1.." + std::to_string(model.modes())).c_str());
+    solvers::detail::reject("LagrangianMode", "mode", mode,
+                            ("in 1.." + std::to_string(model.modes())).c_str());
   if (model.contact_shapes.col(mode - 1).isZero(0.0))
     throw std::invalid_argument("LagrangianMode: mode " + std::to_string(mode) +
                                 " does not move any contact point");
@@ -58,8 +59,8 @@ ModalModel scaled(const ModalModel& model, int mode) {
 // is the step of least norm.
 bool newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {
   constexpr double tiny = 1e-14;
-  const detail::Lu<double> lu(hessian);
-  step = lu.is_singular(tiny) ? detail::least_squares(hessian, gradient) : lu.solve(gradient);
+  const solvers::detail::Lu<double> lu(hessian);
+  step = lu.is_singular(tiny) ? solvers::detail::least_squares(hessian, gradient) : lu.solve(gradient);
   return step.allFinite();
 }
 
@@ -91,14 +92,14 @@ std::string_view to_string(LagrangianStatus status) {
 
 void LagrangianModeOptions::validate() const {
   constexpr const char* who = "LagrangianModeOptions";
-  detail::require_mode_discretisation(who, mode, harmonics, samples);
-  detail::require_positive(who, "inner_tolerance", inner_tolerance);
-  detail::require_at_least(who, "max_inner_iterations", max_inner_iterations, 1);
-  detail::require_at_least(who, "max_outer_iterations", max_outer_iterations, 1);
-  detail::require_at_least(who, "max_step_halvings", max_step_halvings, 0);
-  detail::require_share(who, "min_fundamental_share", min_fundamental_share);
-  detail::require_share(who, "resonance_share", resonance_share);
-  detail::require_share(who, "resonance_detuning", resonance_detuning);
+  solvers::detail::require_mode_discretisation(who, mode, harmonics, samples);
+  solvers::detail::require_positive(who, "inner_tolerance", inner_tolerance);
+  solvers::detail::require_at_least(who, "max_inner_iterations", max_inner_iterations, 1);
+  solvers::detail::require_at_least(who, "max_outer_iterations", max_outer_iterations, 1);
+  solvers::detail::require_at_least(who, "max_step_halvings", max_step_halvings, 0);
+  solvers::detail::require_share(who, "min_fundamental_share", min_fundamental_share);
+  solvers::detail::require_share(who, "resonance_share", resonance_share);
+  solvers::detail::require_share(who, "resonance_detuning", resonance_detuning);
 }
 
 int LagrangianPoint::newton_iterations() const {
@@ -119,7 +120,7 @@ double LagrangianMode::linear_omega() const { return std::sqrt(model_.omega_squa
 
 LagrangianStart LagrangianMode::linear_start(double energy_ratio) const {
   if (!(energy_ratio >= 0.0 && std::isfinite(energy_ratio)))
-    detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "zero or positive, and finite");
+    solvers::detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "zero or positive, and finite");
   const Eigen::Index contact = first_contact(model_, options_.mode);
   const double sign = model_.contact_shapes(contact, options_.mode - 1) > 0.0 ? 1.0 : -1.0;
   LagrangianStart start{Eigen::MatrixXcd::Zero(model_.modes(), options_.harmonics + 1), {}};
@@ -224,17 +225,18 @@ LagrangianMode::Newton LagrangianMode::critical_point(Eigen::VectorXd& x, double
                                                       std::optional<double> frozen) const {
   constexpr double min_step = 1.0 / (1 << 29);
   Stationarity condition(*this, gamma, multipliers, frozen);
-  const detail::NewtonRun run = detail::damped_newton(condition, x, options_.max_inner_iterations, min_step);
+  const solvers::detail::NewtonRun run =
+      solvers::detail::damped_newton(condition, x, options_.max_inner_iterations, min_step);
   const auto status = [&] {
     switch (run.end) {
-      case detail::NewtonEnd::solved:
+      case solvers::detail::NewtonEnd::solved:
         return LagrangianStatus::converged;
-      case detail::NewtonEnd::iteration_limit:
+      case solvers::detail::NewtonEnd::iteration_limit:
         return LagrangianStatus::inner_limit;
-      case detail::NewtonEnd::singular:
+      case solvers::detail::NewtonEnd::singular:
         return LagrangianStatus::singular;
-      case detail::NewtonEnd::stalled:
-      case detail::NewtonEnd::cancelled:
+      case solvers::detail::NewtonEnd::stalled:
+      case solvers::detail::NewtonEnd::cancelled:
         break;
     }
     return LagrangianStatus::inner_stalled;
@@ -245,7 +247,8 @@ LagrangianMode::Newton LagrangianMode::critical_point(Eigen::VectorXd& x, double
 LagrangianPoint LagrangianMode::solve_with(double energy_ratio, Multipliers& multipliers,
                                            const LagrangianStart& given,
                                            std::optional<double> predicted_rayleigh) const {
-  if (!(energy_ratio > 0.0)) detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "positive");
+  if (!(energy_ratio > 0.0))
+    solvers::detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "positive");
   const bool contact = energy_ratio > 1.0;
   const LagrangianStart& start = contact ? given : linear_start(energy_ratio);
   require_fit(multipliers, start);
@@ -381,4 +384,4 @@ LagrangianMode::Prediction LagrangianMode::predict(const std::vector<LagrangianP
   return result;
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

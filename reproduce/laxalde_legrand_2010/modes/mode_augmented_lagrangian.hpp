@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
+#include "mode_augmented_lagrangian_functional.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
+
+using solvers::InternalResonance;
 
 /// How a point of the augmented Lagrangian was found, or why none was.
 enum class LagrangianStatus {
@@ -182,4 +184,4 @@ class LagrangianMode {
   ModeLagrangian functional_;
 };
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

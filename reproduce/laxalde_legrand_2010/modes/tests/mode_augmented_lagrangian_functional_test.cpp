@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
+#include "mode_augmented_lagrangian_functional.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "constants.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 namespace {
 
 static_assert(MultiplierStrategy<contact::MultiplierUpdate>);
@@ -185,4 +185,4 @@ TEST(ModeLagrangian, TooFewSamplesAreAnError) {
 }
 
 }  // namespace
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/modes/rayleigh_quotient.hpp"
+#include "rayleigh_quotient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "constants.hpp"
-#include "support/ll10_rod.hpp"
+#include "ll10_rod.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 namespace {
 
 struct RandomProblem {
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Layout, RandomMotion, ::testing::Values(false, true));
 
 // A mode is a critical point but no minimum: its shape in harmonic n has 1/n^2 of the quotient, critical too.
 TEST(RayleighQuotient, EnergyInAHigherHarmonicLowersTheQuotient) {
-  const testing::UnitRod rod(6);
+  const solvers::testing::UnitRod rod(6);
   const int harmonics = 3, n = 6;
   const RayleighQuotient quotient(rod.stiffness, rod.mass, {harmonics});
   for (int harmonic = 1; harmonic <= harmonics; ++harmonic) {
@@ -134,4 +134,4 @@ TEST(RayleighQuotient, SizesThatDisagreeAreErrors) {
 }
 
 }  // namespace
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

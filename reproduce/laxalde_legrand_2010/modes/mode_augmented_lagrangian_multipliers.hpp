@@ -2,7 +2,7 @@
 #include <concepts>
 #include <span>
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 
 /// Requirements of the augmented Lagrangian on the outer iteration on theta and kappa: the terms
 ///   1/2 sum kappa (g + theta)_+^2 + 1/2 sum kappa_e (h + theta_e)^2   [LL10, eq. (18)]
@@ -81,4 +81,4 @@ class MultipliersOf final : public Multipliers {
   Strategy& strategy_;
 };
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

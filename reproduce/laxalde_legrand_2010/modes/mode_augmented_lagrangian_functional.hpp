@@ -2,11 +2,13 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian_multipliers.hpp"
+#include "mode_augmented_lagrangian_multipliers.hpp"
+#include "rayleigh_quotient.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
-#include "wavebalance/solvers/modes/rayleigh_quotient.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
+
+using solvers::ModalModel;
 
 /// Which equations of [LL10] hold.
 enum class ModeFormulation {
@@ -60,4 +62,4 @@ class ModeLagrangian {
   Eigen::MatrixXd waves_;  // m x blocks: cos and sin at the samples
 };
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

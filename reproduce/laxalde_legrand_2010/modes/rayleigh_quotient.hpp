@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 
 /// The form x^T A x = sum_b factor_b x_b^T S x_b over the blocks x_b (n entries each) of x, one matrix S.
 class HarmonicForm {
@@ -65,4 +65,4 @@ class RayleighQuotient {
   HarmonicForm stiffness_, mass_;
 };
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/modes/rayleigh_quotient.hpp"
+#include "rayleigh_quotient.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -8,11 +8,11 @@
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 namespace {
 
 FourierLayout checked(FourierLayout layout) {
-  detail::require_at_least("RayleighQuotient", "harmonics", layout.harmonics, 1);
+  solvers::detail::require_at_least("RayleighQuotient", "harmonics", layout.harmonics, 1);
   return layout;
 }
 
@@ -29,7 +29,7 @@ Eigen::VectorXd HarmonicForm::apply(const Eigen::VectorXd& x) const {
   Eigen::VectorXd result(x.size());
   const Eigen::Map<const Eigen::MatrixXd> blocks(x.data(), matrix_.rows(), factors_.size());
   Eigen::Map<Eigen::MatrixXd>(result.data(), matrix_.rows(), factors_.size()).noalias() =
-      detail::product(matrix_, blocks) * factors_.asDiagonal();
+      solvers::detail::product(matrix_, blocks) * factors_.asDiagonal();
   return result;
 }
 
@@ -79,4 +79,4 @@ Eigen::VectorXd RayleighQuotient::hessian_times(const Eigen::VectorXd& x, const 
          (stiffness_.apply(v) - value(x) * mass_.apply(v) - inertia.dot(v) * slope - slope.dot(v) * inertia);
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

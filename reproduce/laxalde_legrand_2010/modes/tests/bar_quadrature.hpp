@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "exact_bar_mode.hpp"
 
-namespace wavebalance::contact {
+namespace wavebalance::ll10 {
 
 /// The rod of [LL10, section 5.1] with a gap of a millimetre.
 inline RigidObstacleBar published_bar() { return {2.1e11, 7800.0, 0.03 * 0.03, 1.0, 1e-3}; }
@@ -105,4 +105,4 @@ class CharacteristicBar {
   double tip_, gap_, force_ = 0.0;
 };
 
-}  // namespace wavebalance::contact
+}  // namespace wavebalance::ll10

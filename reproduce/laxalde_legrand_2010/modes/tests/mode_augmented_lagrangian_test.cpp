@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian.hpp"
+#include "mode_augmented_lagrangian.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,15 @@
 #include <numbers>
 #include <ostream>
 
-#include "support/ll10_rod.hpp"
+#include "ll10_rod.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 namespace {
 
-using testing::UnitRod;
+using solvers::ModePoint;
+using solvers::NonlinearMode;
+using solvers::testing::UnitRod;
 
 contact::MultiplierUpdate strategy(const LagrangianMode& mode, double penalty = 300.0) {
   const auto count = static_cast<std::size_t>(mode.constraints());
@@ -376,4 +378,4 @@ TEST(LagrangianMode, BadArgumentsAreErrors) {
 }
 
 }  // namespace
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace wavebalance::contact {
+namespace wavebalance::ll10 {
 
 /// A homogeneous bar, clamped at x = 0, whose tip x = length meets a rigid obstacle at the displacement gap.
 /// Any consistent units; the defaults are the nondimensional bar.
@@ -100,4 +100,4 @@ class ExactBarMode {
   double amplitude_;  // V, a strain
 };
 
-}  // namespace wavebalance::contact
+}  // namespace wavebalance::ll10

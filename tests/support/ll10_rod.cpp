@@ -1,4 +1,4 @@
-#include "support/ll10_rod.hpp"
+#include "ll10_rod.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/modes/mode_augmented_lagrangian_functional.hpp"
+#include "mode_augmented_lagrangian_functional.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,13 +6,13 @@
 #include "linalg/dense.hpp"
 #include "linalg/option_checks.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::ll10 {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Eigen::MatrixXd sampled_waves(const FourierLayout& layout, int samples) {
-  detail::require_at_least("ModeLagrangian", "samples", samples, 2 * layout.harmonics);
+  solvers::detail::require_at_least("ModeLagrangian", "samples", samples, 2 * layout.harmonics);
   Eigen::MatrixXd waves(samples, layout.blocks());
   for (int block = 0; block < layout.blocks(); ++block)
     for (int k = 0; k < samples; ++k) {
@@ -45,7 +45,8 @@ Eigen::VectorXd ModeLagrangian::gap_function(const Eigen::VectorXd& x) const {
   const Eigen::Map<const Eigen::MatrixXd> blocks(x.data(), shapes_.cols(), waves_.cols());
   Eigen::VectorXd g(constraints());
   Eigen::Map<RowMajor>(g.data(), gaps_.size(), samples()) =
-      detail::product_transposed(detail::product(shapes_, blocks), waves_).colwise() - gaps_;
+      solvers::detail::product_transposed(solvers::detail::product(shapes_, blocks), waves_).colwise() -
+      gaps_;
   return g;
 }
 
@@ -53,7 +54,8 @@ Eigen::VectorXd ModeLagrangian::generalised_force(const Eigen::VectorXd& force) 
   const Eigen::Map<const RowMajor> samples_of(force.data(), gaps_.size(), samples());
   Eigen::VectorXd result(unknowns());
   Eigen::Map<Eigen::MatrixXd>(result.data(), shapes_.cols(), waves_.cols()) =
-      detail::transposed_product(shapes_, detail::product(samples_of, waves_)) / double(samples());
+      solvers::detail::transposed_product(shapes_, solvers::detail::product(samples_of, waves_)) /
+      double(samples());
   return result;
 }
 
@@ -110,7 +112,7 @@ void ModeLagrangian::add_contact(Eigen::MatrixXd& hessian, const Eigen::VectorXd
         root * shapes_.row(i / samples()).transpose() * waves_.row(i % samples());
     ++column;
   }
-  hessian += detail::product_transposed(columns, columns);
+  hessian += solvers::detail::product_transposed(columns, columns);
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::ll10

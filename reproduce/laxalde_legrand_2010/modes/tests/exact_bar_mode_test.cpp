@@ -1,4 +1,4 @@
-#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "exact_bar_mode.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "bar_quadrature.hpp"
 #include "constants.hpp"
 
-namespace wavebalance::contact {
+namespace wavebalance::ll10 {
 namespace {
 
 // V, a strain, by the closed form.
@@ -217,4 +217,4 @@ TEST(ZeroGapMode, IsTheLimitOfHighEnergyAndHasTheEnergyAskedFor) {
 }
 
 }  // namespace
-}  // namespace wavebalance::contact
+}  // namespace wavebalance::ll10

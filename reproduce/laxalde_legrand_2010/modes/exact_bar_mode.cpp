@@ -1,4 +1,4 @@
-#include "wavebalance/contact/exact_bar_mode.hpp"
+#include "exact_bar_mode.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "checks.hpp"
 
-namespace wavebalance::contact {
+namespace wavebalance::ll10 {
 namespace {
 
 double shortest_period(int mode) { return (2.0 * mode + 1.0) / (double(mode) * mode); }
@@ -16,7 +16,7 @@ double largest_excess(int mode) { return 1.0 / (double(mode) * mode * (2.0 * mod
 double linear_omega(int mode) { return (2.0 * mode - 1.0) * std::numbers::pi / 2.0; }
 
 void require_mode(int mode) {
-  if (mode < 1) detail::reject("ExactBarMode", "mode", mode, "at least 1");
+  if (mode < 1) contact::detail::reject("ExactBarMode", "mode", mode, "at least 1");
 }
 
 // V over g0/L for a period T that exceeds the shortest one by `excess`.
@@ -61,26 +61,28 @@ double excess_of(int mode, double frequency_ratio) {
 }
 
 [[noreturn]] void reject_energy(int mode, double energy_ratio, double onset) {
-  detail::reject("ExactBarMode", "energy_ratio", energy_ratio,
-                 "above " + detail::text(onset) + " and finite for mode " + std::to_string(mode));
+  contact::detail::reject(
+      "ExactBarMode", "energy_ratio", energy_ratio,
+      "above " + contact::detail::text(onset) + " and finite for mode " + std::to_string(mode));
 }
 
 double checked_excess(int mode, double frequency_ratio) {
   const double largest = ExactBarMode::largest_frequency_ratio(mode);
   const double excess = excess_of(mode, frequency_ratio);
   if (frequency_ratio > 1.0 && frequency_ratio < largest && excess > 0.0) return excess;
-  detail::reject("ExactBarMode", "frequency_ratio", frequency_ratio,
-                 "above 1 and below " + detail::text(largest) + " for mode " + std::to_string(mode));
+  contact::detail::reject(
+      "ExactBarMode", "frequency_ratio", frequency_ratio,
+      "above 1 and below " + contact::detail::text(largest) + " for mode " + std::to_string(mode));
 }
 
 }  // namespace
 
 void RigidObstacleBar::validate() const {
-  detail::require_positive("RigidObstacleBar", "youngs_modulus", youngs_modulus);
-  detail::require_positive("RigidObstacleBar", "density", density);
-  detail::require_positive("RigidObstacleBar", "area", area);
-  detail::require_positive("RigidObstacleBar", "length", length);
-  detail::require_positive("RigidObstacleBar", "gap", gap);
+  contact::detail::require_positive("RigidObstacleBar", "youngs_modulus", youngs_modulus);
+  contact::detail::require_positive("RigidObstacleBar", "density", density);
+  contact::detail::require_positive("RigidObstacleBar", "area", area);
+  contact::detail::require_positive("RigidObstacleBar", "length", length);
+  contact::detail::require_positive("RigidObstacleBar", "gap", gap);
 }
 
 double ExactBarMode::largest_frequency_ratio(int mode) {
@@ -127,7 +129,7 @@ ExactBarMode ExactBarMode::zero_gap(RigidObstacleBar bar, int mode, double total
   bar.gap = 1.0;  // not used, but it must be valid
   bar.validate();
   bar.gap = 0.0;
-  detail::require_positive("ExactBarMode::zero_gap", "total_energy", total_energy);
+  contact::detail::require_positive("ExactBarMode::zero_gap", "total_energy", total_energy);
   const double stiffness = bar.youngs_modulus * bar.area * bar.length;
   return {bar, mode, Excess{0.0}, std::sqrt(0.5 * total_energy / stiffness)};
 }
@@ -155,8 +157,8 @@ double ExactBarMode::position(const char* quantity, double x) const {
   constexpr double slack = 1e-12;  // allows for rounding in an x that is a sum of element lengths
   const double position = x / bar_.length;
   if (position < -slack || position > 1.0 + slack)
-    detail::reject(std::string("ExactBarMode::") + quantity, "x", x,
-                   "in [0, " + detail::text(bar_.length) + "]");
+    contact::detail::reject(std::string("ExactBarMode::") + quantity, "x", x,
+                            "in [0, " + contact::detail::text(bar_.length) + "]");
   return std::isnan(position) ? position : std::clamp(position, 0.0, 1.0);
 }
 
@@ -220,4 +222,4 @@ double ExactBarMode::rayleigh_frequency_ratio() const {
   return frequency_ratio() * std::sqrt((2.0 - kinetic) / kinetic);
 }
 
-}  // namespace wavebalance::contact
+}  // namespace wavebalance::ll10
