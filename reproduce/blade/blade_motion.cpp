@@ -91,10 +91,10 @@ bool centred(const std::vector<double>& times, double centre, double sample) {
          std::all_of(times.begin(), times.end(), [&](double time) { return holds(2.0 * centre - time); });
 }
 
-app::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements, double scale) {
+Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements, double scale) {
   constexpr double mm = 1e3;
   const fem::SolidMesh& mesh = blade.model.mesh;
-  app::Surface surface;
+  Surface surface;
   surface.vertices = mm * mesh.nodes;
   if (displacements.size() > 0) surface.vertices += mm * scale * displacements;
   const fem::Connectivity faces = fem::boundary_faces(mesh);

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "surface.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
-#include "wavebalance/app/plot/surface.hpp"
 #include "wavebalance/fem/blade.hpp"
 
 /// Measures of a blade's motions, and its surface for the pictures.
@@ -45,6 +45,6 @@ EdgeContact edge_contact(const Eigen::MatrixXd& force);
 bool centred(const std::vector<double>& times, double centre, double sample);
 
 /// The blade's surface in mm. displacements: 3 x nodes, m, or empty; added `scale` times.
-app::Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {}, double scale = 0.0);
+Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {}, double scale = 0.0);
 
 }  // namespace wavebalance::blade

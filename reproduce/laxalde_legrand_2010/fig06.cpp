@@ -29,7 +29,7 @@ std::vector<int> held_nodes(const fem::Blade& blade) {
 }
 
 /// Limits of a panel that shows the vertices and `below` and `above` them, in shares of their width.
-void frame(app::Panel& panel, const app::SurfaceView& view, const std::vector<int>& vertices, double below,
+void frame(app::Panel& panel, const blade::SurfaceView& view, const std::vector<int>& vertices, double below,
            double above) {
   Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e300), upper = -lower;
   for (const int vertex : vertices) {
@@ -42,25 +42,22 @@ void frame(app::Panel& panel, const app::SurfaceView& view, const std::vector<in
   panel.y = axis("", lower.y() - below * width, upper.y() + above * width);
 }
 
-app::Panel& add_view(app::Figure& figure, const std::string& title, const fem::Blade& blade, double azimuth,
-                     double elevation) {
-  auto& panel = figure.add_panel(title);
-  auto& view = panel.surface.emplace();
+blade::SurfaceView view_of(const fem::Blade& blade, double azimuth, double elevation) {
+  blade::SurfaceView view;
   view.surfaces = {blade::surface(blade)};
   view.azimuth = azimuth;
   view.elevation = elevation;
-  return panel;
+  return view;
 }
 
-void mark(app::Panel& panel, const std::string& label, const std::vector<int>& nodes, app::Colour colour,
-          int marker) {
-  panel.surface->surfaces[0].marks.push_back({label, nodes, colour, marker});
+void mark(blade::SurfaceView& view, const std::string& label, const std::vector<int>& nodes,
+          app::Colour colour, int marker) {
+  view.surfaces[0].marks.push_back({label, nodes, colour, marker});
 }
 
 /// Arrows from the contact nodes in the direction in which they may touch, z.
-void add_contact_direction(app::Panel& panel, const std::vector<int>& nodes) {
+void add_contact_direction(app::Panel& panel, const blade::SurfaceView& view, const std::vector<int>& nodes) {
   constexpr double length = 7.0;  // mm
-  const app::SurfaceView& view = *panel.surface;
   for (std::size_t i = 0; i < nodes.size(); i += 2) {
     const Eigen::Vector3d node = view.surfaces[0].vertices.col(nodes[i]);
     const Eigen::Vector2d from = projected(view, node),
@@ -78,19 +75,24 @@ app::Figure drawn(const fem::Blade& blade) {
   const auto held = held_nodes(blade);
   const std::string contacts = std::to_string(blade.contact_nodes.size()) + " contact nodes";
   const std::string clamped = std::to_string(held.size()) + " clamped nodes";
-  auto& whole = add_view(figure, "the mesh", blade, -55.0, 28.0);
-  whole.surface->axes = arrow_length;
+  auto whole = view_of(blade, -55.0, 28.0);
+  whole.axes = arrow_length;
   mark(whole, contacts, blade.contact_nodes, app::Colour::vermillion, 1);
   mark(whole, clamped, held, app::Colour::blue, 3);
-  auto& tip = add_view(figure, "the tip, from above", blade, -60.0, 50.0);
-  tip.surface->shading = 0.15;
+  paint(figure.add_panel("the mesh"), whole, "mesh");
+  auto tip = view_of(blade, -60.0, 50.0);
+  tip.shading = 0.15;
   mark(tip, contacts, blade.contact_nodes, app::Colour::vermillion, 1);
-  frame(tip, *tip.surface, blade.contact_nodes, 0.35, 0.20);
-  add_contact_direction(tip, blade.contact_nodes);
-  auto& root = add_view(figure, "the root, from below", blade, -55.0, -40.0);
-  root.surface->shading = 0.15;
+  app::Panel& above = figure.add_panel("the tip, from above");
+  frame(above, tip, blade.contact_nodes, 0.35, 0.20);
+  add_contact_direction(above, tip, blade.contact_nodes);
+  paint(above, tip, "tip");
+  auto root = view_of(blade, -55.0, -40.0);
+  root.shading = 0.15;
   mark(root, clamped, held, app::Colour::blue, 3);
-  frame(root, *root.surface, held, 0.1, 0.35);
+  app::Panel& below = figure.add_panel("the root, from below");
+  frame(below, root, held, 0.1, 0.35);
+  paint(below, root, "root");
   return figure;
 }
 

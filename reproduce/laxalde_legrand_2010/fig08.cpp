@@ -41,12 +41,12 @@ void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape,
   const Eigen::Matrix3Xd& u = shape.frames[half_period ? shape_times / 2 : 0];
   auto& panel =
       figure.add_panel("energy " + report::number(shape.energy) + (half_period ? ", t = T/2" : ", t = 0"));
-  auto& view = panel.surface.emplace();
+  blade::SurfaceView view;
   view.surfaces = {blade::surface(blade), blade::surface(blade, u, drawn_gap)};
   view.surfaces[0].outline = true;
   const Eigen::VectorXd magnitude = u.colwise().norm();
   view.surfaces[1].values.assign(magnitude.begin(), magnitude.end());
-  view.colours = {app::ColourBands::Map::sequential, 0.0, upper, 10, "|u| / g_0", true};
+  view.colours = {blade::ColourBands::Map::sequential, 0.0, upper, 10, "|u| / g_0", true};
   view.surfaces[1].marks.push_back(
       {"in contact", touching(blade, shape.point, half_period ? 0.5 : 0.0), app::Colour::vermillion, 1});
   view.azimuth = -35.0;
@@ -54,6 +54,7 @@ void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape,
   view.axes = axes_length;
   panel.x = axis("", -42.0, 42.0);
   panel.y = axis("", -18.0, 104.0);
+  paint(panel, view, "shape" + std::to_string(figure.panels.size()));
 }
 
 /// Gap-sized motions as a series for ParaView.

@@ -54,29 +54,16 @@ std::size_t letters_in(const std::string& label) {
 /// What the looks of a name differ in; widths and the number of symbols on a curve do not matter.
 using Look = std::tuple<std::string, Colour, Dash, SeriesStyle>;
 
-void add_series(const Panel& panel, std::map<Look, bool>& named, std::vector<LegendEntry>& entries) {
-  for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    const Series& one = panel.series[i];
+void add_series(const std::vector<Series>& series, std::map<Look, bool>& named,
+                std::vector<LegendEntry>& entries) {
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const Series& one = series[i];
     if (one.label.empty()) continue;
     if (!named.try_emplace({one.label, colour_of(one, i), one.dash, one.style}, true).second) continue;
     Series every = one;
     every.marker_every.reset();
     entries.push_back({one.label, style_text(every, i)});
   }
-}
-
-void add_marks(const Panel& panel, std::map<Look, bool>& named, std::vector<LegendEntry>& entries) {
-  if (!panel.surface) return;
-  for (const Surface& surface : panel.surface->surfaces)
-    for (const SurfaceMarks& marks : surface.marks) {
-      Series series;
-      series.style = SeriesStyle::points;
-      series.colour = marks.colour;
-      series.marker = std::max(marks.marker, 1);
-      if (!marks.label.empty() &&
-          named.try_emplace({marks.label, marks.colour, Dash::solid, series.style}, true).second)
-        entries.push_back({marks.label, style_text(series, 0)});
-    }
 }
 
 }  // namespace
@@ -107,8 +94,8 @@ std::vector<LegendEntry> legend_entries(const Figure& figure) {
   std::vector<LegendEntry> entries;
   for (const Panel& panel : figure.panels) {
     if (!panel.legend) continue;
-    add_marks(panel, named, entries);
-    add_series(panel, named, entries);
+    if (panel.drawing) add_series(panel.drawing->legend, named, entries);
+    add_series(panel.series, named, entries);
   }
   return entries;
 }

@@ -158,7 +158,7 @@ bool has_point(const Series& series) {
 bool has_curves(const Figure& figure) {
   bool points = false;
   for (const Panel& panel : figure.panels) {
-    if (panel.surface || panel.z || panel.heat_map || !panel.frame) return false;
+    if (panel.drawing || panel.z || panel.heat_map || !panel.frame) return false;
     points = points || std::any_of(panel.series.begin(), panel.series.end(), has_point);
   }
   return points;

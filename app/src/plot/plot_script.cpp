@@ -7,7 +7,6 @@
 
 #include "files/number_text.hpp"
 #include "plot/figure_layout.hpp"
-#include "plot/plot_surface.hpp"
 #include "plot/plot_text.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
@@ -221,10 +220,11 @@ std::string heading_text(const std::string& letter, const std::string& title, bo
   return "set label " + quoted(text) + " at graph 0,graph 1 left offset 0,0.9\n";
 }
 
-std::string plot_command(const Panel& panel, std::size_t panel_index, const SurfaceScript& surface) {
+std::string plot_command(const Panel& panel, std::size_t panel_index) {
   const std::string command = panel.z ? "splot " : "plot ";
   std::string text;
-  for (const std::string& item : surface.items) text += (text.empty() ? command : ", ") + item;
+  if (panel.drawing)
+    for (const std::string& item : panel.drawing->items) text += (text.empty() ? command : ", ") + item;
   // Cells are drawn one by one: the same in every terminal, and sharp.
   if (panel.heat_map)
     text += (text.empty() ? command : ", ") + map_name(panel_index) +
@@ -258,7 +258,7 @@ std::string legend_text(const Figure& figure, const FigureLayout& layout) {
 
 std::string panel_text(const Panel& panel, std::size_t index, const FigureLayout& layout,
                        const std::string& letter, const std::string& title, bool aligned, bool labelled) {
-  const bool framed = panel.frame && !panel.surface;
+  const bool framed = panel.frame && !panel.drawing;
   const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
                                   [&](const Series& series) { return has_points(series, panel); });
   std::string text = "unset key\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
@@ -280,10 +280,8 @@ std::string panel_text(const Panel& panel, std::size_t index, const FigureLayout
   for (const auto& rectangle : panel.rectangles) text += rectangle_text(rectangle);
   for (const auto& segment : panel.segments) text += segment_text(segment);
   for (const auto& mark : panel.texts) text += mark_text(mark);
-  SurfaceScript surface;
-  if (panel.surface)
-    surface = surface_script(*panel.surface, panel.x, panel.y, "$panel" + std::to_string(index));
-  return surface.data + text + surface.setup + plot_command(panel, index, surface);
+  if (panel.drawing) text = panel.drawing->data + text + panel.drawing->setup;
+  return text + plot_command(panel, index);
 }
 
 void check(const Axis& axis, const char* name) {
@@ -308,8 +306,7 @@ void check(const Figure& figure) {
   if (figure.columns < 1) throw std::invalid_argument("Figure: columns is not positive");
   for (const Panel& panel : figure.panels) {
     if (panel.heat_map) check(*panel.heat_map);
-    if (panel.surface) check(*panel.surface);
-    if (panel.surface && panel.z) throw std::invalid_argument("Figure: a panel with a surface has a z axis");
+    if (panel.drawing && panel.z) throw std::invalid_argument("Figure: a panel with a drawing has a z axis");
     check(panel.x, "x");
     check(panel.y, "y");
     for (const Series& series : panel.series)

@@ -81,14 +81,15 @@ TEST(FigureScript, PointsAreNeverThinned) {
   EXPECT_EQ(data_of(figure)["panels"][0]["series"][0]["x"].size(), 3000u);
 }
 
-TEST(FigureScript, SurfacesMapsPerspectivesAndSketchesRemainPictures) {
+TEST(FigureScript, DrawingsMapsPerspectivesAndSketchesRemainPictures) {
   EXPECT_TRUE(has_curves(sines(5)));
-  Figure map = sines(5), sketch = sines(5), depth = sines(5), empty;
+  Figure map = sines(5), sketch = sines(5), depth = sines(5), drawing = sines(5), empty;
   map.panels[0].heat_map = HeatMap{};
   sketch.panels[0].frame = false;
   depth.panels[0].z = Axis{};
+  drawing.panels[0].drawing = Drawing{};
   empty.add_panel();
-  for (const Figure& figure : {map, sketch, depth, empty}) EXPECT_FALSE(has_curves(figure));
+  for (const Figure& figure : {map, sketch, depth, drawing, empty}) EXPECT_FALSE(has_curves(figure));
 }
 
 TEST(FigureScript, SeriesOfDifferentLengthsAreAnError) {

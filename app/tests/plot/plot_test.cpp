@@ -199,6 +199,23 @@ TEST(Render, CurvesInThreeDimensionsNeedTheirHeights) {
   EXPECT_THROW(render(figure, PictureFormat::svg), std::invalid_argument);
 }
 
+TEST(Render, CommandsOfADrawingStandBelowTheSeriesAndInTheLegend) {
+  Figure figure = simple_figure();
+  Drawing& drawing = figure.panels[0].drawing.emplace();
+  drawing.data = "$square << END\n0 0\n1 0\n1 1\n0 0\nEND\n";
+  drawing.setup = "set size ratio -1\n";
+  drawing.items = {"$square using 1:2 with lines notitle"};
+  drawing.legend.push_back(Series{"corners", std::vector<double>{}, std::vector<double>{}});
+  const std::string script = gnuplot_script(figure);
+  EXPECT_LT(script.find("$square <<"), script.find("set size ratio -1"));
+  EXPECT_LT(script.find("set size ratio -1"), script.find("plot $square using"));
+  EXPECT_NE(script.find("plot $square using 1:2 with lines notitle, $"), std::string::npos) << script;
+  EXPECT_NE(render(figure, PictureFormat::svg).find("corners"), std::string::npos);
+  EXPECT_NE(script.find("unset xtics\nunset ytics"), std::string::npos) << "a drawing has no axes";
+  figure.panels[0].z = Axis{};
+  EXPECT_THROW(gnuplot_script(figure), std::invalid_argument);
+}
+
 TEST(Render, WordsOfGnuplotAreInTheError) {
   Figure figure = simple_figure();
   figure.panels[0].x.tick_format = "%";  // gnuplot refuses it only when it draws

@@ -7,7 +7,6 @@
 
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
-#include "wavebalance/app/plot/surface.hpp"
 
 namespace wavebalance::app {
 
@@ -16,6 +15,9 @@ class PlotError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` takes the next one of the panel.
+enum class Colour { automatic, black, orange, sky_blue, green, blue, vermillion, purple, grey };
 
 /// How the points of a series are drawn.
 enum class SeriesStyle {
@@ -101,6 +103,14 @@ struct TextMark {
   enum class Align { left, centre, right } align = Align::centre;
 };
 
+/// Commands of gnuplot for what panels have no series for.
+struct Drawing {
+  std::string data;                ///< data blocks, each with a name of its own in the figure
+  std::string setup;               ///< commands before the plot, which set the ranges of x and y
+  std::vector<std::string> items;  ///< of the plot command
+  std::vector<Series> legend;      ///< named in the legend and not drawn
+};
+
 /// One diagram of a figure: axes, curves and marks.
 struct Panel {
   std::string title;
@@ -108,9 +118,7 @@ struct Panel {
   Axis y;
   std::optional<Axis> z;            ///< set: three dimensions in perspective; each series needs its z
   std::optional<HeatMap> heat_map;  ///< below the series
-  /// Without axes; x and y limits then bound the projection, which it fills otherwise. Series and texts have
-  /// the coordinates of projected().
-  std::optional<SurfaceView> surface;
+  std::optional<Drawing> drawing;   ///< below the series, in a panel without axes
   std::vector<Series> series;
   bool legend = true;  ///< its series are named in the legend of the figure
   bool frame = true;   ///< false leaves axes, ticks and grid out, for sketches
@@ -155,7 +163,7 @@ enum class PictureFormat { svg, png };
 
 /// The picture as the bytes of a file. One figure gives the same bytes every time. Throws PlotError, and
 /// std::invalid_argument if a figure has no panel, the coordinates of a series or a heat map differ in
-/// length, a logarithmic axis has a limit that is not positive or a surface is not valid.
+/// length, or a logarithmic axis has a limit that is not positive.
 std::string render(const Figure& figure, PictureFormat format);
 
 /// Writes stem.svg and stem.png, each complete or not at all; a folder that is missing is made.

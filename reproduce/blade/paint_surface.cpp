@@ -1,4 +1,4 @@
-#include "plot/plot_surface.hpp"
+#include "surface.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,13 +6,19 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
+#include "colour_bands.hpp"
 #include "files/number_text.hpp"
-#include "plot/colour_bands.hpp"
 #include "plot/plot_text.hpp"
 
-namespace wavebalance::app {
+namespace wavebalance::blade {
 namespace {
+
+using app::Axis;
+using app::coordinate;
+using app::Drawing;
+using app::number_text;
 
 /// Rows: the directions to the right, upwards and towards the viewer. A rotation.
 Eigen::Matrix3d directions(const SurfaceView& view) {
@@ -252,13 +258,13 @@ std::string marked(const Surface& surface, const SurfaceMarks& marks, const Eige
   return text;
 }
 
-void add(SurfaceScript& script, const std::string& name, const std::string& rows, const std::string& how) {
+void add(Drawing& script, const std::string& name, const std::string& rows, const std::string& how) {
   if (rows.empty()) return;
   script.data += block(name, rows);
   script.items.push_back(name + " " + how);
 }
 
-void add_facets(SurfaceScript& script, const SurfaceView& view, const std::string& name, double size) {
+void add_facets(Drawing& script, const SurfaceView& view, const std::string& name, double size) {
   const double resolution = size * 1e-4;
   const auto facets = facets_of(view, 10.0 * resolution);
   int layers = 0;
@@ -277,6 +283,28 @@ void add_facets(SurfaceScript& script, const SurfaceView& view, const std::strin
     add(script, name + "_lines" + number, edges.text(),
         "using 1:2 with lines lc rgb '#444444' lw 0.45 dt 1 notitle");
   }
+}
+
+app::Series legend_of(const SurfaceMarks& marks) {
+  app::Series series;
+  series.label = marks.label;
+  series.style = app::SeriesStyle::points;
+  series.colour = marks.colour;
+  series.marker = std::max(marks.marker, 1);
+  return series;
+}
+
+void add_marks(Drawing& script, const SurfaceView& view, const std::string& name) {
+  const Eigen::Matrix3d rotation = directions(view);
+  for (std::size_t i = 0; i < view.surfaces.size(); ++i)
+    for (std::size_t j = 0; j < view.surfaces[i].marks.size(); ++j) {
+      const SurfaceMarks& marks = view.surfaces[i].marks[j];
+      add(script, name + "_marks" + std::to_string(i) + "_" + std::to_string(j),
+          marked(view.surfaces[i], marks, rotation),
+          "using 1:2 with points lc rgb '" + app::colour_code(marks.colour) + "'" +
+              app::symbol_text(static_cast<std::size_t>(std::max(marks.marker, 1) - 1)) + " notitle");
+      script.legend.push_back(legend_of(marks));
+    }
 }
 
 std::string limits_text(const char* name, const Axis& axis, double lower, double upper) {
@@ -298,12 +326,6 @@ std::string axes_text(const SurfaceView& view, const Eigen::Vector2d& corner) {
             number_text(label.y()) + " center front\n";
   }
   return text;
-}
-
-}  // namespace
-
-Eigen::Vector2d projected(const SurfaceView& view, const Eigen::Vector3d& point) {
-  return (directions(view) * point).head<2>();
 }
 
 void check(const SurfaceView& view) {
@@ -329,8 +351,10 @@ void check(const SurfaceView& view) {
   }
 }
 
-SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis& y, const std::string& name) {
-  SurfaceScript script;
+/// Faces are projected, ordered and cut into bands here, because gnuplot 5.4 gives a polygon one colour,
+/// draws back faces as well, and writes several times as much SVG.
+Drawing drawing_of(const SurfaceView& view, const Axis& x, const Axis& y, const std::string& name) {
+  Drawing script;
   const Extent extent = extent_of(view);
   const Eigen::Matrix3d rotation = directions(view);
   const double margin = 0.06 * extent.size();
@@ -339,14 +363,7 @@ SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis&
       add(script, name + "_outline" + std::to_string(i), sharp_edges(view.surfaces[i], rotation),
           "using 1:2 with lines lc rgb '#777777' lw 0.9 dt (4,3) notitle");
   add_facets(script, view, name, extent.size());
-  for (std::size_t i = 0; i < view.surfaces.size(); ++i)
-    for (std::size_t j = 0; j < view.surfaces[i].marks.size(); ++j) {
-      const SurfaceMarks& marks = view.surfaces[i].marks[j];
-      add(script, name + "_marks" + std::to_string(i) + "_" + std::to_string(j),
-          marked(view.surfaces[i], marks, rotation),
-          "using 1:2 with points lc rgb '" + colour_code(marks.colour) + "'" +
-              symbol_text(static_cast<std::size_t>(std::max(marks.marker, 1) - 1)) + " notitle");
-    }
+  add_marks(script, view, name);
   const Eigen::Vector2d lower = extent.lower.array() - margin - 0.8 * view.axes;
   const Eigen::Vector2d upper = extent.upper.array() + margin;
   script.setup = "set size ratio -1\n" + limits_text("x", x, lower.x(), upper.x()) +
@@ -360,4 +377,15 @@ SurfaceScript surface_script(const SurfaceView& view, const Axis& x, const Axis&
   return script;
 }
 
-}  // namespace wavebalance::app
+}  // namespace
+
+Eigen::Vector2d projected(const SurfaceView& view, const Eigen::Vector3d& point) {
+  return (directions(view) * point).head<2>();
+}
+
+void paint(app::Panel& panel, const SurfaceView& view, const std::string& name) {
+  check(view);
+  panel.drawing = drawing_of(view, panel.x, panel.y, "$" + name);
+}
+
+}  // namespace wavebalance::blade

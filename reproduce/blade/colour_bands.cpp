@@ -1,4 +1,4 @@
-#include "plot/colour_bands.hpp"
+#include "colour_bands.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,10 @@
 #include "files/number_text.hpp"
 #include "plot/plot_text.hpp"
 
-namespace wavebalance::app {
+namespace wavebalance::blade {
 namespace {
+
+using app::number_text;
 
 struct Rgb {
   double red, green, blue;
@@ -80,8 +82,8 @@ std::string colour_bar_text(const ColourBands& colours) {
   for (int band = 0; band <= colours.bands; band += step)
     text += "set label '" + short_text(level_of(colours, band)) + "' at graph 1.09,graph " +
             number_text(place(band)) + " left offset 0.5,0\n";
-  return text + "set label " + quoted(colours.label) +
+  return text + "set label " + app::quoted(colours.label) +
          " at graph 1.09,graph 0.5 center rotate by 90 offset 6,0\n";
 }
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::blade

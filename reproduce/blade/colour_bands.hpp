@@ -1,9 +1,9 @@
 #pragma once
 #include <string>
 
-#include "wavebalance/app/plot/surface.hpp"
+#include "surface.hpp"
 
-namespace wavebalance::app {
+namespace wavebalance::blade {
 
 /// The band of a value, 0..bands - 1.
 int band_of(const ColourBands& colours, double value);
@@ -21,4 +21,4 @@ int grey(double brightness);
 /// times the space in an SVG.
 std::string colour_bar_text(const ColourBands& colours);
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::blade

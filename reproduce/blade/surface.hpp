@@ -3,16 +3,15 @@
 #include <string>
 #include <vector>
 
-namespace wavebalance::app {
+#include "wavebalance/app/plot/plot.hpp"
 
-/// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` takes the next one of the panel.
-enum class Colour { automatic, black, orange, sky_blue, green, blue, vermillion, purple, grey };
+namespace wavebalance::blade {
 
 /// Vertices of a surface that are marked by a symbol; those on hidden faces are left out.
 struct SurfaceMarks {
   std::string label;  ///< in the legend
   std::vector<int> vertices;
-  Colour colour = Colour::vermillion;
+  app::Colour colour = app::Colour::vermillion;
   int marker = 1;  ///< the n-th symbol
 };
 
@@ -53,4 +52,11 @@ struct SurfaceView {
 /// A point of space as the picture shows it, to the right and up.
 Eigen::Vector2d projected(const SurfaceView& view, const Eigen::Vector3d& point);
 
-}  // namespace wavebalance::app
+/// Draws the view in the panel, without axes. The limits that the panel's x and y have bound the projection,
+/// which fills the panel otherwise; its series and texts have the coordinates of projected(). `name` begins
+/// the names of its data blocks, so that the panels of a figure need different ones. Throws
+/// std::invalid_argument if a vertex number is out of range, there is not one value per vertex, a face has
+/// fewer than 3 vertices or the colours have no range.
+void paint(app::Panel& panel, const SurfaceView& view, const std::string& name);
+
+}  // namespace wavebalance::blade

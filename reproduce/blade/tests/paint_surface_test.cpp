@@ -5,11 +5,12 @@
 #include <sstream>
 
 #include "support/occurrences.hpp"
-#include "wavebalance/app/plot/plot.hpp"
+#include "surface.hpp"
 
 namespace {
 
 using namespace wavebalance::app;
+using namespace wavebalance::blade;
 
 /// The rows of the data block called `name`, empty ones left out.
 std::vector<std::string> rows_of(const std::string& script, const std::string& name) {
@@ -30,9 +31,15 @@ Surface unit_cube(double shift = 0.0) {
   return cube;
 }
 
-Figure figure_of(Surface surface) {
+SurfaceView view_of(Surface surface) {
+  SurfaceView view;
+  view.surfaces = {std::move(surface)};
+  return view;
+}
+
+Figure figure_of(const SurfaceView& view) {
   Figure figure;
-  figure.add_panel("cube").surface.emplace().surfaces = {std::move(surface)};
+  paint(figure.add_panel("cube"), view, "panel0");
   return figure;
 }
 
@@ -49,7 +56,7 @@ TEST(Surface, ProjectionTurnsTheHeightUpAndKeepsLengthsAcrossTheView) {
 }
 
 TEST(Surface, OfACubeShowsThreeFacesOfSix) {
-  const std::string script = gnuplot_script(figure_of(unit_cube()));
+  const std::string script = gnuplot_script(figure_of(view_of(unit_cube())));
   EXPECT_EQ(rows_of(script, "$panel0_fill0").size(), 3u * 5u);  // closed quadrilaterals
   EXPECT_EQ(script.find("$panel0_fill1"), std::string::npos);   // none hides another
   EXPECT_NE(script.find("set size ratio -1"), std::string::npos);
@@ -57,12 +64,11 @@ TEST(Surface, OfACubeShowsThreeFacesOfSix) {
 
 TEST(Surface, BehindAnotherIsPaintedFirst) {
   // Two cubes in the line of sight: along x from its positive end.
-  Figure figure = figure_of(unit_cube());
-  SurfaceView& view = *figure.panels[0].surface;
+  SurfaceView view = view_of(unit_cube());
   view.surfaces.push_back(unit_cube(-5.0));
   view.azimuth = 10.0;
   view.elevation = 5.0;
-  const std::string script = gnuplot_script(figure);
+  const std::string script = gnuplot_script(figure_of(view));
   ASSERT_FALSE(rows_of(script, "$panel0_fill1").empty());
   // The near cube is among the last: its vertex (1, 0, 0) belongs to a later layer than any far face.
   const Eigen::Vector2d near = projected(view, {1, 0, 0});
@@ -83,12 +89,11 @@ TEST(Surface, BehindAnotherIsPaintedFirst) {
 TEST(Surface, ValuesBecomeBandsThatMeetAtTheirLevels) {
   Surface cube = unit_cube();
   for (int i = 0; i < 8; ++i) cube.values.push_back(cube.vertices(2, i));
-  Figure figure = figure_of(cube);
-  SurfaceView& view = *figure.panels[0].surface;
+  SurfaceView view = view_of(cube);
   view.azimuth = -90.0;
   view.elevation = 0.0;
   view.colours = {ColourBands::Map::sequential, 0.0, 1.0, 4, "height (m)", true};
-  const std::string script = gnuplot_script(figure);
+  const std::string script = gnuplot_script(figure_of(view));
   // The front face, and over it its parts above 1/4, 1/2 and 3/4.
   const auto rows = rows_of(script, "$panel0_fill0");
   ASSERT_EQ(rows.size(), 4u * 5u);
@@ -103,16 +108,16 @@ TEST(Surface, ValuesBecomeBandsThatMeetAtTheirLevels) {
   }
   EXPECT_EQ(occurrences(script, "set object rectangle from graph"), 5);  // four bands and their frame
   EXPECT_NE(script.find("height (m)"), std::string::npos);
-  const std::string svg = render(figure, PictureFormat::svg);
+  const std::string svg = render(figure_of(view), PictureFormat::svg);
   EXPECT_NE(svg.find("height (m)"), std::string::npos);
   view.colours.bar = false;
-  EXPECT_EQ(render(figure, PictureFormat::svg).find("height (m)"), std::string::npos);
+  EXPECT_EQ(render(figure_of(view), PictureFormat::svg).find("height (m)"), std::string::npos);
 }
 
 TEST(Surface, MarksShowWhereTheirFacesDo) {
   Surface cube = unit_cube();
   cube.marks.push_back({"corners", {0, 1, 2, 3, 4, 5, 6, 7}, Colour::vermillion, 1});
-  const Figure figure = figure_of(cube);
+  const Figure figure = figure_of(view_of(cube));
   EXPECT_EQ(rows_of(gnuplot_script(figure), "$panel0_marks0_0").size(), 7u);  // one corner is behind
   EXPECT_NE(render(figure, PictureFormat::svg).find("corners"), std::string::npos);
 }
@@ -120,7 +125,7 @@ TEST(Surface, MarksShowWhereTheirFacesDo) {
 TEST(Surface, OutlineOfACubeHasItsTwelveEdges) {
   Surface cube = unit_cube();
   cube.outline = true;
-  const std::string script = gnuplot_script(figure_of(cube));
+  const std::string script = gnuplot_script(figure_of(view_of(cube)));
   EXPECT_EQ(rows_of(script, "$panel0_outline0").size(), 24u);
   EXPECT_EQ(occurrences(script, "$panel0_fill"), 0);
 }
@@ -131,16 +136,17 @@ TEST(Surface, MidpointsOnStraightEdgesAreLeftOut) {
   face.vertices << 0, 1, 2, 2, 2, 1, 0, 0, 0, 0, 0, 1, 2, 2, 2, 1.2, 0, 0, 0, 0, 0, 0, 0, 0;
   face.faces = {{0, 1, 2, 3, 4, 5, 6, 7}};
   face.vertices(0, 7) = -0.3;  // the last edge is bent
-  Figure figure = figure_of(face);
-  figure.panels[0].surface->elevation = 90.0;
-  EXPECT_EQ(rows_of(gnuplot_script(figure), "$panel0_fill0").size(), 6u);  // four corners, one bend, closed
+  SurfaceView view = view_of(face);
+  view.elevation = 90.0;
+  EXPECT_EQ(rows_of(gnuplot_script(figure_of(view)), "$panel0_fill0").size(),
+            6u);  // four corners, one bend, closed
 }
 
 TEST(Surface, ThatIsNotValidIsRefused) {
   const auto refused = [](auto change) {
-    Figure figure = figure_of(unit_cube());
-    change(*figure.panels[0].surface);
-    EXPECT_THROW(gnuplot_script(figure), std::invalid_argument);
+    SurfaceView view = view_of(unit_cube());
+    change(view);
+    EXPECT_THROW(figure_of(view), std::invalid_argument);
   };
   refused([](SurfaceView& view) { view.surfaces.clear(); });
   refused([](SurfaceView& view) { view.surfaces[0].faces[0][1] = 8; });
