@@ -8,15 +8,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stepped_sweep.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/stepped_sweep.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::blade {
 std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model) {
   const auto& analysis = scene.analysis;
-  const auto frequencies = solvers::uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
-                                                        analysis.largest_step, analysis.max_points);
+  const auto frequencies = uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
+                                               analysis.largest_step, analysis.max_points);
   solvers::ForcedResponseOptions nearby;
   nearby.fallbacks = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
@@ -30,7 +30,7 @@ std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::Str
             solvers::by_contact(found.contact_force, model.contacts())};
   };
   std::vector<BladeResponse> responses;
-  for (auto& found : solvers::stepped_sweep(composed.problem, frequencies, solve))
+  for (auto& found : steps_over(composed.problem, frequencies, solve))
     responses.push_back(found ? std::move(*found)
                               : BladeResponse{frequencies[responses.size()], false, {}, {}});
   return responses;

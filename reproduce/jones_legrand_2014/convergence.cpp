@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "curve_measures.hpp"
+#include "nyquist_resonances.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/nyquist_resonances.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
@@ -294,7 +294,7 @@ void note_nyquist_resonances(report::Artefact& artefact) {
     for (const Pair& one : pairs())
       for (const int functions : sizes())
         for (const double frequency :
-             app::nyquist_resonances(study.scene_for(one, functions), 0.5 * forcing, 2.0 * forcing)) {
+             nyquist_resonances(study.scene_for(one, functions), 0.5 * forcing, 2.0 * forcing)) {
           if (std::abs(frequency - forcing) >= std::abs(nearest - forcing)) continue;
           nearest = frequency;
           where = one.label + " with " + std::to_string(functions) + " functions";

@@ -96,7 +96,7 @@ inline constexpr Measure rms_and_mean[] = {&Measures::rms, &Measures::mean};
 report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& part);
 
 /// Notes what the readings set, and for each case which pair and number of functions has a resonance of its
-/// own Nyquist coefficient (see app::nyquist_resonances) nearest to the forcing frequency.
+/// own Nyquist coefficient (see nyquist_resonances) nearest to the forcing frequency.
 void note_convergence_sums(report::Artefact& artefact);
 void note_nyquist_resonances(report::Artefact& artefact);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "nyquist_resonances.hpp"
 #include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -101,7 +101,7 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
     const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
     std::string listed;
     for (const double frequency :
-         app::nyquist_resonances(scene, scene.analysis.frequency_from, scene.analysis.frequency_to))
+         nyquist_resonances(scene, scene.analysis.frequency_from, scene.analysis.frequency_to))
       listed += (listed.empty() ? " " : ", ") + report::number(frequency, 6);
     if (!listed.empty()) text += (text.empty() ? "" : "; ") + pair.label + listed + " Hz";
   }
@@ -110,7 +110,7 @@ void note_nyquist_resonances(report::Artefact& artefact, const std::string& file
       "pair. The contact force excites it near frequencies that mean nothing to the bar: {}. Fourier:Fourier with "
       "63 functions (31 full harmonics) has {}.",
       text.empty() ? "none in the interval" : text,
-      app::nyquist_resonances(full, full.analysis.frequency_from, full.analysis.frequency_to).empty()
+      nyquist_resonances(full, full.analysis.frequency_from, full.analysis.frequency_to).empty()
           ? "none"
           : "some too"));
 }

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/response/stepped_sweep.hpp"
+#include "stepped_sweep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,10 @@
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::blade {
 namespace {
 
+using solvers::CondensedProblem;
 using Frequencies = std::vector<double>;
 
 TEST(UniformFrequencies, HoldBothEndsAndStepsThatAreNotLarger) {
@@ -35,7 +36,8 @@ TEST(UniformFrequencies, NumbersThatAreNotFiniteOrPositiveAreRefused) {
 
 /// An oscillator of natural frequency 1 / (2 pi).
 CondensedProblem oscillator(double damping) {
-  return {testing::fourier_pair(3, 16), testing::unit_oscillator(damping, 1.0), testing::cosine_load()};
+  return {solvers::testing::fourier_pair(3, 16), solvers::testing::unit_oscillator(damping, 1.0),
+          solvers::testing::cosine_load()};
 }
 
 double amplitude(CondensedProblem& problem) { return problem.contact_free_response().maxCoeff(); }
@@ -43,7 +45,7 @@ double amplitude(CondensedProblem& problem) { return problem.contact_free_respon
 TEST(SteppedSweep, IsAtEachFrequencyWhatAProblemOfItsOwnIs) {
   CondensedProblem problem = oscillator(0.1);
   const Frequencies frequencies{0.1, 0.15, 0.2};
-  const auto found = stepped_sweep(problem, frequencies, amplitude);
+  const auto found = steps_over(problem, frequencies, amplitude);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < found.size(); ++i) {
     CondensedProblem alone = oscillator(0.1);
@@ -55,7 +57,7 @@ TEST(SteppedSweep, IsAtEachFrequencyWhatAProblemOfItsOwnIs) {
 
 TEST(SteppedSweep, HoldsNothingWhereTheStructureIsSingular) {
   CondensedProblem problem = oscillator(0.0);
-  const auto found = stepped_sweep(problem, Frequencies{0.1, 0.5 / std::numbers::pi, 0.2}, amplitude);
+  const auto found = steps_over(problem, Frequencies{0.1, 0.5 / std::numbers::pi, 0.2}, amplitude);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_TRUE(found[0]);
   EXPECT_FALSE(found[1]);
@@ -64,10 +66,10 @@ TEST(SteppedSweep, HoldsNothingWhereTheStructureIsSingular) {
 
 TEST(SteppedSweep, EndsWhereItIsStopped) {
   CondensedProblem problem = oscillator(0.1);
-  const auto found = stepped_sweep(problem, Frequencies{0.1, 0.15, 0.2}, amplitude,
-                                   [](const Progress& progress) { return progress.step < 2; });
+  const auto found = steps_over(problem, Frequencies{0.1, 0.15, 0.2}, amplitude,
+                                [](const solvers::Progress& progress) { return progress.step < 2; });
   EXPECT_EQ(found.size(), 2u);
 }
 
 }  // namespace
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::blade

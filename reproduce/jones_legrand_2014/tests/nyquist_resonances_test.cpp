@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "nyquist_resonances.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,10 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
-namespace wavebalance::app {
+namespace wavebalance::jl14 {
 namespace {
+
+using namespace app;
 
 Scene case2(const std::string& trial, const std::string& weight, int functions) {
   const std::vector<std::string> overrides{"time.trial=" + trial, "time.weight=" + weight,
@@ -88,4 +90,4 @@ INSTANTIATE_TEST_SUITE_P(Paper, NyquistResonancesOfPairs,
                                            std::pair{"haar", "bspline"}));
 
 }  // namespace
-}  // namespace wavebalance::app
+}  // namespace wavebalance::jl14

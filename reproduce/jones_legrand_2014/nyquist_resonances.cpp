@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/nyquist_resonances.hpp"
+#include "nyquist_resonances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
-namespace wavebalance::app {
+namespace wavebalance::jl14 {
 namespace {
 
 /// The positive roots of a f^2 + b f + c = 0, a not zero.
@@ -22,12 +22,12 @@ std::vector<double> positive_roots(double a, double b, double c) {
 
 }  // namespace
 
-std::vector<double> nyquist_resonances(const Scene& scene, double from, double to) {
-  if (scene.time.functions % 2 != 0 || scene.time.nyquist == NyquistCoefficient::drop) return {};
-  const solvers::TimePair pair = make_pair(scene.time);
+std::vector<double> nyquist_resonances(const app::Scene& scene, double from, double to) {
+  if (scene.time.functions % 2 != 0 || scene.time.nyquist == app::NyquistCoefficient::drop) return {};
+  const solvers::TimePair pair = app::make_pair(scene.time);
   const auto nyquist = [&](int derivative) { return pair.symbol(derivative)[pair.functions() / 2].real(); };
   if (nyquist(2) == 0.0) return {};
-  const solvers::LinearStructure structure = make_structure(scene);
+  const solvers::LinearStructure structure = app::make_structure(scene);
   const Eigen::VectorXd masses = structure.mass.diagonal();
   const int count = static_cast<int>((masses.array() != 0.0).count());
   const auto modes = fem::eigenmodes(structure.stiffness, structure.mass, count);
@@ -43,4 +43,4 @@ std::vector<double> nyquist_resonances(const Scene& scene, double from, double t
   return frequencies;
 }
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::jl14

@@ -3,7 +3,7 @@
 
 #include "wavebalance/app/scene/scene.hpp"
 
-namespace wavebalance::app {
+namespace wavebalance::jl14 {
 
 /// Forcing frequencies in [from, to], Hz, at which the discretisation in time has a resonance of its own.
 /// With an even number M of functions the symbols of all derivatives are real at k = M/2, for every pair of
@@ -17,6 +17,6 @@ namespace wavebalance::app {
 /// damping couples modes is left out). Contact excites the coefficient slightly; a response near such a
 /// frequency is an artefact. Empty for odd M and where the scene drops the coefficient. Ascending. O(n^3), n
 /// degrees of freedom.
-std::vector<double> nyquist_resonances(const Scene& scene, double from, double to);
+std::vector<double> nyquist_resonances(const app::Scene& scene, double from, double to);
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::jl14

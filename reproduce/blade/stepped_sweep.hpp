@@ -7,7 +7,7 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::blade {
 
 /// Uniform frequencies from `from` to `to`, both included, at most `max_step` apart, in one unit; of more
 /// than `max_count` the first ones. Throws std::invalid_argument unless the frequencies are finite and the
@@ -21,14 +21,14 @@ std::vector<double> uniform_frequencies(double from, double to, double max_step,
 /// frequency; when it returns false, the sweep ends and fewer responses than frequencies are returned. The
 /// cost is that of the condensations and solves.
 template <class Solve>
-auto stepped_sweep(CondensedProblem& problem, std::span<const double> frequencies, Solve solve,
-                   const Observer& observer = {}) {
-  std::vector<std::optional<std::invoke_result_t<Solve&, CondensedProblem&>>> found;
+auto steps_over(solvers::CondensedProblem& problem, std::span<const double> frequencies, Solve solve,
+                const solvers::Observer& observer = {}) {
+  std::vector<std::optional<std::invoke_result_t<Solve&, solvers::CondensedProblem&>>> found;
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     try {
       problem.set_frequency(frequencies[i]);
       found.emplace_back(solve(problem));
-    } catch (const SingularSystem&) {
+    } catch (const solvers::SingularSystem&) {
       found.emplace_back();
     }
     const double done = static_cast<double>(i + 1) / static_cast<double>(frequencies.size());
@@ -37,4 +37,4 @@ auto stepped_sweep(CondensedProblem& problem, std::span<const double> frequencie
   return found;
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::blade

@@ -1,11 +1,11 @@
-#include "wavebalance/solvers/response/stepped_sweep.hpp"
+#include "stepped_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace wavebalance::solvers {
+namespace wavebalance::blade {
 
 std::vector<double> uniform_frequencies(double from, double to, double max_step, int max_count) {
   if (!std::isfinite(from) || !std::isfinite(to) || !(max_step > 0.0) || max_count < 1)
@@ -21,4 +21,4 @@ std::vector<double> uniform_frequencies(double from, double to, double max_step,
   return frequencies;
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::blade
