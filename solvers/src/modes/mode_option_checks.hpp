@@ -5,7 +5,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// What the options of both mode solvers have in common.
+/// Checks of the options of mode solvers, also of the one in reproduce/laxalde_legrand_2010/modes.
 inline void require_mode_discretisation(const char* who, int mode, int harmonics, int samples) {
   require_at_least(who, "mode", mode, 1);
   require_at_least(who, "harmonics", harmonics, 1);
