@@ -38,4 +38,26 @@ ForceAndTangent BilinearLaw::resolvent(double v, double flexibility) const {
   return {none, none};
 }
 
+LawDescription BilinearLaw::description() {
+  return {
+      .name = "bilinear",
+      .force = "slopes[0] u up to the gap, from there on with slopes[1]; either may be negative",
+      .parameters =
+          {{.name = "slopes",
+            .unit = "N/m",
+            .help =
+                "slopes of the bilinear law below and beyond the gap, of either sign; the force is 0 at u "
+                "= 0",
+            .kind = LawParameter::Kind::list,
+            .length = 2},
+           {.name = "gap",
+            .unit = "m",
+            .help = "displacement at which the slope of the bilinear law changes"}},
+      .beyond_gap_alone = false};
+}
+
+BilinearLaw BilinearLaw::of(const LawValues& values) {
+  return {list_of(values, "slopes")[0], list_of(values, "slopes")[1], number_of(values, "gap")};
+}
+
 }  // namespace wavebalance::contact

@@ -36,4 +36,33 @@ ForceAndTangent ClearanceLaw::resolvent(double v, double flexibility) const {
   return series(above_, v - above_.gap);
 }
 
+LawDescription ClearanceLaw::description() {
+  return {.name = "clearance",
+          .force = "stiffness (u - gap) beyond the gap, and likewise on the other side of the backlash",
+          .parameters = {{.name = "stiffness",
+                          .unit = "N/m",
+                          .help = "slope of the clearance law",
+                          .range = above_zero},
+                         {.name = "gap",
+                          .unit = "m",
+                          .help = "gap of the clearance law on the positive side",
+                          .range = at_least_zero},
+                         {.name = "stiffness_below",
+                          .unit = "N/m",
+                          .help = "slope of the clearance law on the negative side",
+                          .range = above_zero,
+                          .same_as = "stiffness"},
+                         {.name = "gap_below",
+                          .unit = "m",
+                          .help = "gap of the clearance law on the negative side: u >= -gap_below",
+                          .range = at_least_zero,
+                          .same_as = "gap"}},
+          .beyond_gap_alone = false};
+}
+
+ClearanceLaw ClearanceLaw::of(const LawValues& values) {
+  return {{number_of(values, "stiffness"), number_of(values, "gap")},
+          {number_of(values, "stiffness_below"), number_of(values, "gap_below")}};
+}
+
 }  // namespace wavebalance::contact

@@ -28,4 +28,31 @@ double HuntCrossleyLaw::potential(double displacement) const {
   return detail::saturate(stiffness_ * std::pow(displacement - gap_, power_ + 1.0) / (power_ + 1.0));
 }
 
+LawDescription HuntCrossleyLaw::description() {
+  return {
+      .name = "hunt_crossley",
+      .force = "hertz_stiffness d^power (1 + dissipation v), d = u - gap > 0, where it does not pull",
+      .parameters = {
+          {.name = "hertz_stiffness",
+           .unit = "N/m^power",
+           .help = "k of the Hunt-Crossley law, the force k d^power (1 + dissipation v) of the penetration d "
+                   "= u - gap and the velocity v, where that is not negative",
+           .range = above_zero},
+          {.name = "power",
+           .unit = "",
+           .help = "exponent of the penetration; 3/2 for two spheres",
+           .range = {1.0, 10.0},
+           .fallback = 1.5},
+          {.name = "dissipation",
+           .unit = "s/m",
+           .help = "dissipation of the Hunt-Crossley law",
+           .range = at_least_zero},
+          gap_parameter}};
+}
+
+HuntCrossleyLaw HuntCrossleyLaw::of(const LawValues& values) {
+  return {number_of(values, "hertz_stiffness"), number_of(values, "power"), number_of(values, "dissipation"),
+          number_of(values, "gap")};
+}
+
 }  // namespace wavebalance::contact

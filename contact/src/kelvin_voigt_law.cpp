@@ -30,4 +30,32 @@ double KelvinVoigtLaw::potential(double displacement) const {
   return detail::saturate(0.5 * (stiffness_ * penetration * penetration));
 }
 
+LawDescription KelvinVoigtLaw::description() {
+  return {
+      .name = "kelvin_voigt",
+      .force = "stiffness d + damping v, d = u - gap > 0, where it does not pull",
+      .parameters = {
+          {.name = "stiffness",
+           .unit = "N/m",
+           .help = "slope of the spring of the Kelvin-Voigt law",
+           .range = above_zero},
+          {.name = "damping",
+           .unit = "N s/m",
+           .help = "damper of the Kelvin-Voigt law, the force stiffness d + damping v of the penetration d = "
+                   "u - gap > 0 and the velocity v, where that is not negative",
+           .range = at_least_zero},
+          {.name = "damping_depth",
+           .unit = "m",
+           .help = "penetration over which that damper rises smoothly to its full value; 0: at once, with a "
+                   "jump of the force",
+           .range = at_least_zero,
+           .fallback = 0.0},
+          gap_parameter}};
+}
+
+KelvinVoigtLaw KelvinVoigtLaw::of(const LawValues& values) {
+  return {number_of(values, "stiffness"), number_of(values, "damping"), number_of(values, "gap"),
+          number_of(values, "damping_depth")};
+}
+
 }  // namespace wavebalance::contact

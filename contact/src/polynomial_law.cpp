@@ -32,4 +32,18 @@ double PolynomialLaw::potential(double displacement) const {
   return detail::saturate_both(energy * displacement * displacement);
 }
 
+LawDescription PolynomialLaw::description() {
+  return {.name = "polynomial",
+          .force = "c_1 u + c_2 u^2 + ..., polynomial = [c_1, c_2, ...]",
+          .parameters = {{.name = "polynomial",
+                          .unit = "N/m, N/m^2, ...",
+                          .help = "c_1, c_2, ... of the polynomial law, the force c_1 u + c_2 u^2 + ...",
+                          .kind = LawParameter::Kind::list}},
+          .beyond_gap_alone = false};
+}
+
+PolynomialLaw PolynomialLaw::of(const LawValues& values) {
+  return PolynomialLaw(list_of(values, "polynomial"));
+}
+
 }  // namespace wavebalance::contact

@@ -22,4 +22,10 @@ ForceAndTangent RigidLaw::resolvent(double v, double flexibility) const {
   return {detail::saturate((v - gap_) / flexibility), 1.0 / flexibility};
 }
 
+LawDescription RigidLaw::description() {
+  return {.name = "rigid", .force = "whatever keeps u <= gap", .parameters = {gap_parameter}, .rigid = true};
+}
+
+RigidLaw RigidLaw::of(const LawValues& values) { return RigidLaw(number_of(values, "gap")); }
+
 }  // namespace wavebalance::contact

@@ -114,4 +114,20 @@ double TableLaw::potential(double displacement) const {
   return detail::saturate_both(energy_from_begin(displacement) - energy_at_gap_);
 }
 
+LawDescription TableLaw::description() {
+  return {
+      .name = "table",
+      .force = "through the points of a CSV file, a monotone cubic between them, the last slope beyond",
+      .parameters =
+          {{.name = "table",
+            .unit = "",
+            .help =
+                "CSV file of the table law: displacement in m, ascending, and force in N per row, between "
+                "which the force is a monotone cubic and beyond which it has the last slope",
+            .kind = LawParameter::Kind::file}},
+      .beyond_gap_alone = false};
+}
+
+TableLaw TableLaw::of(const LawValues& values) { return read_table_law(file_of(values, "table")); }
+
 }  // namespace wavebalance::contact

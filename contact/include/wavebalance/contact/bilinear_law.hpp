@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -17,6 +18,10 @@ class BilinearLaw {
   /// slope_below: k1, slope_beyond: k2, N/m, of any sign; kink: u1, m. Throws std::invalid_argument unless
   /// all are finite.
   BilinearLaw(double slope_below, double slope_beyond, double kink);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static BilinearLaw of(const LawValues& values);
 
   double slope_below() const { return below_; }
   double slope_beyond() const { return beyond_; }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -22,6 +23,10 @@ class ClearanceLaw {
   ClearanceLaw(Side above, Side below);
   /// The same stop on both sides.
   ClearanceLaw(double stiffness, double gap) : ClearanceLaw({stiffness, gap}, {stiffness, gap}) {}
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static ClearanceLaw of(const LawValues& values);
 
   const Side& above() const { return above_; }
   const Side& below() const { return below_; }

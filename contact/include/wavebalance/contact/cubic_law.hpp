@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -14,6 +15,10 @@ class CubicLaw {
  public:
   /// k3, N/m^3. Throws std::invalid_argument unless it is finite and not zero.
   explicit CubicLaw(double stiffness);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static CubicLaw of(const LawValues& values);
 
   double stiffness() const { return stiffness_; }
   static constexpr double gap() { return 0.0; }

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -22,6 +23,10 @@ class ExponentialLaw {
   /// constant: a_c > 0, N; exponent: alpha > 0, 1/m; gap: g0, m. Throws std::invalid_argument unless all are
   /// finite and the first two positive.
   ExponentialLaw(double constant, double exponent, double gap);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static ExponentialLaw of(const LawValues& values);
 
   double constant() const { return constant_; }
   double exponent() const { return exponent_; }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_slopes.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -17,6 +18,10 @@ class HuntCrossleyLaw {
   /// stiffness: k > 0, N/m^n; power: n >= 1; dissipation: c >= 0, s/m; gap: g0, m. Throws
   /// std::invalid_argument unless all are finite and in range.
   HuntCrossleyLaw(double stiffness, double power, double dissipation, double gap);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static HuntCrossleyLaw of(const LawValues& values);
 
   double gap() const { return gap_; }
   std::vector<double> kinks() const { return {gap_}; }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_slopes.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -16,6 +17,10 @@ class KelvinVoigtLaw {
   /// stiffness: k > 0, N/m; damping: c >= 0, N s/m; gap: g0, m; depth: p >= 0, m. Throws
   /// std::invalid_argument unless all are finite and in range.
   KelvinVoigtLaw(double stiffness, double damping, double gap, double depth = 0.0);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static KelvinVoigtLaw of(const LawValues& values);
 
   double gap() const { return gap_; }
   std::vector<double> kinks() const { return {gap_}; }

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -14,6 +15,10 @@ class LinearLaw {
  public:
   /// stiffness: k > 0, N/m; gap: g0, m. Throws std::invalid_argument unless both are finite and k positive.
   LinearLaw(double stiffness, double gap);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static LinearLaw of(const LawValues& values);
 
   double stiffness() const { return stiffness_; }
   double gap() const { return gap_; }

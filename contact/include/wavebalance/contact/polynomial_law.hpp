@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -14,6 +15,10 @@ class PolynomialLaw {
   /// c_1, c_2, ..., N/m, N/m^2, ... Throws std::invalid_argument when the list is empty, and unless all are
   /// finite and one is not zero.
   explicit PolynomialLaw(std::vector<double> coefficients);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static PolynomialLaw of(const LawValues& values);
 
   const std::vector<double>& coefficients() const { return coefficients_; }
   static constexpr double gap() { return 0.0; }

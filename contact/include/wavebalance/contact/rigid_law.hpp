@@ -1,5 +1,6 @@
 #pragma once
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -11,6 +12,10 @@ class RigidLaw {
  public:
   /// gap: g0, m. Throws std::invalid_argument unless it is finite.
   explicit RigidLaw(double gap);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static RigidLaw of(const LawValues& values);
 
   double gap() const { return gap_; }
   static constexpr bool unilateral() { return true; }

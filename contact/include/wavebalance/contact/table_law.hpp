@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wavebalance/contact/force_and_tangent.hpp"
+#include "wavebalance/contact/law_description.hpp"
 
 namespace wavebalance::contact {
 
@@ -21,6 +22,10 @@ class TableLaw {
   /// Displacements in m, strictly ascending, and as many forces in N, two at least. Throws
   /// std::invalid_argument otherwise.
   TableLaw(std::vector<double> displacements, std::vector<double> forces);
+
+  /// Its row of the catalogue, and the law of complete values.
+  static LawDescription description();
+  static TableLaw of(const LawValues& values);
 
   std::span<const double> displacements() const { return displacements_; }
   std::span<const double> forces() const { return forces_; }
