@@ -31,7 +31,7 @@ void append(app::Table& table, std::uint64_t seed, double tolerance) {
   const auto exact = tolerance::shooting_nearby(motion, found, output_points);
   const double error =
       exact ? tolerance::true_error(found, *exact) : std::numeric_limits<double>::quiet_NaN();
-  table.append_row({std::to_string(seed), name_of(motion.scene.contact.law), motion.scene.forcing.frequency,
+  table.append_row({std::to_string(seed), motion.scene.contact.law, motion.scene.forcing.frequency,
                     motion.scene.structure.stiffness_damping, motion.scene.contact.gap, tolerance,
                     std::string(to_string(found.status)), found.estimated_error, error, error / tolerance,
                     std::int64_t{found.levels.back().functions}, std::int64_t{found.levels.back().points},

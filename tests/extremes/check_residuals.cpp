@@ -19,7 +19,6 @@
 namespace wavebalance::extremes {
 namespace {
 
-using app::ContactLawType;
 using app::Scene;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -124,11 +123,11 @@ double law_violation(const Scene& scene, const solvers::Motion& contacts) {
 }
 
 double law_or_obstacle_violation(const Scene& scene, const solvers::Motion& contacts) {
-  if (scene.contact.law != ContactLawType::rigid) return law_violation(scene, contacts);
+  if (scene.contact.law != "rigid") return law_violation(scene, contacts);
   const Eigen::ArrayXXd force = contacts.force.array();
   Eigen::ArrayXXd opening = -contacts.displacement.array();
   for (int contact = 0; contact < contacts.rows(); ++contact)
-    opening.row(contact) += scene.contact.gap_of(contact);
+    opening.row(contact) += contacts_of(scene).at(contact).gap;
   const double largest = force.abs().maxCoeff();
   double span = contacts.displacement.cwiseAbs().maxCoeff();
   // On the obstacle to rounding or to the solver's residual, which is relative to the response without
@@ -183,10 +182,10 @@ bool is_stiff(const Scene& scene, double displacement) {
 }
 
 bool can_be_stepped(const Scene& scene, const app::Response& response, int stepped_elements) {
-  return scene.structure.type == app::StructureType::bar && !is_slow(scene) &&
-         scene.contact.law != ContactLawType::rigid && !is_stiff(scene, response.displacement().maxCoeff()) &&
-         !scene.structure.massless_tip && scene.structure.elements <= stepped_elements &&
-         scene.time.trial != "haar" && scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
+  return scene.structure.type == app::StructureType::bar && !is_slow(scene) && scene.contact.law != "rigid" &&
+         !is_stiff(scene, response.displacement().maxCoeff()) && !scene.structure.massless_tip &&
+         scene.structure.elements <= stepped_elements && scene.time.trial != "haar" &&
+         scene.time.trial != "daubechies2" && scene.time.trial != "daubechies4";
 }
 
 double periodicity(const Scene& scene, const solvers::Motion& structure) {

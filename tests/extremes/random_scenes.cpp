@@ -56,8 +56,7 @@ Scene draw_kinds(Draw& draw) {
   }
   if (draw.chance(0.1)) scene.structure.type = StructureType::blade;
   if (draw.chance(0.05)) scene.structure.type = StructureType::matrices;
-  if (scene.analysis.type == AnalysisType::nonlinear_mode && draw.chance(0.9))
-    scene.contact.law = ContactLawType::rigid;
+  if (scene.analysis.type == AnalysisType::nonlinear_mode && draw.chance(0.9)) scene.contact.law = "rigid";
   return scene;
 }
 
@@ -116,18 +115,17 @@ Structure draw_structure(Draw& draw, bool wild) {
 /// Forces and lengths in units of a static tip displacement, so that contact does happen.
 void draw_contact(Draw& draw, Scene& scene, double displacement, double stiffness) {
   Contact& contact = scene.contact;
-  contact.law = draw.one_of(std::vector<ContactLawType>{ContactLawType::none, ContactLawType::exponential,
-                                                        ContactLawType::linear, ContactLawType::rigid});
-  if (contact.law == ContactLawType::none) return;
-  if (contact.law == ContactLawType::rigid && scene.structure.elements == 1)
-    contact.law = ContactLawType::linear;  // there is no neighbour to take the tip's mass
+  contact.law = draw.one_of(std::vector<std::string>{"none", "exponential", "linear", "rigid"});
+  if (contact.law == "none") return;
+  if (contact.law == "rigid" && scene.structure.elements == 1)
+    contact.law = "linear";  // there is no neighbour to take the tip's mass
   contact.gap = displacement * draw.uniform(-0.5, 1.5);
   if (draw.chance(0.1)) contact.gap = draw.one_of(std::vector<double>{0.0, 1e-300, -1e-300, 1e30});
   const double penalty = stiffness * draw.magnitude(-3.0, 8.0);
-  if (contact.law == ContactLawType::linear) contact.stiffness = penalty;
-  if (contact.law != ContactLawType::exponential) return;
-  contact.exponent = draw.magnitude(-2.0, 2.0) / displacement;
-  contact.constant = penalty / contact.exponent;
+  if (contact.law == "linear") contact.values["stiffness"] = penalty;
+  if (contact.law != "exponential") return;
+  contact.values["exponent"] = draw.magnitude(-2.0, 2.0) / displacement;
+  contact.values["constant"] = penalty / contact.number("exponent");
 }
 
 Time draw_time(Draw& draw) {

@@ -49,12 +49,12 @@ inline app::Scene random_scene(std::uint64_t seed) {
   const bool grazing = dice.uniform(0.0, 1.0) < 0.25;
   scene.contact.gap = amplitude * (grazing ? 1.0 - dice.logarithmic(1e-4, 1e-1) : dice.uniform(-0.3, 1.0));
   if (dice.uniform(0.0, 1.0) < 0.5) {
-    scene.contact.law = app::ContactLawType::linear;
-    scene.contact.stiffness = dice.logarithmic(1e7, 1e11);
+    scene.contact.law = "linear";
+    scene.contact.values["stiffness"] = dice.logarithmic(1e7, 1e11);
   } else {
-    scene.contact.law = app::ContactLawType::exponential;
-    scene.contact.exponent = dice.logarithmic(0.05, 5.0) / amplitude;
-    scene.contact.constant = dice.logarithmic(1e7, 1e11) / scene.contact.exponent;
+    scene.contact.law = "exponential";
+    scene.contact.values["exponent"] = dice.logarithmic(0.05, 5.0) / amplitude;
+    scene.contact.values["constant"] = dice.logarithmic(1e7, 1e11) / scene.contact.number("exponent");
   }
   return scene;
 }

@@ -109,7 +109,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back("strategy", response.strategy);
   warn_of_scene(record, scene);
-  if (response.moves && scene.contact.law != ContactLawType::none && !response.contacts.force.any())
+  if (response.moves && scene.contact.law != no_law && !response.contacts.force.any())
     warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
   append_period(record, response.periods, response.motion_periods);
   if (response.periods > 1)
@@ -147,9 +147,18 @@ double least_displacement(const solvers::FrequencySweep& curve) {
   return value;
 }
 
-/// The law's force at the largest displacement; missing where contacts have different gaps.
-double force_at(const Contact& contact, double displacement) {
-  return contact.gaps.empty() ? make_law(contact).force(displacement) : missing;
+/// The largest contact force of a curve: that of the one law at the largest displacement, or of the samples
+/// where contacts differ, and where the displacement alone does not say it.
+double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, double displacement) {
+  if (curve.points.empty()) return missing;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
+    return !other.pair && other.same_law(contacts.front());
+  });
+  const std::string& law = scene.contact.law;
+  if (one && curve.form != solvers::ContactForm::force && !is_damped(law) && !acts_on_both_sides(law))
+    return make_laws(scene)[0].force(displacement);
+  return largest(curve, &solvers::SweepPoint::max_force);
 }
 
 /// Frequency or amplitude of the point with the largest displacement; missing without points.
@@ -179,12 +188,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back("min_displacement_m", least_displacement(sweep.curve));
   record.summary.emplace_back("rms_displacement_m",
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
-  const bool one_law = sweep.curve.form != solvers::ContactForm::force && scene.contact.pairs.empty() &&
-                       !is_damped(scene.contact.law) && !acts_on_both_sides(scene.contact.law);
-  record.summary.emplace_back("max_contact_force_N",
-                              points == 0 ? missing
-                              : one_law   ? force_at(scene.contact, highest)
-                                          : largest(sweep.curve, &solvers::SweepPoint::max_force));
+  record.summary.emplace_back("max_contact_force_N", largest_force(scene, sweep.curve, highest));
   record.summary.emplace_back("contact_fraction",
                               largest(sweep.curve, &solvers::SweepPoint::contact_fraction));
   record.summary.emplace_back("analysis", name_of(scene.analysis.type));
@@ -192,7 +196,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
   record.summary.emplace_back("points", std::int64_t{points});
   warn_of_scene(record, scene);
-  if (points > 0 && scene.contact.law != ContactLawType::none &&
+  if (points > 0 && scene.contact.law != no_law &&
       largest(sweep.curve, &solvers::SweepPoint::contact_fraction) == 0.0)
     warn_of_open_contacts(record, highest, model.gaps.minCoeff());
   append_period(record, sweep.periods, sweep.motion_periods);

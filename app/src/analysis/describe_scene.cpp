@@ -12,6 +12,7 @@
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -76,40 +77,40 @@ std::string contact_place(const Scene& scene) {
   return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
 }
 
-/// "gap 0.1 m", or both where the sides differ.
-std::string clearance_text(const Contact& contact) {
-  const double below = contact.more.gap_below >= 0.0 ? contact.more.gap_below : contact.gap;
+/// "gap 0.1 m on either side", or both gaps where they differ; empty for a contact with one gap.
+std::string two_gaps_text(const SceneContact& contact) {
+  const contact::LawValues values = contact::complete_values(contact::law_entry(contact.law), contact.values);
+  if (!values.contains("gap_below")) return "";
+  const double below = contact::number_of(values, "gap_below");
   if (below == contact.gap) return "gap " + number_text(below) + " m on either side";
   return "gaps " + number_text(contact.gap) + " m above and " + number_text(below) + " m below";
 }
 
-std::string gap_text(const Contact& contact) {
-  std::vector<double> gaps = contact.gaps;
-  for (const ContactPair& pair : contact.pairs)
-    if (has_gap(pair.law)) gaps.push_back(pair.gap);
-  const bool one = contact.pairs.empty() && contact.gaps.empty();
-  if (one && contact.law == ContactLawType::clearance) return clearance_text(contact);
-  if (one && has_gap(contact.law)) gaps.push_back(contact.gap);
+std::string gap_text(const std::vector<SceneContact>& contacts) {
+  std::vector<double> gaps;
+  for (const SceneContact& one : contacts)
+    if (has_gap(one.law)) gaps.push_back(one.gap);
   if (gaps.empty()) return "which acts everywhere";
+  const auto same = [&](const SceneContact& one) { return one.same_law(contacts.front()); };
+  if (std::all_of(contacts.begin(), contacts.end(), same))
+    if (const std::string both = two_gaps_text(contacts.front()); !both.empty()) return both;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   if (*least == *most) return "gap " + number_text(*least) + " m";
   return "gaps " + number_text(*least) + " to " + number_text(*most) + " m";
 }
 
-std::string law_text(const Contact& contact) {
-  if (contact.law == ContactLawType::rigid) return "rigid obstacle";
-  std::vector<std::string> names{name_of(contact.law)};
-  if (!contact.pairs.empty()) names.clear();
-  for (const ContactPair& pair : contact.pairs)
-    if (std::find(names.begin(), names.end(), name_of(pair.law)) == names.end())
-      names.push_back(name_of(pair.law));
+std::string law_text(const std::vector<SceneContact>& contacts) {
+  if (is_rigid(contacts.front().law)) return "rigid obstacle";
+  std::vector<std::string> names;
+  for (const SceneContact& one : contacts)
+    if (std::find(names.begin(), names.end(), one.law) == names.end()) names.push_back(one.law);
   return fmt::format("{} law{}", fmt::join(names, " and "), names.size() == 1 ? "" : "s");
 }
 
 std::string contact_line(const Scene& scene) {
-  const Contact& contact = scene.contact;
-  if (contact.law == ContactLawType::none) return "contact    none: the problem is linear\n";
-  return "contact    " + law_text(contact) + " " + contact_place(scene) + ", " + gap_text(contact) +
+  if (scene.contact.law == no_law) return "contact    none: the problem is linear\n";
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  return "contact    " + law_text(contacts) + " " + contact_place(scene) + ", " + gap_text(contacts) +
          sides_text(scene) + "\n";
 }
 

@@ -31,7 +31,7 @@ Eigen::VectorXd system_energy(const Scene& scene, const solvers::Motion& motion)
         fmt::format("system_energy: the motion holds {} degrees of freedom; it must hold all {}",
                     motion.rows(), structure.size()));
   // A rigid obstacle stores no energy.
-  const bool rigid = scene.contact.law == ContactLawType::rigid;
+  const bool rigid = is_rigid(scene.contact.law);
   return solvers::system_energy(structure, rigid ? solvers::ContactLaws() : make_laws(scene), motion);
 }
 

@@ -36,12 +36,6 @@ std::string basis_title(const std::string& basis) {
   return basis == "fourier" ? "Fourier" : basis == "haar" ? "Haar" : "B-spline";
 }
 
-/// Whether pairs have different gaps.
-bool pairs_differ(const Contact& contact) {
-  return std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                     [&](const ContactPair& pair) { return pair.gap != contact.pairs.front().gap; });
-}
-
 std::string structure_title(const Scene& scene) {
   const Structure& structure = scene.structure;
   if (structure.type == StructureType::bar) return std::to_string(structure.elements) + " elements";
@@ -205,10 +199,10 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Displacement", "m", response.displacement(), response);
   add_motion(figure, "Velocity", "m/s", response.velocity(), response);
   add_motion(figure, "Contact force", "N", response.force(), response);
-  if (has_gap(scene.contact.law)) {
+  const SceneContact contact = contacts_of(scene).at(static_cast<std::size_t>(response.contact));
+  if (has_gap(contact.law)) {
     const Scale scale = scale_of(response.displacement().cwiseAbs().maxCoeff());
-    figure.panels.front().mark_level(scale.factor * scene.contact.gap_of(response.contact), "gap",
-                                     scale.prefix + "m");
+    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", scale.prefix + "m");
   }
   return figure;
 }
@@ -285,9 +279,8 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
       marks.push_back(one);
   draw_special_points(panel, marks);
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
-  const bool one_gap = scene.contact.gaps.empty() && !pairs_differ(scene.contact);
-  if (has_gap(scene.contact.law) && one_gap)
-    panel.mark_level(scale.factor * scene.contact.gap_of(0), "gap", scale.prefix + "m");
+  if (const double gap = common_gap(scene); !std::isnan(gap))
+    panel.mark_level(scale.factor * gap, "gap", scale.prefix + "m");
   return figure;
 }
 

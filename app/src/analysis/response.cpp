@@ -150,7 +150,7 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   }
   result.condition = std::max(problem.condensation().condition(), found.condition);
   result.rounding_error = found.rounding_error;
-  if (scene.contact.law != ContactLawType::rigid) return;
+  if (!is_rigid(scene.contact.law)) return;
   const auto held = solvers::complementarity(found.displacement, found.contact_force, model.gaps);
   result.rigid = {held.max_penetration, held.min_force, held.product};
 }

@@ -123,11 +123,7 @@ void append_attractor(Record& record, int periods, const Response& response) {
 }
 
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
-  const Contact& contact = scene.contact;
-  const bool damped =
-      is_damped(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                                            [](const auto& one) { return is_damped(one.law); });
-  if (!damped) return;
+  if (!has_damped_contact(scene)) return;
   const solvers::Motion& motion = response.contacts;
   const double power = !response.moves || motion.empty()
                            ? missing

@@ -141,7 +141,7 @@ Scene example_scene() {
   scene.structure.length = 1.0;
   scene.structure.elements = 25;
   scene.structure.stiffness_damping = 1e-4;
-  scene.contact = {.law = ContactLawType::exponential, .constant = 1e8, .exponent = 50.0, .gap = 1e-3};
+  scene.contact = {.law = "exponential", .values = {{"constant", 1e8}, {"exponent", 50.0}}, .gap = 1e-3};
   scene.forcing = {.amplitude = 250e3, .frequency = 150.0};
   scene.time = {"fourier", "fourier", 63, Formulation::distributional, 256, InnerProducts::quadrature};
   return scene;

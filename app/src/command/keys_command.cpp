@@ -13,6 +13,8 @@ namespace {
 
 using KeyFilter = std::function<bool(const SceneKey&)>;
 
+constexpr std::string_view law_key = "contact.law";
+
 std::vector<SceneKey> all_keys() {
   std::vector<SceneKey> keys(scene_keys().begin(), scene_keys().end());
   for (const auto& of_tables : {pair_keys(0), term_keys(0)})
@@ -70,7 +72,20 @@ KeyFilter choice_filter(const std::string& filter, const std::vector<SceneKey>& 
   Scene scene;
   key.set(scene, value);
   std::erase(deciding, name);
-  return [scene, deciding](const SceneKey& one) { return can_hold(one.belongs, scene, deciding); };
+  const bool by_law = name == law_key;
+  return [=](const SceneKey& one) {
+    if (by_law && !one.laws.empty() && std::find(one.laws.begin(), one.laws.end(), value) == one.laws.end())
+      return false;  // of a pair, too
+    return can_hold(one.belongs, scene, deciding);
+  };
+}
+
+/// The law of a choice "contact.law=linear"; empty without one.
+std::string chosen_law(const std::vector<std::string>& filters) {
+  const std::string choice = std::string(law_key) + "=";
+  for (const std::string& filter : filters)
+    if (filter.starts_with(choice)) return filter.substr(choice.size());
+  return {};
 }
 
 KeyFilter filter_of(const std::string& filter, const std::vector<SceneKey>& keys) {
@@ -101,11 +116,12 @@ std::string selected_keys_text(const std::vector<std::string>& filters) {
   std::vector<KeyFilter> parts, choices;  // any of the parts, and what all choices leave
   for (const std::string& filter : filters)
     (filter.find('=') == std::string::npos ? parts : choices).push_back(filter_of(filter, keys));
-  std::string text = describe_scene_keys([&](const SceneKey& key) {
+  const auto shown = [&](const SceneKey& key) {
     const auto selects = [&](const KeyFilter& selected) { return selected(key); };
     return (parts.empty() || std::any_of(parts.begin(), parts.end(), selects)) &&
            std::all_of(choices.begin(), choices.end(), selects);
-  });
+  };
+  const std::string text = describe_scene_keys(shown, chosen_law(filters));
   if (text.empty())
     throw std::invalid_argument("keys " + joined(filters) + ": such a scene has none of these");
   return text;

@@ -79,15 +79,6 @@ void require_same_structure(const Scene& first, const Scene& scene, const fs::pa
   require_same_directions(first, scene, place);
 }
 
-/// The one gap of a scene; NaN where there are several or none.
-double gap_in(const Scene& scene) {
-  if (!has_gap(scene.contact.law) || !scene.contact.gaps.empty()) return unknown;
-  const auto& pairs = scene.contact.pairs;
-  const bool one = std::all_of(pairs.begin(), pairs.end(),
-                               [&](const ContactPair& pair) { return pair.gap == pairs.front().gap; });
-  return one ? scene.contact.gap_of(0) : unknown;
-}
-
 /// The names of folders where they tell them apart, else the paths.
 std::vector<std::string> labels_of(std::span<const fs::path> folders) {
   std::vector<std::string> names;
@@ -220,14 +211,14 @@ Overlay read_overlay(std::span<const fs::path> folders, OverlayQuantity quantity
   Overlay overlay;
   const std::vector<std::string> labels = labels_of(folders);
   const Scene first = scene_in(folders.front());
-  overlay.gap = gap_in(first);
+  overlay.gap = common_gap(first);
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const Scene scene = scene_in(folders[i]);
     require_same_structure(first, scene, folders[i]);
     add_curves(overlay.curves, folders[i], labels[i], quantity);
-    const double gap = gap_in(scene);
+    const double gap = common_gap(scene);
     if (gap == overlay.gap || (std::isnan(gap) && std::isnan(overlay.gap))) continue;
-    if (scene.contact.law != ContactLawType::none && first.contact.law != ContactLawType::none)
+    if (scene.contact.law != no_law && first.contact.law != no_law)
       overlay.warnings.push_back(fmt::format(
           "{} has another gap than the first folder: their curves are those of different contacts",
           folders[i].string()));

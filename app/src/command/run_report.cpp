@@ -29,12 +29,6 @@ std::string heading_of(const Scene& scene) {
   return std::string(kind->second) + " " + structure;
 }
 
-/// The gap of all contacts; NaN where they differ or there is none.
-double one_gap(const Contact& contact) {
-  const bool one = has_gap(contact.law) && contact.gaps.empty() && contact.pairs.empty();
-  return one ? contact.gap : std::numeric_limits<double>::quiet_NaN();
-}
-
 std::string command_of(const RunArguments& arguments) {
   std::string text = "wavebalance run " + shell_word(arguments.scene.string());
   for (const auto& one : arguments.overrides) text += " --set " + shell_word(one);
@@ -90,7 +84,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.scripts = {"motion.js"};
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section_html("What came out", paragraph(outcome_sentences(summary, one_gap(scene.contact))) +
+      section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene))) +
                                         (record.figure.panels.empty() ? "" : picture(files, heading)) +
                                         motion(files) +
                                         folded_table(summary, "motions", "Motions at points of the curve")) +

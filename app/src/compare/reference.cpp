@@ -129,9 +129,8 @@ class ReferenceSearch {
     const Eigen::MatrixXd samples = solvers::by_contact(problem.contact_free_response(), model_.contacts());
     // A cosine of 8 samples: its amplitude is that of its rms.
     const Eigen::VectorXd amplitude = std::sqrt(2.0 / 8.0) * samples.rowwise().norm();
-    const bool open =
-        scene_.contact.law == ContactLawType::none ||
-        ((amplitude.array() < model_.gaps.array()).all() && make_laws(scene_).force(-amplitude).isZero(0.0));
+    const bool open = scene_.contact.law == no_law || ((amplitude.array() < model_.gaps.array()).all() &&
+                                                       make_laws(scene_).force(-amplitude).isZero(0.0));
     if (!open) return std::nullopt;
     ResponseOptions options;
     options.stability = scene_.analysis.stability;
@@ -182,7 +181,7 @@ class ReferenceSearch {
   }
 
   std::optional<Reference> shooting() {
-    if (interrupted_ || model_.contacts() != 1 || scene_.contact.law == ContactLawType::rigid ||
+    if (interrupted_ || model_.contacts() != 1 || is_rigid(scene_.contact.law) ||
         model_.size() > largest_dense)
       return std::nullopt;
     try {
@@ -199,8 +198,8 @@ class ReferenceSearch {
   }
 
   std::optional<Reference> rigid_flows() {
-    if (interrupted_ || scene_.contact.law != ContactLawType::rigid ||
-        scene_.structure.type != StructureType::bar || model_.size() > largest_flow)
+    if (interrupted_ || !is_rigid(scene_.contact.law) || scene_.structure.type != StructureType::bar ||
+        model_.size() > largest_flow)
       return std::nullopt;
     try {
       Reference reference = rigid_flows_reference(scene_, model_, scene_.analysis.output_points);

@@ -1,23 +1,14 @@
 #include "wavebalance/app/compose/compose.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "wavebalance/contact/bilinear_law.hpp"
-#include "wavebalance/contact/clearance_law.hpp"
-#include "wavebalance/contact/cubic_law.hpp"
-#include "wavebalance/contact/exponential_law.hpp"
-#include "wavebalance/contact/hunt_crossley_law.hpp"
-#include "wavebalance/contact/kelvin_voigt_law.hpp"
-#include "wavebalance/contact/linear_law.hpp"
-#include "wavebalance/contact/no_contact.hpp"
-#include "wavebalance/contact/polynomial_law.hpp"
-#include "wavebalance/contact/rigid_law.hpp"
-#include "wavebalance/contact/table_law.hpp"
+#include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 #include "wavebalance/wavelets/connection.hpp"
@@ -87,56 +78,24 @@ solvers::LinearStructure make_structure(const Scene& scene) { return make_model(
 
 namespace {
 
-contact::ClearanceLaw clearance_of(double stiffness, double gap, const LawConstants& more) {
-  return {{stiffness, gap},
-          {more.stiffness_below > 0.0 ? more.stiffness_below : stiffness,
-           more.gap_below >= 0.0 ? more.gap_below : gap}};
-}
-
-/// The law of a Contact or of a ContactPair. Throws std::invalid_argument for constants that make none, and
-/// std::runtime_error for a table that cannot be read.
-template <class Parameters>
-solvers::AnyContactLaw law_of(const Parameters& of, double gap) {
-  switch (of.law) {
-    case ContactLawType::exponential:
-      return contact::ExponentialLaw(of.constant, of.exponent, gap);
-    case ContactLawType::linear:
-      return contact::LinearLaw(of.stiffness, gap);
-    case ContactLawType::rigid:
-      return contact::RigidLaw(gap);
-    case ContactLawType::bilinear:
-      return contact::BilinearLaw(of.more.slopes.at(0), of.more.slopes.at(1), gap);
-    case ContactLawType::cubic:
-      return contact::CubicLaw(of.more.cubic_stiffness);
-    case ContactLawType::polynomial:
-      return contact::PolynomialLaw(of.more.polynomial);
-    case ContactLawType::clearance:
-      return clearance_of(of.stiffness, gap, of.more);
-    case ContactLawType::table:
-      return contact::read_table_law(of.more.table);
-    case ContactLawType::hunt_crossley:
-      return contact::HuntCrossleyLaw(of.more.hertz_stiffness, of.more.power, of.more.dissipation, gap);
-    case ContactLawType::kelvin_voigt:
-      return contact::KelvinVoigtLaw(of.stiffness, of.more.damping, gap, of.more.damping_depth);
-    case ContactLawType::none:
-      break;
-  }
-  return contact::NoContact();
+solvers::AnyContactLaw law_of(const std::string& law, const contact::LawValues& values) {
+  return std::visit([](const auto& made) -> solvers::AnyContactLaw { return made; },
+                    contact::law_entry(law).make(values));
 }
 
 }  // namespace
 
-solvers::AnyContactLaw make_law(const Contact& contact, int index) {
-  const double gap = contact.gap_of(index);
-  if (contact.pairs.empty()) return law_of(contact, gap);
-  return law_of(*contact.pair_contacts().at(static_cast<std::size_t>(index)).pair, gap);
+solvers::AnyContactLaw make_law(const Contact& contact) {
+  return law_of(contact.law, law_values(contact.law, contact.values, contact.gap));
 }
 
 solvers::ContactLaws make_laws(const Scene& scene) {
-  if (scene.contact.gaps.empty() && scene.contact.pairs.empty()) return make_law(scene.contact);
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const bool one = std::all_of(contacts.begin(), contacts.end(),
+                               [&](const SceneContact& other) { return other.same_law(contacts.front()); });
+  if (one) return contacts.empty() ? make_law(scene.contact) : law_of(contacts[0].law, contacts[0].values);
   std::vector<solvers::AnyContactLaw> laws;
-  for (int contact = 0; contact < contact_count(scene); ++contact)
-    laws.push_back(make_law(scene.contact, contact));
+  for (const SceneContact& contact : contacts) laws.push_back(law_of(contact.law, contact.values));
   return laws;
 }
 

@@ -5,10 +5,9 @@
 namespace wavebalance::app {
 
 bool is_elastic_mode(const Scene& scene) {
-  const ContactLawType law = scene.contact.law;
-  return scene.analysis.type == AnalysisType::nonlinear_mode &&
-         (law == ContactLawType::exponential || law == ContactLawType::linear ||
-          (law == ContactLawType::rigid && redistributes_mass(scene)));
+  const std::string& law = scene.contact.law;
+  return scene.analysis.type == AnalysisType::nonlinear_mode && law != no_law && !is_damped(law) &&
+         !acts_on_both_sides(law) && (!is_rigid(law) || redistributes_mass(scene));
 }
 
 Time mode_time(const Scene& scene) {

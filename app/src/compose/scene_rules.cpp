@@ -6,6 +6,8 @@
 #include <initializer_list>
 
 #include "compose/loads.hpp"
+#include "scene/keys/law_keys.hpp"
+#include "scene/scene_keys_text.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -106,7 +108,7 @@ void check_subharmonic(const Document& document, const Scene& scene) {
 /// Branches begin where multipliers pass the unit circle.
 void check_branches(const Document& document, const Scene& scene) {
   if (!scene.analysis.branches) return;
-  if (scene.contact.law == ContactLawType::rigid)
+  if (is_rigid(scene.contact.law))
     fail_rule(
         document, {"analysis.branches", "contact.law"},
         "not with contact.law = \"rigid\", whose perturbations have no finite stiffness; expected false, "
@@ -227,16 +229,14 @@ void check_elastic_mode(const Document& document, const Scene& scene) {
 
 void check_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  if (scene.contact.law == ContactLawType::none)
+  if (scene.contact.law == no_law)
     fail_rule(document, {"contact.law"},
-              "expected \"rigid\", \"exponential\" or \"linear\" for a nonlinear mode");
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
-    if (!(scene.contact.pairs[i].gap > 0.0))
-      fail_rule(document, {pair_section(i) + ".gap", "contact.gap"},
+              "expected " + alternatives(laws_of_modes()) + " for a nonlinear mode");
+  for (const SceneContact& contact : contacts_of(scene))
+    if (!(contact.gap > 0.0))
+      fail_rule(document,
+                {contact.pair ? pair_section(*contact.pair) + ".gap" : "contact.gap", "contact.gap"},
                 "expected a number in m, > 0 for a nonlinear mode");
-  for (int contact = 0; contact < contact_count(scene); ++contact)
-    if (!(scene.contact.gap_of(contact) > 0.0))
-      fail_rule(document, {"contact.gap"}, "expected a number in m, > 0 for a nonlinear mode");
   if (analysis.mode > reduced_size(scene))
     fail_rule(document, {"analysis.mode"},
               "expected at most " + std::to_string(reduced_size(scene)) + ", " + size_text(scene));
@@ -247,7 +247,7 @@ void check_mode(const Document& document, const Scene& scene) {
 }
 
 void check_rigid(const Document& document, const Scene& scene) {
-  if (scene.contact.law != ContactLawType::rigid) return;
+  if (!is_rigid(scene.contact.law)) return;
   const bool balanced =
       !integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::nonlinear_mode;
   if (balanced && scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)

@@ -64,12 +64,11 @@ Eigen::VectorXd circulatory_compliances(const fem::Matrices& matrices,
 
 std::vector<std::string> names_of_contacts(const Scene& scene, const StructureFiles& files) {
   std::vector<std::string> names;
-  for (const int dof : scene.structure.matrices.contact_dofs)
-    names.push_back((dof < 0 ? "-" : "") + files.row_name(std::abs(dof) - 1));
-  for (const ContactPair& pair : scene.contact.pairs) {
-    std::vector<std::string> of_pair;
-    for (const int dof : pair.dofs) of_pair.push_back(files.row_name(dof - 1));
-    names.push_back(fmt::format("{}", fmt::join(of_pair, ", ")));
+  for (const SceneContact& contact : contact_places(scene)) {
+    std::vector<std::string> rows;
+    for (const int dof : contact.dofs) rows.push_back(files.row_name(dof - 1));
+    const bool negative = !contact.pair && contact.coefficients.front() < 0.0;
+    names.push_back(fmt::format("{}{}", negative ? "-" : "", fmt::join(rows, ", ")));
   }
   return names;
 }
@@ -89,9 +88,10 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   StructureFacts facts;
   facts.frequencies_hz = found.frequencies_hz;
   facts.damping_ratios = damping_ratios_of(scene, *files, found);
-  const solvers::ContactDirections directions = contact_directions(with_one_side(scene), *files);
+  const Scene one_sided = with_one_side(scene);
+  const solvers::ContactDirections directions = contact_directions(one_sided, *files);
   const Eigen::MatrixXd loads = directions.transpose();
-  facts.contacts = names_of_contacts(scene, *files);
+  facts.contacts = names_of_contacts(one_sided, *files);
   if (free) return facts;
   if (solvers::is_symmetric(matrices.stiffness)) {
     const Eigen::MatrixXd displacements = fem::static_displacements(matrices.stiffness, loads);

@@ -344,11 +344,9 @@ solvers::ContactDirections contact_directions(const Scene& scene, const Structur
     unknown[std::size_t(files.rows[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
   int contacts = 0;
-  for (const int dof : scene.structure.matrices.contact_dofs)
-    entries.emplace_back(contacts++, unknown[std::size_t(std::abs(dof) - 1)], dof > 0 ? 1.0 : -1.0);
-  for (const auto& [pair, sign] : scene.contact.pair_contacts()) {
-    for (std::size_t i = 0; i < pair->dofs.size(); ++i)
-      entries.emplace_back(contacts, unknown[std::size_t(pair->dofs[i] - 1)], sign * pair->coefficients[i]);
+  for (const SceneContact& contact : contact_places(scene)) {
+    for (std::size_t i = 0; i < contact.dofs.size(); ++i)
+      entries.emplace_back(contacts, unknown[std::size_t(contact.dofs[i] - 1)], contact.coefficients[i]);
     ++contacts;
   }
   solvers::ContactDirections directions(contacts, std::ssize(files.rows));

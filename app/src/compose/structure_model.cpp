@@ -274,12 +274,13 @@ Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) cons
 
 void set_gaps(StructureModel& model, const Scene& scene) {
   const int contacts = model.contacts();
-  if (!scene.contact.gaps.empty() && static_cast<int>(scene.contact.gaps.size()) != contacts)
-    throw std::invalid_argument("contact.gap has " + std::to_string(scene.contact.gaps.size()) +
-                                " numbers; there must be one, or one for each of " +
-                                std::to_string(contacts) + " contacts");
+  const std::vector<SceneContact> all = contacts_of(scene);
+  if (std::ssize(all) != contacts)
+    throw std::invalid_argument("the scene has " + std::to_string(all.size()) +
+                                " contacts; there must be as many as the structure has, " +
+                                std::to_string(contacts));
   model.gaps.resize(contacts);
-  for (int contact = 0; contact < contacts; ++contact) model.gaps[contact] = scene.contact.gap_of(contact);
+  for (int contact = 0; contact < contacts; ++contact) model.gaps[contact] = all[std::size_t(contact)].gap;
 }
 
 StructureModel make_model(const Scene& scene, const solvers::Observer& observer) {
@@ -300,21 +301,6 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer)
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (scene.structure.type != StructureType::bar) model.reduction_seconds = elapsed.count();
   return model;
-}
-
-int tip_corners(const BladeStructure& blade) { return 2 * (blade.chord_elements + 1); }
-
-int contact_count(const Scene& scene) {
-  switch (scene.structure.type) {
-    case StructureType::blade:
-      return tip_corners(scene.structure.blade);
-    case StructureType::matrices:
-      return static_cast<int>(scene.structure.matrices.contact_dofs.size() +
-                              scene.contact.pair_contacts().size());
-    case StructureType::bar:
-      break;
-  }
-  return 1;
 }
 
 int reduced_size(const Scene& scene) {

@@ -34,19 +34,6 @@ inline constexpr std::array<NamedValue<TipPlace>, 3> enum_names<TipPlace>{
      {TipPlace::mid_chord, "mid_chord"},
      {TipPlace::trailing_edge, "trailing_edge"}}};
 template <>
-inline constexpr std::array<NamedValue<ContactLawType>, 11> enum_names<ContactLawType>{
-    {{ContactLawType::none, "none"},
-     {ContactLawType::exponential, "exponential"},
-     {ContactLawType::linear, "linear"},
-     {ContactLawType::rigid, "rigid"},
-     {ContactLawType::bilinear, "bilinear"},
-     {ContactLawType::cubic, "cubic"},
-     {ContactLawType::polynomial, "polynomial"},
-     {ContactLawType::clearance, "clearance"},
-     {ContactLawType::table, "table"},
-     {ContactLawType::hunt_crossley, "hunt_crossley"},
-     {ContactLawType::kelvin_voigt, "kelvin_voigt"}}};
-template <>
 inline constexpr std::array<NamedValue<ContactForm>, 3> enum_names<ContactForm>{
     {{ContactForm::automatic, "automatic"},
      {ContactForm::displacement, "displacement"},

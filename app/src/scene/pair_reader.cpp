@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "scene/law_keys.hpp"
+#include "scene/keys/law_keys.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -68,27 +68,30 @@ class PairReader {
   }
 
   void read_law() {
-    const ContactLawType law = scene_.contact.law;
+    const std::string& law = scene_.contact.law;
     const DocumentEntry* own = entry("law");
-    if (own != nullptr && (law == ContactLawType::none || law == ContactLawType::rigid))
+    if (own != nullptr && (law == no_law || is_rigid(law)))
       fail_at(document_, *own,
-              "does not belong to a scene with contact.law = \"" + name_of(law) +
+              "does not belong to a scene with contact.law = \"" + law +
                   "\"; only with another contact.law than \"none\" and \"rigid\"");
     if (own != nullptr)
       take("law");
     else
       pair_.law = law;
-    for (const std::string_view name : law_constant_names()) read_parameter(name);
+    for (const SharedParameter& one : law_parameters()) read_parameter(one.first.name);
   }
 
   void read_parameter(std::string_view name) {
     const DocumentEntry* own = entry(name);
-    if (!law_takes(pair_.law, name)) {
+    const contact::LawParameter* parameter = contact::law_entry(pair_.law).find(name);
+    if (parameter == nullptr) {
       if (own != nullptr)
-        fail_at(document_, *own, "does not belong to a pair with the law \"" + name_of(pair_.law) + "\"");
+        fail_at(document_, *own,
+                "does not belong to a pair with the law \"" + pair_.law + "\", whose keys are " +
+                    parameter_names(pair_.law));
       return;
     }
-    if (own == nullptr && law_needs(pair_.law, name) && document_.find("contact", name) == nullptr)
+    if (own == nullptr && parameter->required() && document_.find("contact", name) == nullptr)
       fail_missing(name, ", here or in [contact]");
     take(name);
   }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "scene/enum_names.hpp"
+#include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {
 
@@ -11,7 +12,6 @@ std::string name_of(StructureType value) { return enum_name(value); }
 std::string name_of(SolidElement value) { return enum_name(value); }
 std::string name_of(Direction value) { return enum_name(value); }
 std::string name_of(TipPlace value) { return enum_name(value); }
-std::string name_of(ContactLawType value) { return enum_name(value); }
 std::string name_of(ObstacleSide value) { return enum_name(value); }
 std::string name_of(Formulation value) { return enum_name(value); }
 std::string name_of(InnerProducts value) { return enum_name(value); }
@@ -31,19 +31,10 @@ std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
   return std::nullopt;
 }
 
-std::vector<SidedPair> Contact::pair_contacts() const {
-  std::vector<SidedPair> contacts;
-  for (const ContactPair& pair : pairs) {
-    if (pair.side != ObstacleSide::negative) contacts.push_back({&pair, 1.0});
-    if (pair.side != ObstacleSide::positive) contacts.push_back({&pair, -1.0});
-  }
-  return contacts;
-}
-
-double Contact::gap_of(int contact) const {
-  if (!pairs.empty()) return pair_contacts().at(static_cast<std::size_t>(contact)).pair->gap;
-  return gaps.empty() ? gap : gaps.at(static_cast<std::size_t>(contact));
-}
+bool has_gap(std::string_view law) { return contact::law_entry(law).has_gap(); }
+bool is_damped(std::string_view law) { return contact::law_entry(law).reads_velocity; }
+bool acts_on_both_sides(std::string_view law) { return !contact::law_entry(law).beyond_gap_alone; }
+bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
 
 Scene with_longer_period(Scene scene, int times) {
   Time& time = scene.time;
@@ -59,12 +50,22 @@ bool integrates_in_time(AnalysisType type) {
   return type == AnalysisType::time_stepping || type == AnalysisType::shooting;
 }
 
+namespace {
+
+void add_files(std::vector<std::string>& files, const contact::LawValues& values) {
+  for (const auto& [name, value] : values)
+    if (const auto* file = std::get_if<std::string>(&value)) files.push_back(*file);
+}
+
+}  // namespace
+
 std::vector<std::string> input_files(const Scene& scene) {
   const MatricesStructure& matrices = scene.structure.matrices;
-  std::vector<std::string> files{matrices.mass,    matrices.stiffness, matrices.damping,
-                                 matrices.dof_map, scene.forcing.load, scene.contact.more.table};
+  std::vector<std::string> files{matrices.mass, matrices.stiffness, matrices.damping, matrices.dof_map,
+                                 scene.forcing.load};
+  add_files(files, scene.contact.values);
   for (const ForcingTerm& term : scene.forcing.terms) files.push_back(term.samples);
-  for (const ContactPair& pair : scene.contact.pairs) files.push_back(pair.more.table);
+  for (const ContactPair& pair : scene.contact.pairs) add_files(files, pair.values);
   std::erase(files, "");
   return files;
 }
@@ -72,7 +73,7 @@ std::vector<std::string> input_files(const Scene& scene) {
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (integrates_in_time(type)) return false;
-  const bool rigid = scene.contact.law == ContactLawType::rigid && type != AnalysisType::nonlinear_mode;
+  const bool rigid = is_rigid(scene.contact.law) && type != AnalysisType::nonlinear_mode;
   return scene.contact.mass == ContactMass::redistribute ||
          (scene.contact.mass == ContactMass::automatic && rigid && !scene.structure.massless_tip);
 }

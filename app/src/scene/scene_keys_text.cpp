@@ -10,27 +10,12 @@
 #include <utility>
 
 #include "files/number_text.hpp"
+#include "scene/keys/law_keys.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
-
-/// `"a", "b" or "c"`; the twenty Daubechies names are written as one.
-std::string alternatives(const std::vector<std::string_view>& values) {
-  std::vector<std::string> names;
-  bool daubechies = false;
-  for (const auto value : values) {
-    if (!value.starts_with("daubechies"))
-      names.push_back(quoted(value));
-    else if (!std::exchange(daubechies, true))
-      names.push_back("\"daubechiesN\" with an even N in 2..40");
-  }
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  return text;
-}
 
 /// Limits are whole numbers or short ones, written without an exponent.
 std::string limit_text(double value) {
@@ -106,7 +91,10 @@ std::string key_text(const SceneKey& key, int width) {
       key.fallback == SceneKey::Default::required ? key.default_text() : "default " + key.default_text();
   if (key.fallback == SceneKey::Default::derived && !key.needed.empty())
     status += ", required with " + key.needed.text();
-  return "  " + std::string(key.name) + "\n" + wrapped(std::string(key.help) + ".", 6, width) +
+  const std::string list = key.form == SceneKey::Form::single_or_list
+                               ? "; a list has one for each degree of freedom in contact."
+                               : ".";
+  return "  " + std::string(key.name) + "\n" + wrapped(std::string(key.help) + list, 6, width) +
          wrapped(key.expected() + "; " + status +
                      (key.in_pairs ? " unless every one of [[contact.pairs]] has its own" : "") +
                      (key.belongs.empty() ? "" : "; only with " + key.belongs.text()),
@@ -115,10 +103,10 @@ std::string key_text(const SceneKey& key, int width) {
 
 /// `title` and the keys of `keys` that are shown; empty if none is.
 std::string section_text(const std::string& title, std::span<const SceneKey> keys,
-                         const std::function<bool(const SceneKey&)>& shown, int width) {
+                         const std::function<bool(const SceneKey&)>& shown, std::string_view law, int width) {
   std::string text;
   for (const SceneKey& key : keys)
-    if (shown(key)) text += key_text(key, width);
+    if (shown(key)) text += key_text(law.empty() ? key : key_of_law(key, law), width);
   return text.empty() ? "" : title + "\n" + text;
 }
 
@@ -139,6 +127,21 @@ std::span<const SceneKey> first_section(std::span<const SceneKey> keys) {
 }
 
 }  // namespace
+
+std::string alternatives(const std::vector<std::string_view>& values) {
+  std::vector<std::string> names;
+  bool daubechies = false;
+  for (const auto value : values) {
+    if (!value.starts_with("daubechies"))
+      names.push_back(quoted(value));
+    else if (!std::exchange(daubechies, true))
+      names.push_back("\"daubechiesN\" with an even N in 2..40");
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
 
 std::string toml_text(const SceneValue& value) {
   if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value)) return list_text(*integers);
@@ -197,13 +200,14 @@ std::string SceneKey::default_text() const {
 }
 
 std::string describe_scene_keys(int width) {
-  return describe_scene_keys([](const SceneKey&) { return true; }, width);
+  return describe_scene_keys([](const SceneKey&) { return true; }, {}, width);
 }
 
-std::string describe_scene_keys(const std::function<bool(const SceneKey&)>& shown, int width) {
+std::string describe_scene_keys(const std::function<bool(const SceneKey&)>& shown, std::string_view law,
+                                int width) {
   std::string text;
   const auto append = [&](std::span<const SceneKey> keys) {
-    const std::string section = section_text(section_title(keys[0].section), keys, shown, width);
+    const std::string section = section_text(section_title(keys[0].section), keys, shown, law, width);
     if (!section.empty()) text += (text.empty() ? "" : "\n") + section;
   };
   for (std::span<const SceneKey> rest = scene_keys(); !rest.empty();) {

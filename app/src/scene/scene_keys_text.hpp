@@ -6,7 +6,12 @@
 
 namespace wavebalance::app {
 
-/// As describe_scene_keys(), of the keys, also those of pairs and terms, for which `shown` is true.
-std::string describe_scene_keys(const std::function<bool(const SceneKey&)>& shown, int width = 100);
+/// As describe_scene_keys(), of the keys, also those of pairs and terms, for which `shown` is true; where a
+/// contact law is given, its parameters as it alone has them.
+std::string describe_scene_keys(const std::function<bool(const SceneKey&)>& shown, std::string_view law = {},
+                                int width = 100);
+
+/// `"a", "b" or "c"`; the twenty Daubechies names are written as one.
+std::string alternatives(const std::vector<std::string_view>& values);
 
 }  // namespace wavebalance::app

@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "scene/keys/law_keys.hpp"
 #include "scene/pair_reader.hpp"
 #include "scene/spelling.hpp"
 #include "scene/term_reader.hpp"
@@ -247,13 +248,18 @@ bool governs(const SceneKey& key) {
   return governing.contains(&key);
 }
 
+/// Why a key does not belong to the scene, and which keys do where the law decides.
+std::string stray_text(const SceneKey& key, std::string_view broken, const Scene& scene) {
+  std::string text = "does not belong to a scene with " + std::string(broken) + " = " +
+                     toml_text(find_scene_key(broken)->get(scene)) + "; only with " + key.belongs.text();
+  if (broken == "contact.law") text += "; the keys of this law are " + parameter_names(scene.contact.law);
+  return text;
+}
+
 void read_key(const Document& document, const SceneKey& key, Scene& scene) {
   const DocumentEntry* entry = document.find(key.section, key.name);
   if (const std::string_view broken = key.belongs.broken_by(scene); !broken.empty()) {
-    if (entry != nullptr)
-      fail_at(document, *entry,
-              "does not belong to a scene with " + std::string(broken) + " = " +
-                  toml_text(find_scene_key(broken)->get(scene)) + "; only with " + key.belongs.text());
+    if (entry != nullptr) fail_at(document, *entry, stray_text(key, broken, scene));
     return;
   }
   if (entry != nullptr)

@@ -1,8 +1,6 @@
 #include "wavebalance/app/scene/scene_writer.hpp"
 
-#include <algorithm>
-
-#include "scene/law_keys.hpp"
+#include "scene/keys/law_keys.hpp"
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
@@ -30,13 +28,12 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
 }
 
 /// Whether a pair of this law has the key, with a value of its own.
-bool has_value(const ContactPair& pair, std::string_view key) {
-  const std::span<const std::string_view> constants = law_constant_names();
-  if (key == "coefficients") return !pair.coefficients.empty();
-  if (key == "stiffness_below" && !(pair.more.stiffness_below > 0.0)) return false;
-  if (key == "gap_below" && pair.more.gap_below < 0.0) return false;
-  if (key == "law") return pair.law != ContactLawType::none && pair.law != ContactLawType::rigid;
-  return std::find(constants.begin(), constants.end(), key) == constants.end() || law_takes(pair.law, key);
+bool has_value(const Scene& scene, std::size_t index, const SceneKey& key) {
+  const ContactPair& pair = scene.contact.pairs[index];
+  if (key.name == "coefficients") return !pair.coefficients.empty();
+  if (key.name == "law") return pair.law != no_law && !is_rigid(pair.law);
+  if (key.laws.empty()) return true;
+  return contact::law_entry(pair.law).find(key.name) != nullptr && !is_empty(key.get(scene));
 }
 
 /// Calls use(section, key) for each key of the pairs that is written.
@@ -44,7 +41,7 @@ template <class Use>
 void for_each_pair_key(const Scene& scene, Use use) {
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
     for (const SceneKey& key : pair_keys(i))
-      if (has_value(scene.contact.pairs[i], key.name)) use(pair_section(i), key);
+      if (has_value(scene, i, key)) use(pair_section(i), key);
 }
 
 std::string pair_lines(const Scene& scene) {

@@ -32,7 +32,7 @@ TEST(MakeStructure, LoadAndContactAreAtTheTip) {
 TEST(MakeLaw, FollowsTheScene) {
   EXPECT_EQ(make_law(scene_of().contact).gap(), 1e-3);
   EXPECT_NEAR(make_law(scene_of().contact).force(2e-3), 1e8 * std::expm1(50.0 * 1e-3), 1e-6);
-  EXPECT_DOUBLE_EQ(make_law({.law = ContactLawType::linear, .stiffness = 1e6, .gap = 1e-3}).force(3e-3), 2e3);
+  EXPECT_DOUBLE_EQ(make_law({.law = "linear", .values = {{"stiffness", 1e6}}, .gap = 1e-3}).force(3e-3), 2e3);
   EXPECT_EQ(make_law({}).force(1.0), 0.0);
 }
 

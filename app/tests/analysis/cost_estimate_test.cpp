@@ -30,7 +30,8 @@ TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
 TEST(EstimateCost, OfALawOfTheVelocityIsThatOfOthersSinceNoMatrixOfAllItsSamplesIsFormed) {
   Scene scene = scene_of({"time.quadrature_points=16384", "time.functions=16383"});
   const double of_displacement = estimate_cost(scene).bytes;
-  scene.contact.law = ContactLawType::hunt_crossley;
+  scene.contact.law = "hunt_crossley";
+  scene.contact.values = {{"hertz_stiffness", 1e9}, {"dissipation", 0.0}};
   EXPECT_EQ(estimate_cost(scene).bytes, of_displacement);
 }
 

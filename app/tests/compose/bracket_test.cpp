@@ -114,7 +114,8 @@ TEST(BracketScene, MeetsItsStopWithTheCornersThatItNames) {
   ASSERT_TRUE(response.converged) << response.status;
   EXPECT_GT(response.contacts.force.maxCoeff(), 1.0);
   const double deepest = response.contacts.displacement.maxCoeff() - scene.contact.gap;
-  EXPECT_NEAR(deepest, response.contacts.force.maxCoeff() / scene.contact.stiffness, 1e-3 * deepest);
+  EXPECT_NEAR(deepest, response.contacts.force.maxCoeff() / scene.contact.number("stiffness"),
+              1e-3 * deepest);
 }
 
 TEST(BracketScene, IsDescribedByItsFrequenciesAndByCompliancesAtItsNodes) {

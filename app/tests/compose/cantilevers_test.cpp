@@ -33,8 +33,9 @@ TEST(CantileverScene, TouchesAndDoesNotPenetrateFurtherThanItsSpringsYield) {
   ASSERT_TRUE(response.converged) << response.status;
   EXPECT_EQ(response.contacts.rows(), 30);
   EXPECT_GE((response.contacts.force.rowwise().maxCoeff().array() > 0.0).count(), 6);
-  const double deepest = response.contacts.displacement.maxCoeff() - scene.contact.gap_of(0);
-  EXPECT_NEAR(deepest, response.contacts.force.maxCoeff() / scene.contact.pairs[0].stiffness, 1e-3 * deepest);
+  const double deepest = response.contacts.displacement.maxCoeff() - contacts_of(scene).at(0).gap;
+  EXPECT_NEAR(deepest, response.contacts.force.maxCoeff() / scene.contact.pairs[0].number("stiffness"),
+              1e-3 * deepest);
 }
 
 class CantileverVariant : public ::testing::TestWithParam<std::vector<std::string>> {};

@@ -98,12 +98,26 @@ TEST_F(ContactPairs, AreWrittenAndReadBackEqual) {
   }
 }
 
+TEST_F(ContactPairs, AreContactsOfTheOneListWithTheirSidesAndLaws) {
+  const std::vector<SceneContact> contacts = contacts_of(load(pair_scene));
+  ASSERT_EQ(contacts.size(), 4u);
+  EXPECT_EQ(contacts[1].pair, contacts[2].pair);  // both sides of the second
+  ASSERT_EQ(contacts[2].coefficients.size(), contacts[1].coefficients.size());
+  EXPECT_EQ(contacts[2].coefficients[0], -contacts[1].coefficients[0]);
+  EXPECT_EQ(contacts[1].gap, contacts[2].gap);
+  EXPECT_EQ(contacts[3].law, "exponential");
+  EXPECT_EQ(contacts[3].values.count("stiffness"), 0u);
+  EXPECT_EQ(std::get<double>(contacts[3].values.at("gap")), contacts[3].gap);
+  EXPECT_TRUE(contacts[1].same_law(contacts[2]));
+  EXPECT_FALSE(contacts[1].same_law(contacts[3]));
+}
+
 TEST_F(ContactPairs, TakeOverridesByTheirNumberFromOne) {
   const Scene scene = load(pair_scene, {"contact.pairs[2].side=positive", "contact.pairs[1].gap=3e-5"},
                            {"contact.pairs[2].gap"});
   EXPECT_EQ(contact_count(scene), 3);
-  EXPECT_EQ(scene.contact.gap_of(0), 3e-5);
-  EXPECT_EQ(scene.contact.gap_of(1), 2e-5);
+  EXPECT_EQ(contacts_of(scene).at(0).gap, 3e-5);
+  EXPECT_EQ(contacts_of(scene).at(1).gap, 2e-5);
   const auto missing = error_of(pair_scene, {"contact.pairs[4].gap=1e-5"});
   EXPECT_EQ(missing.key, "contact.pairs[4].gap");
   EXPECT_NE(missing.allowed.find("the scene has 3 [[contact.pairs]]"), std::string::npos) << missing.allowed;
@@ -116,7 +130,7 @@ TEST_F(ContactPairs, NeedNoDefaultsWhereEachHasItsOwn) {
   const std::string own =
       with(with(pair_scene, "gap = 2e-5  ", "#"), "dofs = [3, 1]", "gap = 1e-5\ndofs = [3, 1]");
   const std::string all = with(own, "exponent = 100.0", "gap = -1e-5\nexponent = 100.0");
-  EXPECT_EQ(load(all).contact.gap_of(3), -1e-5);
+  EXPECT_EQ(contacts_of(load(all)).at(3).gap, -1e-5);
   const auto error = error_of(own);
   EXPECT_EQ(error.key, "contact.pairs[3].gap");
   EXPECT_EQ(error.line, 17);

@@ -1,4 +1,5 @@
 // Scenes of every contact law: read, written, refused and solved.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,9 @@
 #include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
+#include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -100,6 +103,43 @@ TEST_F(LawScene, IsRefusedWithItsKeyAndWhatIsAllowed) {
     EXPECT_EQ(found.key, key) << contact;
     EXPECT_NE(found.allowed.find(allowed), std::string::npos) << found.allowed;
   }
+}
+
+TEST_F(LawScene, NamesTheKeysOfItsLawWhereAKeyIsThatOfAnother) {
+  const auto found = error(scene_with("law = \"linear\"\nstiffness = 1e8\ngap = 1e-3\nexponent = 50.0\n"));
+  EXPECT_EQ(found.key, "contact.exponent");
+  EXPECT_EQ(
+      found.allowed,
+      "does not belong to a scene with contact.law = \"linear\"; only with contact.law = \"exponential\"; the "
+      "keys of this law are stiffness, gap");
+}
+
+/// The table of LAWS.md as the catalogue has it.
+std::string laws_table() {
+  std::string text = "| `law` | force, opposed to u | keys |\n| --- | --- | --- |\n";
+  for (const contact::LawEntry& law : contact::law_catalogue()) {
+    std::string keys;
+    for (const contact::LawParameter& one : law.parameters)
+      keys += (keys.empty() ? "`" : ", `") + std::string(one.name) + "`";
+    text += fmt::format("| `\"{}\"` | {} | {} |\n", law.name, law.force, keys.empty() ? "none" : keys);
+  }
+  return text;
+}
+
+TEST(LawsDocument, HasTheTableOfTheCatalogue) {
+  const auto file = std::filesystem::path(WAVEBALANCE_README).parent_path() / "app" / "LAWS.md";
+  EXPECT_NE(read_file(file).find(laws_table()), std::string::npos) << "expected in LAWS.md:\n"
+                                                                   << laws_table();
+}
+
+// A key of any law is set by the name of the catalogue, and only its law takes it.
+TEST_F(LawScene, TakesOverridesOfTheParametersOfItsLaw) {
+  const std::string clearance = scene_with("law = \"clearance\"\nstiffness = 1e8\ngap = 1e-3\n");
+  const auto with_gap_below = parse_scene(clearance, (folder_ / "scene.toml").string(),
+                                          std::vector<std::string>{"contact.gap_below=0"});
+  EXPECT_EQ(with_gap_below.contact.number("gap_below"), 0.0);
+  EXPECT_NE(write_scene(with_gap_below).find("gap_below = 0.0"), std::string::npos);
+  EXPECT_EQ(load(clearance).contact.values.count("gap_below"), 0u);
 }
 
 TEST_F(LawScene, OfATableNamesFileAndLineOfWhatIsWrong) {

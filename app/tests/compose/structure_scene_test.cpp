@@ -174,9 +174,10 @@ TEST_F(ChainScene, ContactDofsAreInRangeAndOnce) {
 
 TEST_F(ChainScene, GapsAreOneOrOneAContact) {
   const Scene scene = load(with(chain_scene, "gap = 1e-4", "gap = [1e-4, 2e-4]"));
-  EXPECT_EQ(scene.contact.gap_of(1), 2e-4);
+  EXPECT_EQ(contacts_of(scene).at(1).gap, 2e-4);
+  EXPECT_TRUE(std::isnan(common_gap(scene)));
   EXPECT_EQ(parse_scene(write_scene(scene), "written.toml"), scene);
-  EXPECT_EQ(load(with(chain_scene, "gap = 1e-4", "gap = 1")).contact.gap_of(1), 1.0);
+  EXPECT_EQ(contacts_of(load(with(chain_scene, "gap = 1e-4", "gap = 1"))).at(1).gap, 1.0);
   expect_error(with(chain_scene, "gap = 1e-4", "gap = [1, 2, 3]"), 10, "contact.gap", "each of 2 degrees");
   expect_error(with(chain_scene, "gap = 1e-4", "gap = [1, inf]"), 10, "contact.gap", "finite");
   expect_error(with(chain_scene, "gap = 1e-4", "gap = [\"a\"]"), 10, "contact.gap", "or a list of them");

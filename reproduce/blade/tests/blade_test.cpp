@@ -115,7 +115,7 @@ TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
     // Stiffening: upwards the response is never the smaller one, and the force is that of the springs.
     EXPECT_GE(response.displacement.maxCoeff(), other.displacement.maxCoeff() - tolerance);
     const Eigen::MatrixXd penetration = (response.displacement.array() - gap).cwiseMax(0.0);
-    EXPECT_LT((response.force - scene.contact.stiffness * penetration).cwiseAbs().maxCoeff(),
+    EXPECT_LT((response.force - scene.contact.number("stiffness") * penetration).cwiseAbs().maxCoeff(),
               1e-9 * (1.0 + response.force.maxCoeff()));
   }
   EXPECT_GT(at(up, 630.0).displacement.maxCoeff(), 2.0 * at(down, 630.0).displacement.maxCoeff());

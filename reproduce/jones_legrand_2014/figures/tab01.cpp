@@ -28,8 +28,8 @@ Table printed(const app::Scene& one, const app::Scene& two, double free_one, dou
     table.append_row({name, number(a, 6) + " " + unit, number(b, 6) + " " + unit});
   };
   row("forcing frequency", one.forcing.frequency, two.forcing.frequency, "Hz");
-  row("penalty constant $a_c$", one.contact.constant, two.contact.constant, "N");
-  row("penalty exponent $\\alpha$", one.contact.exponent, two.contact.exponent, "1/m");
+  row("penalty constant $a_c$", one.contact.number("constant"), two.contact.number("constant"), "N");
+  row("penalty exponent $\\alpha$", one.contact.number("exponent"), two.contact.number("exponent"), "1/m");
   row("damping factor $\\beta$", one.structure.stiffness_damping, two.structure.stiffness_damping, "s");
   row("initial gap $g_0$", 1e3 * one.contact.gap, 1e3 * two.contact.gap, "mm");
   row("largest tip displacement without contact (computed)", 1e3 * free_one, 1e3 * free_two, "mm");
@@ -47,8 +47,9 @@ void tab01(report::Artefact& artefact) {
                "damping_factor_s", "initial_gap_m", "free_max_displacement_m"});
   for (const auto* scene : {&one, &two})
     table.append_row({scene == &one ? std::int64_t{1} : std::int64_t{2}, scene->forcing.frequency,
-                      scene->contact.constant, scene->contact.exponent, scene->structure.stiffness_damping,
-                      scene->contact.gap, scene == &one ? free_one : free_two});
+                      scene->contact.number("constant"), scene->contact.number("exponent"),
+                      scene->structure.stiffness_damping, scene->contact.gap,
+                      scene == &one ? free_one : free_two});
   artefact.data(table, "SI; a column's name ends in its unit");
   artefact.printed(printed(one, two, free_one, free_two));
   artefact.caption("From the scene files; the last row is computed with the 250 kN at the tip.");

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scene/keys/key_tables.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -62,7 +63,7 @@ void add_mode(std::vector<SceneKey>& keys) {
       "or linear law those of its force",
       within(2, 1 << 16),
       derived("2 x harmonics, 8 x with an exponential or linear law", [](const Scene& scene) {
-        return (scene.contact.law == ContactLawType::rigid ? 2 : 8) * scene.analysis.harmonics;
+        return (is_rigid(scene.contact.law) ? 2 : 8) * scene.analysis.harmonics;
       }));
   mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
   mode(&Analysis::energy_ratio, "energy_ratio", "",
@@ -78,24 +79,16 @@ void add_mode(std::vector<SceneKey>& keys) {
        within(2, 1'000'000), optional);
 }
 
-int contacts_of(const Scene& scene) {
-  if (scene.structure.type == StructureType::bar) return 1;
-  if (scene.structure.type == StructureType::blade)
-    return 2 * (scene.structure.blade.chord_elements + 1);  // nodes along its tip
-  return static_cast<int>(scene.structure.matrices.contact_dofs.size() +
-                          scene.contact.pair_contacts().size());
-}
-
 /// Whether counts take a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
                      scene.analysis.type == AnalysisType::amplitude_sweep;
   if (!sweep && !mode) return true;
-  if (mode && scene.contact.law == ContactLawType::rigid) return true;  // not known
+  if (mode && is_rigid(scene.contact.law)) return true;  // not known
   constexpr int few = 6;
   constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
-  const int contacts = contacts_of(scene);
+  const int contacts = contact_count(scene);
   return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
 }
 

@@ -22,16 +22,17 @@ namespace wavebalance::contact {
 /// The catalogue: one row for each law that a scene and a Python program can name, in the order of the help.
 /// Each type says what it is with `static LawDescription description()` and is made of complete values by
 /// `static Law of(const LawValues&)`. Nothing else in the toolkit names the laws one by one.
-using AnyLaw = std::variant<NoContact,       //
-                            ExponentialLaw,  //
-                            LinearLaw,       //
-                            RigidLaw,        //
-                            ClearanceLaw,    //
-                            BilinearLaw,     //
-                            CubicLaw,        //
-                            PolynomialLaw,   //
-                            TableLaw,        //
-                            HuntCrossleyLaw, KelvinVoigtLaw>;
+using AnyLaw = std::variant<NoContact,        //
+                            ExponentialLaw,   //
+                            LinearLaw,        //
+                            RigidLaw,         //
+                            BilinearLaw,      //
+                            CubicLaw,         //
+                            PolynomialLaw,    //
+                            ClearanceLaw,     //
+                            TableLaw,         //
+                            HuntCrossleyLaw,  //
+                            KelvinVoigtLaw>;
 
 /// A row of the catalogue.
 struct LawEntry : LawDescription {

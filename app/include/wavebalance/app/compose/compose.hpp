@@ -12,10 +12,10 @@ namespace wavebalance::app {
 /// make_model(scene).structure: a bar is loaded and touches at its tip.
 solvers::LinearStructure make_structure(const Scene& scene);
 
-/// The law of one contact, which has its own gap and, in a pair, its own parameters. Throws
-/// std::invalid_argument for rigid contact, which is a complementarity and has no law.
-solvers::AnyContactLaw make_law(const Contact& contact, int index = 0);
-/// One law per contact of the scene's structure.
+/// The law of [contact], of which contacts may have others [contacts_of()]. Throws contact::LawFault for
+/// values that make none, and std::runtime_error for a file that cannot be read.
+solvers::AnyContactLaw make_law(const Contact& contact);
+/// One law per contact of contacts_of(), or one for all where they are equal. Throws as make_law().
 solvers::ContactLaws make_laws(const Scene& scene);
 
 /// The basis `name` of Time::trial and Time::weight. Throws std::invalid_argument for an unknown name, or a

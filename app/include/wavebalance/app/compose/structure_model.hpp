@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wavebalance/app/compose/structure_dynamics.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
@@ -61,11 +62,6 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer 
 
 /// Gives a model the gaps of a scene. Throws std::invalid_argument if there are not as many as contacts.
 void set_gaps(StructureModel& model, const Scene& scene);
-
-/// The number of contacts of a scene. O(contacts).
-int contact_count(const Scene& scene);
-/// Corner nodes of a blade's tip, each of which may touch. O(1).
-int tip_corners(const BladeStructure& blade);
 
 /// Degrees of freedom of the scene's structure, and of the reduced one that is solved. Files of matrices are
 /// read unless load_scene() has read them.

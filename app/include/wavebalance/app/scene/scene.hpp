@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wavebalance/contact/law_description.hpp"
 #include "wavebalance/fem/solid.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
@@ -24,20 +25,6 @@ enum class StructureType { bar, blade, matrices };
 enum class Direction { x, y, z };
 /// Place of the load on a blade's tip.
 enum class TipPlace { leading_edge, mid_chord, trailing_edge };
-/// Contact laws, contact.law.
-enum class ContactLawType {
-  none,
-  exponential,
-  linear,
-  rigid,
-  bilinear,
-  cubic,
-  polynomial,
-  clearance,
-  table,
-  hunt_crossley,
-  kelvin_voigt
-};
 /// What becomes of the mass at the contacts, contact.mass: it stays, or the rest of the structure takes it.
 /// `automatic` redistributes it where the law is rigid.
 enum class ContactMass { automatic, keep, redistribute };
@@ -125,22 +112,8 @@ struct Structure {
   bool operator==(const Structure&) const = default;
 };
 
-/// What laws other than the exponential, linear and rigid ones take, in [contact] or in a pair.
-struct LawConstants {
-  std::vector<double> slopes = {};      ///< N/m, bilinear: below and beyond the gap
-  double cubic_stiffness = 0.0;         ///< N/m^3, not zero
-  std::vector<double> polynomial = {};  ///< N/m, N/m^2, ...: not all zero
-  double stiffness_below = 0.0;         ///< N/m, clearance: > 0, or 0 for that of the positive side
-  double gap_below = -1.0;              ///< m, clearance: >= 0, or -1 for that of the positive side
-  std::string table = {};               ///< file of displacements and forces; absolute once loaded
-  double hertz_stiffness = 0.0;         ///< N/m^power, > 0, hunt_crossley
-  double power = 1.5;                   ///< >= 1, hunt_crossley
-  double dissipation = 0.0;             ///< s/m, >= 0, hunt_crossley
-  double damping = 0.0;                 ///< N s/m, >= 0, kelvin_voigt
-  double damping_depth = 0.0;           ///< m, >= 0, kelvin_voigt
-
-  bool operator==(const LawConstants&) const = default;
-};
+/// The contact.law of a scene without contact.
+inline constexpr std::string_view no_law = "none";
 
 /// One entry of [[contact.pairs]]: a direction of contact of matrices, which moves by the sum of coefficients
 /// times degrees of freedom, and its law. Complete once loaded: what a file leaves out is that of [contact].
@@ -148,52 +121,41 @@ struct ContactPair {
   std::vector<int> dofs = {};             ///< from 1, none twice
   std::vector<double> coefficients = {};  ///< one each, not all zero; empty before loading: 1, or 1 and -1
   ObstacleSide side = ObstacleSide::positive;
-  ContactLawType law = ContactLawType::none;
-  double constant = 0.0;   ///< as in Contact
-  double exponent = 0.0;   ///< as in Contact
-  double stiffness = 0.0;  ///< as in Contact
-  double gap = 0.0;        ///< m, on every side that has an obstacle
-  LawConstants more = {};  ///< of further laws
+  std::string law{no_law};         ///< as in Contact
+  contact::LawValues values = {};  ///< as in Contact
+  double gap = 0.0;                ///< m, on every side that has an obstacle
 
+  /// A value by its name. Throws std::out_of_range where none is set.
+  double number(std::string_view parameter) const { return contact::number_of(values, parameter); }
   bool operator==(const ContactPair&) const = default;
 };
 
-/// Whether a law begins at its gap, contact.gap.
-bool has_gap(ContactLawType law);
-/// Whether its force depends on the velocity.
-bool is_damped(ContactLawType law);
-/// Whether it is a spring that may act below its gap, too.
-bool acts_on_both_sides(ContactLawType law);
-
-/// A contact of a pair, and 1 or -1 for the side of its obstacle.
-struct SidedPair {
-  const ContactPair* pair;
-  double sign;
-};
-
-/// The contact force at a contact degree of freedom as a function of its displacement u towards the obstacle;
-/// zero for u < gap, but of the springs that act everywhere or on both sides. Rigid contact has no such
-/// function: u <= gap, force >= 0, product 0. The damped laws depend on the velocity, too.
+/// The force at a contact as a function of its displacement u towards the obstacle, and how it is solved for.
+/// contacts_of() lists the contacts that these keys and MatricesStructure::contact_dofs say together.
 struct Contact {
-  ContactLawType law = ContactLawType::none;
-  double constant = 0.0;                      ///< N, > 0, a_c of the exponential law [JL14, eq. (5)]
-  double exponent = 0.0;                      ///< 1/m, > 0, alpha of the exponential law
-  double stiffness = 0.0;                     ///< N/m, > 0, slope of the linear law
+  std::string law{no_law};  ///< a name of contact::law_catalogue()
+  /// Of the law's parameters other than the gap, as far as they differ from their defaults.
+  contact::LawValues values = {};
   ContactForm form = ContactForm::automatic;  ///< the unknown that is solved for
   ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom
   double gap = 0.0;                           ///< m, displacement at which contact starts
-  LawConstants more = {};                     ///< of further laws
   std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
   /// Directions of contact in place of MatricesStructure::contact_dofs, each with its own law and gap.
   std::vector<ContactPair> pairs = {};
 
-  /// The contacts of the pairs in their order; a pair with obstacles on both sides has two, the positive one
-  /// first. They refer to `pairs`.
-  std::vector<SidedPair> pair_contacts() const;
-  /// The gap of one contact, from 0.
-  double gap_of(int contact) const;
+  /// A value by its name. Throws std::out_of_range where none is set.
+  double number(std::string_view parameter) const { return contact::number_of(values, parameter); }
   bool operator==(const Contact&) const = default;
 };
+
+/// Whether the law of this name begins at its gap, contact.gap.
+bool has_gap(std::string_view law);
+/// Whether its force depends on the velocity.
+bool is_damped(std::string_view law);
+/// Whether it is a spring that may act below its gap, too.
+bool acts_on_both_sides(std::string_view law);
+/// Whether its force beyond the gap is infinite.
+bool is_rigid(std::string_view law);
 
 /// One entry of [[forcing.terms]], which acts beside Forcing::amplitude: amplitude cos(harmonic 2 pi
 /// frequency t
@@ -309,7 +271,6 @@ std::string name_of(StructureType value);
 std::string name_of(SolidElement value);
 std::string name_of(TipPlace value);
 std::string name_of(Direction value);
-std::string name_of(ContactLawType value);
 std::string name_of(ObstacleSide value);
 std::string name_of(Formulation value);
 std::string name_of(InnerProducts value);

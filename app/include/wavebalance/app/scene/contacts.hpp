@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// One contact of a scene, whichever keys say it: where it is, and its law.
+struct SceneContact {
+  std::vector<int> dofs = {};  ///< rows of matrices, from 1; empty at a bar's tip and along a blade's
+  std::vector<double> coefficients = {};  ///< one for each of dofs, with the sign of the obstacle's side
+  std::optional<std::size_t> pair = {};   ///< the entry of [[contact.pairs]], from 0
+  std::string law{no_law};
+  contact::LawValues values = {};  ///< of this law alone, its gap included
+  double gap = 0.0;                ///< m; without meaning where the law has no gap
+
+  /// Whether both have one law with the same values.
+  bool same_law(const SceneContact& other) const { return law == other.law && values == other.values; }
+};
+
+/// All contacts of a scene in the order of the solvers: those of structure.contact_dofs or of a bar or blade,
+/// then those of [[contact.pairs]], of which one with obstacles on both sides has two, the positive one
+/// first. Throws std::invalid_argument for another number of gaps than one, or one each.
+std::vector<SceneContact> contacts_of(const Scene& scene);
+
+/// The same without laws and gaps.
+std::vector<SceneContact> contact_places(const Scene& scene);
+/// Their number, which does not depend on laws and gaps.
+int contact_count(const Scene& scene);
+
+/// The gap of all contacts; NaN where they differ or one has none.
+double common_gap(const Scene& scene);
+
+/// Whether the force of a contact depends on the velocity.
+bool has_damped_contact(const Scene& scene);
+
+/// The values of [contact] or of a pair that the law takes, its gap included.
+contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap);
+
+/// Number of corner nodes along a blade's tip.
+int tip_corners(const BladeStructure& blade);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,74 @@
+#include "wavebalance/app/scene/contacts.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+#include "wavebalance/contact/catalogue.hpp"
+
+namespace wavebalance::app {
+
+std::vector<SceneContact> contact_places(const Scene& scene) {
+  const Structure& structure = scene.structure;
+  if (structure.type == StructureType::bar) return std::vector<SceneContact>(1);
+  if (structure.type == StructureType::blade)
+    return std::vector<SceneContact>(static_cast<std::size_t>(tip_corners(structure.blade)));
+  std::vector<SceneContact> contacts;
+  for (const int dof : structure.matrices.contact_dofs)
+    contacts.push_back({.dofs = {std::abs(dof)}, .coefficients = {dof > 0 ? 1.0 : -1.0}});
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
+    const ContactPair& pair = scene.contact.pairs[i];
+    SceneContact one{.dofs = pair.dofs, .coefficients = pair.coefficients, .pair = i};
+    if (pair.side != ObstacleSide::negative) contacts.push_back(one);
+    for (double& coefficient : one.coefficients) coefficient = -coefficient;
+    if (pair.side != ObstacleSide::positive) contacts.push_back(std::move(one));
+  }
+  return contacts;
+}
+
+int tip_corners(const BladeStructure& blade) { return 2 * (blade.chord_elements + 1); }
+
+int contact_count(const Scene& scene) { return static_cast<int>(contact_places(scene).size()); }
+
+contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap) {
+  contact::LawValues taken;
+  for (const contact::LawParameter& parameter : contact::law_entry(law).parameters) {
+    if (parameter.name == "gap") taken.emplace("gap", gap);
+    if (const auto given = values.find(parameter.name); given != values.end()) taken.insert(*given);
+  }
+  return taken;
+}
+
+std::vector<SceneContact> contacts_of(const Scene& scene) {
+  std::vector<SceneContact> contacts = contact_places(scene);
+  const Contact& contact = scene.contact;
+  if (!contact.gaps.empty() && contact.gaps.size() != contacts.size())
+    throw std::invalid_argument("contact.gap has " + std::to_string(contact.gaps.size()) +
+                                " numbers; there must be one, or one for each of " +
+                                std::to_string(contacts.size()) + " contacts");
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    SceneContact& one = contacts[i];
+    const ContactPair* pair = one.pair ? &contact.pairs[*one.pair] : nullptr;
+    one.law = pair ? pair->law : contact.law;
+    one.gap = pair ? pair->gap : contact.gaps.empty() ? contact.gap : contact.gaps[i];
+    one.values = law_values(one.law, pair ? pair->values : contact.values, one.gap);
+  }
+  return contacts;
+}
+
+bool has_damped_contact(const Scene& scene) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const SceneContact& one) { return is_damped(one.law); });
+}
+
+double common_gap(const Scene& scene) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
+    return has_gap(other.law) && other.gap == contacts.front().gap;
+  });
+  return one && !contacts.empty() ? contacts.front().gap : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace wavebalance::app
