@@ -8,22 +8,14 @@
 #include <stdexcept>
 
 #include "bindings.hpp"
-#include "wavebalance/contact/bilinear_law.hpp"
-#include "wavebalance/contact/clearance_law.hpp"
-#include "wavebalance/contact/cubic_law.hpp"
-#include "wavebalance/contact/exponential_law.hpp"
-#include "wavebalance/contact/hunt_crossley_law.hpp"
-#include "wavebalance/contact/kelvin_voigt_law.hpp"
-#include "wavebalance/contact/linear_law.hpp"
-#include "wavebalance/contact/no_contact.hpp"
-#include "wavebalance/contact/polynomial_law.hpp"
-#include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/contact/table_law.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::python {
 
 namespace py = pybind11;
+using namespace pybind11::literals;
 using Law = solvers::AnyContactLaw;
 
 namespace {
@@ -79,31 +71,25 @@ Numbers at_each(const Numbers& displacement, Function function) {
   return result;
 }
 
+py::list law_catalogue() {
+  py::list rows;
+  for (const contact::LawEntry& law : contact::law_catalogue()) {
+    py::list parameters;
+    for (const contact::LawParameter& one : law.parameters)
+      parameters.append(py::dict("name"_a = one.name, "unit"_a = one.unit, "help"_a = one.help,
+                                 "required"_a = one.required(), "default"_a = one.fallback));
+    rows.append(py::dict("name"_a = law.name, "force"_a = law.force, "parameters"_a = parameters));
+  }
+  return rows;
+}
+
 void add_factories(py::module_& module) {
-  using namespace contact;
-  module.def("no_contact", [] { return Law(NoContact()); });
-  module.def("linear_law", [](double stiffness, double gap) { return Law(LinearLaw(stiffness, gap)); });
-  module.def("exponential_law", [](double constant, double exponent, double gap) {
-    return Law(ExponentialLaw(constant, exponent, gap));
-  });
-  module.def("rigid_law", [](double gap) { return Law(RigidLaw(gap)); });
-  module.def("bilinear_law",
-             [](double below, double beyond, double kink) { return Law(BilinearLaw(below, beyond, kink)); });
-  module.def("cubic_law", [](double stiffness) { return Law(CubicLaw(stiffness)); });
-  module.def("polynomial_law",
-             [](std::vector<double> coefficients) { return Law(PolynomialLaw(std::move(coefficients))); });
-  module.def("clearance_law", [](double stiffness, double gap, double stiffness_below, double gap_below) {
-    return Law(ClearanceLaw({stiffness, gap}, {stiffness_below, gap_below}));
+  module.def("law_catalogue", &law_catalogue);
+  module.def("make_law", [](const std::string& name, const contact::LawValues& values) {
+    return std::visit([](const auto& law) { return Law(law); }, contact::law_entry(name).make(values));
   });
   module.def("table_law", [](std::vector<double> displacements, std::vector<double> forces) {
-    return Law(TableLaw(std::move(displacements), std::move(forces)));
-  });
-  module.def("table_law_of_file", [](const std::string& file) { return Law(read_table_law(file)); });
-  module.def("hunt_crossley_law", [](double stiffness, double power, double dissipation, double gap) {
-    return Law(HuntCrossleyLaw(stiffness, power, dissipation, gap));
-  });
-  module.def("kelvin_voigt_law", [](double stiffness, double damping, double gap, double depth) {
-    return Law(KelvinVoigtLaw(stiffness, damping, gap, depth));
+    return Law(contact::TableLaw(std::move(displacements), std::move(forces)));
   });
   module.def("function_law", [](const py::function& force, const py::function& tangent,
                                 const py::function& potential, double gap, bool unilateral, bool monotone,

@@ -1,5 +1,6 @@
 """Structures of one's own: responses, curves, stability and modes against other solutions."""
 
+import inspect
 import threading
 import tomllib
 
@@ -151,6 +152,34 @@ def test_tangent_and_potential_belong_to_the_force(law):
     np.testing.assert_allclose((law.force(u + step) - law.force(u - step)) / (2 * step), law.tangent(u), atol=1e-6)
     np.testing.assert_allclose((law.potential(u + step) - law.potential(u - step)) / (2 * step), law.force(u), atol=1e-6)
     assert law.force(0.8) > 0.0 and repr(law).startswith(type(law).__name__)
+
+
+def test_every_law_of_the_catalogue_has_a_class_that_takes_its_parameters():
+    classes = {one._row: one for one in wb.Law.__subclasses__() if one._row}
+    rows = {row["name"]: {one["name"] for one in row["parameters"]} for row in wb._core.law_catalogue()}
+    assert classes.keys() == rows.keys()
+    for law in LAWS:
+        keys = law.scene_keys()
+        assert set(keys) - {"law"} <= rows[keys["law"]]
+
+
+def test_a_class_made_from_a_row_is_that_law():
+    row = next(one for one in wb._core.law_catalogue() if one["name"] == "kelvin_voigt")
+    made, written = wb.laws._class_of(row), wb.KelvinVoigt(5.0, 0.2, 0.1)
+    assert made.__name__ == "KelvinVoigt" and "damping`, N s/m: " in made.__doc__
+    assert str(inspect.signature(made)) == "(stiffness, damping, damping_depth=0.0, gap=0.0)"
+    law = made(5.0, damping=0.2, gap=0.1)
+    assert law.force(0.3, 1.0) == written.force(0.3, 1.0)
+    assert law.scene_keys() == {"law": "kelvin_voigt", "stiffness": 5.0, "damping": 0.2, "damping_depth": 0.0, "gap": 0.1}
+    with pytest.raises(TypeError, match="stiffness"):
+        made()
+
+
+def test_values_that_make_no_law_are_refused_with_parameter_value_and_range():
+    with pytest.raises(ValueError, match='the law "linear": stiffness is -1; it must be a number in N/m, finite and above 0'):
+        wb.Penalty(-1.0)
+    with pytest.raises(ValueError, match="cubic_stiffness is 0; it must be a number in N/m\\^3, finite and not zero"):
+        wb.Cubic(0.0)
 
 
 def test_one_law_per_contact_is_taken_in_their_order():

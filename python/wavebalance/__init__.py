@@ -17,7 +17,7 @@ exception. Bad input raises :class:`SceneError` or another ``ValueError`` with t
 solve with ``KeyboardInterrupt``. Solves release the interpreter's lock, so that threads run beside each other.
 """
 
-from . import wavelets
+from . import laws, wavelets
 from ._core import InadmissiblePair, SceneError, SingularSystem
 from ._version import version as __version__
 from .comparison import Comparison, compare
@@ -85,3 +85,8 @@ __all__ = [
     "study",
     "wavelets",
 ]
+
+for _name in laws.__all__:  # classes that are made from the catalogue alone
+    if _name not in __all__:
+        globals()[_name] = getattr(laws, _name)
+        __all__.append(_name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Callable, Sequence
 from typing import Any, Union
@@ -43,9 +44,15 @@ class Law(_core.Law):
         Whether the force depends on the velocity, too.
     """
 
+    _row = ""  # of the catalogue of laws, which says their parameters and ranges
+
     def __init__(self, law: _core.Law, keys: dict[str, Any]) -> None:
         super().__init__(law)
         self._keys = keys
+
+    def _make(self, **values: Any) -> None:
+        """Becomes the law of this row; the values are by the names of the catalogue."""
+        Law.__init__(self, _core.make_law(self._row, values), {"law": self._row, **values})
 
     def force(self, displacement: npt.ArrayLike, velocity: float = 0.0) -> Any:
         """The force (N) at displacements (m, any shape) and one velocity (m/s); it opposes a positive displacement."""
@@ -71,8 +78,10 @@ class Law(_core.Law):
 class NoContact(Law):
     """No force at all: the linear structure."""
 
+    _row = "none"
+
     def __init__(self) -> None:
-        super().__init__(_core.no_contact(), {"law": "none"})
+        self._make()
 
 
 class Penalty(Law):
@@ -81,8 +90,10 @@ class Penalty(Law):
     Parameters: `stiffness` k > 0, N/m; `gap` g, m. Raises ValueError for others.
     """
 
+    _row = "linear"
+
     def __init__(self, stiffness: float, gap: float = 0.0) -> None:
-        super().__init__(_core.linear_law(stiffness, gap), {"law": "linear", "stiffness": stiffness, "gap": gap})
+        self._make(stiffness=stiffness, gap=gap)
 
 
 class Exponential(Law):
@@ -91,11 +102,10 @@ class Exponential(Law):
     Parameters: `constant` a > 0, N; `exponent` alpha > 0, 1/m; `gap` g, m. Raises ValueError for others.
     """
 
+    _row = "exponential"
+
     def __init__(self, constant: float, exponent: float, gap: float = 0.0) -> None:
-        super().__init__(
-            _core.exponential_law(constant, exponent, gap),
-            {"law": "exponential", "constant": constant, "exponent": exponent, "gap": gap},
-        )
+        self._make(constant=constant, exponent=exponent, gap=gap)
 
 
 class Rigid(Law):
@@ -105,8 +115,10 @@ class Rigid(Law):
     impact a continuum of motions satisfies it, and solving raises ValueError. Parameter: `gap` g, m.
     """
 
+    _row = "rigid"
+
     def __init__(self, gap: float = 0.0) -> None:
-        super().__init__(_core.rigid_law(gap), {"law": "rigid", "gap": gap})
+        self._make(gap=gap)
 
 
 class Bilinear(Law):
@@ -115,26 +127,28 @@ class Bilinear(Law):
     Parameters: `slope_below` k1 and `slope_beyond` k2, N/m, of any sign; `kink`, m.
     """
 
+    _row = "bilinear"
+
     def __init__(self, slope_below: float, slope_beyond: float, kink: float = 0.0) -> None:
-        super().__init__(
-            _core.bilinear_law(slope_below, slope_beyond, kink),
-            {"law": "bilinear", "slopes": [slope_below, slope_beyond], "gap": kink},
-        )
+        self._make(slopes=[slope_below, slope_beyond], gap=kink)
 
 
 class Cubic(Law):
     """The cubic spring of Duffing's oscillator, f(u) = k3 u^3. Parameter: `stiffness` k3, N/m^3, not zero."""
 
+    _row = "cubic"
+
     def __init__(self, stiffness: float) -> None:
-        super().__init__(_core.cubic_law(stiffness), {"law": "cubic", "cubic_stiffness": stiffness})
+        self._make(cubic_stiffness=stiffness)
 
 
 class Polynomial(Law):
     """A spring that acts everywhere, f(u) = c1 u + c2 u^2 + ... Parameter: `coefficients` c1, c2, ..., N/m, N/m^2, ..."""
 
+    _row = "polynomial"
+
     def __init__(self, coefficients: Sequence[float]) -> None:
-        numbers = [float(one) for one in coefficients]
-        super().__init__(_core.polynomial_law(numbers), {"law": "polynomial", "polynomial": numbers})
+        self._make(polynomial=[float(one) for one in coefficients])
 
 
 class Clearance(Law):
@@ -145,15 +159,14 @@ class Clearance(Law):
     Parameters: `stiffness` k > 0, N/m; `gap` g >= 0, m; `stiffness_below` k' and `gap_below` g', by default the same.
     """
 
+    _row = "clearance"
+
     def __init__(
         self, stiffness: float, gap: float, stiffness_below: float | None = None, gap_below: float | None = None
     ) -> None:
         below = stiffness if stiffness_below is None else stiffness_below
         at = gap if gap_below is None else gap_below
-        super().__init__(
-            _core.clearance_law(stiffness, gap, below, at),
-            {"law": "clearance", "stiffness": stiffness, "gap": gap, "stiffness_below": below, "gap_below": at},
-        )
+        self._make(stiffness=stiffness, gap=gap, stiffness_below=below, gap_below=at)
 
 
 class Table(Law):
@@ -162,12 +175,13 @@ class Table(Law):
     Parameters: `displacements`, m, ascending, and as many `forces`, N; or the name of a CSV file of both alone.
     """
 
+    _row = "table"
+
     def __init__(
         self, displacements: Sequence[float] | npt.NDArray[Any] | str | os.PathLike[str], forces: Sequence[float] | npt.NDArray[Any] = ()
     ) -> None:
         if isinstance(displacements, (str, os.PathLike)):
-            file = os.path.abspath(displacements)
-            super().__init__(_core.table_law_of_file(file), {"law": "table", "table": file})
+            self._make(table=os.path.abspath(displacements))
             return
         law = _core.table_law([float(u) for u in displacements], [float(f) for f in forces])
         super().__init__(law, {"law": "table", "points": len(displacements)})
@@ -181,14 +195,13 @@ class Table(Law):
 class HuntCrossley(Law):
     """Contact that dissipates, f = max(k d^n (1 + c v), 0) for a penetration d = u - g > 0 [Hunt & Crossley 1975].
 
-    Parameters: `stiffness` k > 0, N/m^n; `dissipation` c >= 0, s/m; `gap` g, m; `power` n >= 1.
+    Parameters: `stiffness` k > 0, N/m^n; `dissipation` c >= 0, s/m; `gap` g, m; `power` n in 1..10.
     """
 
+    _row = "hunt_crossley"
+
     def __init__(self, stiffness: float, dissipation: float, gap: float = 0.0, power: float = 1.5) -> None:
-        super().__init__(
-            _core.hunt_crossley_law(stiffness, power, dissipation, gap),
-            {"law": "hunt_crossley", "hertz_stiffness": stiffness, "dissipation": dissipation, "gap": gap, "power": power},
-        )
+        self._make(hertz_stiffness=stiffness, dissipation=dissipation, gap=gap, power=power)
 
 
 class KelvinVoigt(Law):
@@ -197,11 +210,10 @@ class KelvinVoigt(Law):
     Parameters: `stiffness` k > 0, N/m; `damping` c >= 0, N s/m; `gap` g, m; `depth` >= 0, m, over which the damper sets in.
     """
 
+    _row = "kelvin_voigt"
+
     def __init__(self, stiffness: float, damping: float, gap: float = 0.0, depth: float = 0.0) -> None:
-        super().__init__(
-            _core.kelvin_voigt_law(stiffness, damping, gap, depth),
-            {"law": "kelvin_voigt", "stiffness": stiffness, "damping": damping, "gap": gap, "damping_depth": depth},
-        )
+        self._make(stiffness=stiffness, damping=damping, gap=gap, damping_depth=depth)
 
 
 class Function(Law):
@@ -285,3 +297,44 @@ def as_laws(laws: LawLike) -> Any:
     if isinstance(laws, Sequence):
         return [as_laws(one) for one in laws]
     return Function(laws) if callable(laws) else laws
+
+
+def _signature_of(parameters: Sequence[dict[str, Any]]) -> inspect.Signature:
+    """Those without a default come first; the gap is 0 where none is given."""
+    both = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    defaults = {one["name"]: 0.0 if one["name"] == "gap" else one["default"] for one in parameters}
+    needed = [one["name"] for one in parameters if one["required"] and one["name"] != "gap"]
+    return inspect.Signature(
+        [inspect.Parameter(name, both) for name in needed]
+        + [inspect.Parameter(name, both, default=value) for name, value in defaults.items() if name not in needed]
+    )
+
+
+def _class_of(row: dict[str, Any]) -> type[Law]:
+    """The class of a row of the catalogue, with the parameters' own names."""
+    signature = _signature_of(row["parameters"])
+
+    def __init__(self: Law, *values: Any, **named: Any) -> None:
+        bound = signature.bind(*values, **named)
+        bound.apply_defaults()
+        self._make(**{name: value for name, value in bound.arguments.items() if value is not None})
+
+    name = "".join(word.capitalize() for word in row["name"].split("_"))
+    lines = [f"`{one['name']}`{', ' + one['unit'] if one['unit'] else ''}: {one['help']}." for one in row["parameters"]]
+    text = "\n\n    ".join([f"A law with the force {row['force']}.", *lines])
+    made = type(name, (Law,), {"__init__": __init__, "__doc__": text, "__module__": __name__, "_row": row["name"]})
+    made.__signature__ = signature  # type: ignore[attr-defined]
+    return made
+
+
+def _add_other_rows() -> None:
+    """Makes the classes of the rows for which none is written above."""
+    written = {one._row for one in Law.__subclasses__()}
+    for row in _core.law_catalogue():
+        if row["name"] not in written:
+            made = _class_of(row)
+            globals()[made.__name__] = made
+            __all__.append(made.__name__)
+
+
+_add_other_rows()

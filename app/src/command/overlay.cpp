@@ -56,12 +56,11 @@ bool may_differ(std::string_view key) {
 }
 
 void require_same_directions(const Scene& first, const Scene& scene, const fs::path& place) {
-  const auto& a = first.contact.pairs;
-  const auto& b = scene.contact.pairs;
-  const auto same = [](const ContactPair& one, const ContactPair& other) {
-    return one.dofs == other.dofs && one.coefficients == other.coefficients && one.side == other.side;
+  const std::vector<SceneContact> here = contact_places(scene), there = contact_places(first);
+  const auto same = [](const SceneContact& one, const SceneContact& other) {
+    return one.dofs == other.dofs && one.coefficients == other.coefficients;
   };
-  if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same))
+  if (!std::equal(here.begin(), here.end(), there.begin(), there.end(), same))
     throw std::invalid_argument(place.string() +
                                 " has other [[contact.pairs]] than the first folder; expected the same "
                                 "structure in all of them");
