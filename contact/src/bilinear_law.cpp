@@ -43,16 +43,12 @@ LawDescription BilinearLaw::description() {
       .name = "bilinear",
       .force = "slopes[0] u up to the gap, from there on with slopes[1]; either may be negative",
       .parameters =
-          {{.name = "slopes",
-            .unit = "N/m",
-            .help =
+          {list_parameter(
+               {"slopes", "N/m",
                 "slopes of the bilinear law below and beyond the gap, of either sign; the force is 0 at u "
-                "= 0",
-            .kind = LawParameter::Kind::list,
-            .length = 2},
-           {.name = "gap",
-            .unit = "m",
-            .help = "displacement at which the slope of the bilinear law changes"}},
+                "= 0"},
+               2),
+           {"gap", "m", "displacement at which the slope of the bilinear law changes"}},
       .beyond_gap_alone = false};
 }
 

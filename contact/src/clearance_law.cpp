@@ -37,27 +37,17 @@ ForceAndTangent ClearanceLaw::resolvent(double v, double flexibility) const {
 }
 
 LawDescription ClearanceLaw::description() {
-  return {.name = "clearance",
-          .force = "stiffness (u - gap) beyond the gap, and likewise on the other side of the backlash",
-          .parameters = {{.name = "stiffness",
-                          .unit = "N/m",
-                          .help = "slope of the clearance law",
-                          .range = above_zero},
-                         {.name = "gap",
-                          .unit = "m",
-                          .help = "gap of the clearance law on the positive side",
-                          .range = at_least_zero},
-                         {.name = "stiffness_below",
-                          .unit = "N/m",
-                          .help = "slope of the clearance law on the negative side",
-                          .range = above_zero,
-                          .same_as = "stiffness"},
-                         {.name = "gap_below",
-                          .unit = "m",
-                          .help = "gap of the clearance law on the negative side: u >= -gap_below",
-                          .range = at_least_zero,
-                          .same_as = "gap"}},
-          .beyond_gap_alone = false};
+  return {
+      .name = "clearance",
+      .force = "stiffness (u - gap) beyond the gap, and likewise on the other side of the backlash",
+      .parameters = {{"stiffness", "N/m", "slope of the clearance law", above_zero},
+                     {"gap", "m", "gap of the clearance law on the positive side", at_least_zero},
+                     same_as("stiffness", {"stiffness_below", "N/m",
+                                           "slope of the clearance law on the negative side", above_zero}),
+                     same_as("gap", {"gap_below", "m",
+                                     "gap of the clearance law on the negative side: u >= -gap_below",
+                                     at_least_zero})},
+      .beyond_gap_alone = false};
 }
 
 ClearanceLaw ClearanceLaw::of(const LawValues& values) {

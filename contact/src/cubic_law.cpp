@@ -39,16 +39,13 @@ ForceAndTangent CubicLaw::resolvent(double v, double flexibility) const {
 }
 
 LawDescription CubicLaw::description() {
-  return {
-      .name = "cubic",
-      .force = "cubic_stiffness u^3, Duffing's spring, hardening or softening",
-      .parameters = {{.name = "cubic_stiffness",
-                      .unit = "N/m^3",
-                      .help =
+  return {.name = "cubic",
+          .force = "cubic_stiffness u^3, Duffing's spring, hardening or softening",
+          .parameters = {{"cubic_stiffness", "N/m^3",
                           "k3 of the cubic law, the force k3 u^3 of Duffing's spring: hardening above zero, "
                           "softening below",
-                      .range = other_than_zero}},
-      .beyond_gap_alone = false};
+                          other_than_zero}},
+          .beyond_gap_alone = false};
 }
 
 CubicLaw CubicLaw::of(const LawValues& values) { return CubicLaw(number_of(values, "cubic_stiffness")); }

@@ -86,13 +86,11 @@ void ExponentialLaw::evaluate(std::span<const double> displacement, std::span<do
 }
 
 LawDescription ExponentialLaw::description() {
-  return {
-      .name = "exponential",
-      .force = "constant (exp(exponent (u - gap)) - 1) beyond the gap",
-      .parameters = {
-          {.name = "constant", .unit = "N", .help = "a_c of the exponential law", .range = above_zero},
-          {.name = "exponent", .unit = "1/m", .help = "alpha of the exponential law", .range = above_zero},
-          gap_parameter}};
+  return {.name = "exponential",
+          .force = "constant (exp(exponent (u - gap)) - 1) beyond the gap",
+          .parameters = {{"constant", "N", "a_c of the exponential law", above_zero},
+                         {"exponent", "1/m", "alpha of the exponential law", above_zero},
+                         gap_parameter}};
 }
 
 ExponentialLaw ExponentialLaw::of(const LawValues& values) {

@@ -33,20 +33,12 @@ LawDescription HuntCrossleyLaw::description() {
       .name = "hunt_crossley",
       .force = "hertz_stiffness d^power (1 + dissipation v), d = u - gap > 0, where it does not pull",
       .parameters = {
-          {.name = "hertz_stiffness",
-           .unit = "N/m^power",
-           .help = "k of the Hunt-Crossley law, the force k d^power (1 + dissipation v) of the penetration d "
-                   "= u - gap and the velocity v, where that is not negative",
-           .range = above_zero},
-          {.name = "power",
-           .unit = "",
-           .help = "exponent of the penetration; 3/2 for two spheres",
-           .range = {1.0, 10.0},
-           .fallback = 1.5},
-          {.name = "dissipation",
-           .unit = "s/m",
-           .help = "dissipation of the Hunt-Crossley law",
-           .range = at_least_zero},
+          {"hertz_stiffness", "N/m^power",
+           "k of the Hunt-Crossley law, the force k d^power (1 + dissipation v) of the penetration d "
+           "= u - gap and the velocity v, where that is not negative",
+           above_zero},
+          with_default({"power", "", "exponent of the penetration; 3/2 for two spheres", {1.0, 10.0}}, 1.5),
+          {"dissipation", "s/m", "dissipation of the Hunt-Crossley law", at_least_zero},
           gap_parameter}};
 }
 

@@ -31,26 +31,21 @@ double KelvinVoigtLaw::potential(double displacement) const {
 }
 
 LawDescription KelvinVoigtLaw::description() {
-  return {
-      .name = "kelvin_voigt",
-      .force = "stiffness d + damping v, d = u - gap > 0, where it does not pull",
-      .parameters = {
-          {.name = "stiffness",
-           .unit = "N/m",
-           .help = "slope of the spring of the Kelvin-Voigt law",
-           .range = above_zero},
-          {.name = "damping",
-           .unit = "N s/m",
-           .help = "damper of the Kelvin-Voigt law, the force stiffness d + damping v of the penetration d = "
-                   "u - gap > 0 and the velocity v, where that is not negative",
-           .range = at_least_zero},
-          {.name = "damping_depth",
-           .unit = "m",
-           .help = "penetration over which that damper rises smoothly to its full value; 0: at once, with a "
+  return {.name = "kelvin_voigt",
+          .force = "stiffness d + damping v, d = u - gap > 0, where it does not pull",
+          .parameters = {
+              {"stiffness", "N/m", "slope of the spring of the Kelvin-Voigt law", above_zero},
+              {"damping", "N s/m",
+               "damper of the Kelvin-Voigt law, the force stiffness d + damping v of the penetration d = "
+               "u - gap > 0 and the velocity v, where that is not negative",
+               at_least_zero},
+              with_default(
+                  {"damping_depth", "m",
+                   "penetration over which that damper rises smoothly to its full value; 0: at once, with a "
                    "jump of the force",
-           .range = at_least_zero,
-           .fallback = 0.0},
-          gap_parameter}};
+                   at_least_zero},
+                  0.0),
+              gap_parameter}};
 }
 
 KelvinVoigtLaw KelvinVoigtLaw::of(const LawValues& values) {

@@ -43,9 +43,7 @@ void LinearLaw::evaluate(std::span<const double> displacement, std::span<double>
 LawDescription LinearLaw::description() {
   return {.name = "linear",
           .force = "stiffness (u - gap) beyond the gap",
-          .parameters = {
-              {.name = "stiffness", .unit = "N/m", .help = "slope of the linear law", .range = above_zero},
-              gap_parameter}};
+          .parameters = {{"stiffness", "N/m", "slope of the linear law", above_zero}, gap_parameter}};
 }
 
 LinearLaw LinearLaw::of(const LawValues& values) {

@@ -35,10 +35,9 @@ double PolynomialLaw::potential(double displacement) const {
 LawDescription PolynomialLaw::description() {
   return {.name = "polynomial",
           .force = "c_1 u + c_2 u^2 + ..., polynomial = [c_1, c_2, ...]",
-          .parameters = {{.name = "polynomial",
-                          .unit = "N/m, N/m^2, ...",
-                          .help = "c_1, c_2, ... of the polynomial law, the force c_1 u + c_2 u^2 + ...",
-                          .kind = LawParameter::Kind::list}},
+          .parameters = {list_parameter(
+              {"polynomial", "N/m, N/m^2, ...",
+               "c_1, c_2, ... of the polynomial law, the force c_1 u + c_2 u^2 + ..."})},
           .beyond_gap_alone = false};
 }
 

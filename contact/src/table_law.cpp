@@ -115,17 +115,13 @@ double TableLaw::potential(double displacement) const {
 }
 
 LawDescription TableLaw::description() {
-  return {
-      .name = "table",
-      .force = "through the points of a CSV file, a monotone cubic between them, the last slope beyond",
-      .parameters =
-          {{.name = "table",
-            .unit = "",
-            .help =
-                "CSV file of the table law: displacement in m, ascending, and force in N per row, between "
-                "which the force is a monotone cubic and beyond which it has the last slope",
-            .kind = LawParameter::Kind::file}},
-      .beyond_gap_alone = false};
+  return {.name = "table",
+          .force = "through the points of a CSV file, a monotone cubic between them, the last slope beyond",
+          .parameters = {file_parameter(
+              "table",
+              "CSV file of the table law: displacement in m, ascending, and force in N per row, between "
+              "which the force is a monotone cubic and beyond which it has the last slope")},
+          .beyond_gap_alone = false};
 }
 
 TableLaw TableLaw::of(const LawValues& values) { return read_table_law(file_of(values, "table")); }

@@ -11,15 +11,6 @@ namespace {
 using contact::LawEntry;
 using contact::LawParameter;
 
-/// The numbers that one of two ranges admits.
-contact::LawRange hull(const contact::LawRange& a, const contact::LawRange& b) {
-  const bool lower_excluded = a.lower == b.lower  ? a.lower_excluded && b.lower_excluded
-                              : a.lower < b.lower ? a.lower_excluded
-                                                  : b.lower_excluded;
-  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper), lower_excluded,
-          a.zero_excluded && b.zero_excluded};
-}
-
 Bounds bounds_of(const contact::LawRange& range) { return {range.lower, range.upper, range.lower_excluded}; }
 
 void add(std::vector<SharedParameter>& all, const LawEntry& law, const LawParameter& parameter) {
@@ -29,7 +20,7 @@ void add(std::vector<SharedParameter>& all, const LawEntry& law, const LawParame
     all.push_back({parameter, {law.name}, std::string(parameter.help)});
     return;
   }
-  known->first.range = hull(known->first.range, parameter.range);
+  if (!(known->first.range == parameter.range)) known->first.range = {};  // the law refuses the rest
   known->laws.push_back(law.name);
   if (known->help.find(parameter.help) == std::string::npos)
     known->help += "; " + std::string(parameter.help);

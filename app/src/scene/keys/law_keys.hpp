@@ -12,7 +12,7 @@ namespace wavebalance::app {
 
 /// A parameter as the laws have it that take one of this name.
 struct SharedParameter {
-  contact::LawParameter first;         ///< of the first law that has it, with the range that holds for all
+  contact::LawParameter first;         ///< of the first law that has it, with any range where theirs differ
   std::vector<std::string_view> laws;  ///< in the order of the catalogue
   std::string help;                    ///< what it is in each of them
 };
@@ -20,7 +20,7 @@ struct SharedParameter {
 /// Every name once, in the order of the catalogue, the gap last.
 std::span<const SharedParameter> law_parameters();
 
-/// The key of a parameter other than the gap in `section`, without its place in a scene.
+/// The key of a parameter in `section`, without its place in a scene.
 SceneKey key_of_parameter(std::string_view section, const SharedParameter& parameter);
 
 /// The value of a key: the default where there is none, which is empty if it is that of another parameter.

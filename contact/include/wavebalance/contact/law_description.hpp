@@ -83,8 +83,29 @@ double number_of(const LawValues& values, std::string_view name);
 const std::vector<double>& list_of(const LawValues& values, std::string_view name);
 const std::string& file_of(const LawValues& values, std::string_view name);
 
+/// A parameter with a default.
+constexpr LawParameter with_default(LawParameter parameter, double value) {
+  parameter.fallback = value;
+  return parameter;
+}
+/// A parameter that has the value of another where none is given.
+constexpr LawParameter same_as(std::string_view other, LawParameter parameter) {
+  parameter.same_as = other;
+  return parameter;
+}
+/// A list of `length` numbers, or of any from 1 on.
+constexpr LawParameter list_parameter(LawParameter entries, int length = 0) {
+  entries.kind = LawParameter::Kind::list;
+  entries.length = length;
+  return entries;
+}
+/// The name of a file.
+constexpr LawParameter file_parameter(std::string_view name, std::string_view help) {
+  return {name, "", help, {}, LawParameter::Kind::file};
+}
+
 /// The gap of most laws.
-inline constexpr LawParameter gap_parameter{
-    .name = "gap", .unit = "m", .help = "displacement towards the obstacle at which contact starts"};
+inline constexpr LawParameter gap_parameter{"gap", "m",
+                                            "displacement towards the obstacle at which contact starts"};
 
 }  // namespace wavebalance::contact
