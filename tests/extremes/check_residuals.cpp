@@ -11,6 +11,7 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"

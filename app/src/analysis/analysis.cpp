@@ -21,6 +21,7 @@
 #include "wavebalance/app/analysis/curve_motions.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 

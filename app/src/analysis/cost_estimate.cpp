@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {

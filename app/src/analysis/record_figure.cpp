@@ -11,6 +11,7 @@
 #include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -12,6 +12,7 @@
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
 
 namespace wavebalance::app {

@@ -8,6 +8,7 @@
 #include "command/report_parts.hpp"
 #include "command/run_words.hpp"
 #include "wavebalance/app/page/html.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
 namespace wavebalance::app {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"

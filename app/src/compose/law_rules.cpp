@@ -6,6 +6,7 @@
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 

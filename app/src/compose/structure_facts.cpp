@@ -8,6 +8,7 @@
 
 #include "compose/structure_files.hpp"
 #include "compose/symmetric_part.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/static_displacements.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"

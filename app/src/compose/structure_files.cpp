@@ -9,6 +9,7 @@
 
 #include "compose/massless_rows.hpp"
 #include "compose/symmetric_part.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"

@@ -11,6 +11,7 @@
 #include "compose/structure_files.hpp"
 #include "compose/symmetric_part.hpp"
 #include "wavebalance/app/compose/massless_contacts.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"

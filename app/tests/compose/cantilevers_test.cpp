@@ -4,6 +4,7 @@
 #include "support/cantilevers.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace {
 
