@@ -28,17 +28,18 @@ StabilityCase stability_case(const std::string& file, double frequency,
                              const std::vector<std::string>& overrides = {}) {
   const app::Scene scene = app::load_scene(WAVEBALANCE_SCENES "/" + file, overrides);
   const app::StructureModel model = app::make_model(scene);
-  app::ComposedProblem composed = app::compose_problem(scene, model);
+  solvers::CondensedProblem problem = app::make_problem(scene, model);
+  const solvers::ContactLaws laws = app::make_laws(scene);
   solvers::FrequencySweepOptions options;
   options.from = scene.analysis.frequency_from;
   options.to = scene.analysis.frequency_to;
   const double start = processor_seconds();
-  const auto sweep = solvers::frequency_sweep(composed.problem, composed.laws, options);
+  const auto sweep = solvers::frequency_sweep(problem, laws, options);
   const double seconds = (processor_seconds() - start) / double(sweep.points.size());
-  composed.problem.set_frequency(frequency);
-  auto response = solvers::forced_response(composed.problem, composed.laws, {});
-  solvers::ContactDynamics dynamics(composed.problem.structure());
-  return {std::move(composed.problem), composed.laws, std::move(dynamics), std::move(response), seconds};
+  problem.set_frequency(frequency);
+  auto response = solvers::forced_response(problem, laws, {});
+  solvers::ContactDynamics dynamics(problem.structure());
+  return {std::move(problem), laws, std::move(dynamics), std::move(response), seconds};
 }
 
 StabilityCase scene_of(const std::string& name) {

@@ -139,10 +139,9 @@ void add_pair(py::module_& module) {
 std::shared_ptr<Problem> make_problem(const Structure& structure, const solvers::TimePair& pair,
                                       const Eigen::VectorXcd& harmonics, int threads) {
   return unlocked([&](const solvers::Observer&) {
-    auto problem =
-        std::make_shared<Problem>(solvers::CondensedProblem(pair, structure, harmonics), structure.recovery);
-    problem->condensed().set_threads(threads);
-    return problem;
+    solvers::CondensedProblem problem(pair, structure, harmonics);
+    problem.set_threads(threads);
+    return std::make_shared<Problem>(std::move(problem), structure.recovery);
   });
 }
 

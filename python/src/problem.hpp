@@ -1,12 +1,9 @@
 #pragma once
-#include <limits>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
-#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 
 namespace wavebalance::python {
 
@@ -16,44 +13,29 @@ struct Structure : solvers::LinearStructure {
   Eigen::MatrixXd recovery = {};
 };
 
-/// A structure with its pair of bases, condensed on the contacts. Threads of Python may share it. Whoever
-/// works with it holds `alone`, without the lock of the interpreter.
+/// A structure with its pair of bases, for any laws. Threads of Python may share it. Whoever works with it
+/// holds `alone`, without the lock of the interpreter.
 class Problem {
  public:
   Problem(solvers::CondensedProblem problem, Eigen::MatrixXd recovery)
-      : condensed_(std::move(problem)), recovery_(std::move(recovery)) {}
+      : problem_(std::move(problem), {}), recovery_(std::move(recovery)) {}
 
   std::mutex alone;
 
-  /// The problem at its last frequency and load scale. What may change them calls moved() before.
-  solvers::CondensedProblem& condensed() { return condensed_; }
-  const solvers::CondensedProblem& condensed() const { return condensed_; }
-  void moved() { frequency_ = std::numeric_limits<double>::quiet_NaN(); }
-  /// The problem at a frequency (Hz) and load scale. Throws as CondensedProblem::set_frequency does.
-  solvers::CondensedProblem& at(double frequency, double load_scale = 1.0) {
-    if (condensed_.load_scale() != load_scale) condensed_.set_load_scale(load_scale);
-    if (frequency_ != frequency) {
-      moved();
-      condensed_.set_frequency(frequency);
-      frequency_ = frequency;
-    }
-    return condensed_;
+  const solvers::CondensedProblem& condensed() const { return problem_.condensed(); }
+  /// What there is to ask of it with these laws, which are refused as in ContactProblem.
+  solvers::ContactProblem& with(const solvers::ContactLaws& laws) {
+    problem_.set_laws(laws);
+    return problem_;
   }
   /// Rows of the given degrees of freedom from those of the structure that is solved.
   Eigen::MatrixXd recovered(const Eigen::MatrixXd& rows) const {
     return recovery_.size() > 0 ? Eigen::MatrixXd(recovery_ * rows) : rows;
   }
-  /// Made on first use. Throws std::invalid_argument where no modes are found.
-  const solvers::ContactDynamics& dynamics() {
-    if (!dynamics_) dynamics_.emplace(condensed_.structure());
-    return *dynamics_;
-  }
 
  private:
-  solvers::CondensedProblem condensed_;
-  Eigen::MatrixXd recovery_;                                     // as of Structure
-  double frequency_ = std::numeric_limits<double>::quiet_NaN();  // at which it is condensed
-  std::optional<solvers::ContactDynamics> dynamics_ = {};
+  solvers::ContactProblem problem_;
+  Eigen::MatrixXd recovery_;  // as of Structure
 };
 
 }  // namespace wavebalance::python

@@ -12,8 +12,6 @@
 #include "bindings.hpp"
 #include "laws.hpp"
 #include "unlocked.hpp"
-#include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::python {
 
@@ -28,14 +26,6 @@ solvers::ContactForm form_of(const std::string& name) {
 }
 
 namespace {
-
-bool is_accurate(const solvers::PeriodicResponse& found) {
-  return !(found.rounding_error > app::largest_rounding_error);
-}
-
-std::string_view status_of(const solvers::PeriodicResponse& found) {
-  return found.converged() && !is_accurate(found) ? "inaccurate" : to_string(found.status);
-}
 
 /// The status of a dynamic stiffness that is singular, as of a record.
 solvers::PeriodicResponse singular_response(int samples, double frequency) {
@@ -58,13 +48,12 @@ Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws law
   const std::lock_guard alone(problem->alone);
   const auto start = std::chrono::steady_clock::now();
   try {
-    found = solvers::forced_response(problem->at(frequency), laws, options, guess, guess_force);
+    found = problem->with(laws).respond(frequency, options, {guess, guess_force});
   } catch (const solvers::SingularSystem&) {
-    problem->moved();
     found = singular_response(problem->condensed().samples(), frequency);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return {problem, std::move(laws), std::move(found), 1.0, elapsed.count()};
+  return {problem, std::move(laws), std::move(found), elapsed.count()};
 }
 
 namespace {
@@ -99,15 +88,15 @@ Response respond(const std::shared_ptr<Problem>& problem, const py::object& laws
 solvers::Motion contact_motion(const Response& response, int points) {
   return unlocked([&](const solvers::Observer&) {
     const std::lock_guard alone(response.problem->alone);
-    return solvers::contact_motion(response.problem->condensed(), response.found, response.laws, points);
+    return response.problem->with(response.laws).motion(response.found, points);
   });
 }
 
 solvers::Motion structure_motion(const Response& response, int points) {
   return unlocked([&](const solvers::Observer&) {
     const std::lock_guard alone(response.problem->alone);
-    solvers::CondensedProblem& problem = response.problem->at(response.found.frequency, response.load_scale);
-    solvers::Motion motion = solvers::structure_motion(problem, response.found, points);
+    solvers::Motion motion =
+        response.problem->with(response.laws).structure_motion(response.found, points);
     motion.displacement = response.problem->recovered(motion.displacement);
     motion.velocity = response.problem->recovered(motion.velocity);
     return motion;
@@ -138,8 +127,8 @@ void add_response(py::module_& module) {
   add_motion(module);
   py::class_<Response>(module, "Response")
       .def_property_readonly(
-          "converged", [](const Response& one) { return one.found.converged() && is_accurate(one.found); })
-      .def_property_readonly("status", [](const Response& one) { return status_of(one.found); })
+          "converged", [](const Response& one) { return one.found.converged(); })
+      .def_property_readonly("status", [](const Response& one) { return to_string(one.found.status); })
       .def_property_readonly("frequency", [](const Response& one) { return one.found.frequency; })
       .def_property_readonly("residual", [](const Response& one) { return one.found.residual; })
       .def_property_readonly("iterations", [](const Response& one) { return one.found.iterations; })

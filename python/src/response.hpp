@@ -12,7 +12,6 @@ struct Response {
   std::shared_ptr<Problem> problem;
   solvers::ContactLaws laws;
   solvers::PeriodicResponse found;
-  double load_scale = 1.0;
   double wall_seconds = 0.0;  ///< of the condensation and the solution
 };
 

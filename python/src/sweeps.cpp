@@ -10,10 +10,7 @@
 #include "bindings.hpp"
 #include "laws.hpp"
 #include "response.hpp"
-#include "stability.hpp"
 #include "unlocked.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/stability/curve_stability.hpp"
 
 namespace wavebalance::python {
 
@@ -57,23 +54,6 @@ solvers::FrequencySweepOptions options_of(double from, double to, const Steps& s
   return options;
 }
 
-/// The structure's modes are not always there, and without them the stability is not known.
-void add_curve_stability(Curve& one, const Steps& steps, const solvers::Observer& observer) {
-  if (!steps.stability || one.curve.points.empty() || one.curve.status == solvers::SweepStatus::cancelled)
-    return;
-  const solvers::ContactDynamics* dynamics = nullptr;
-  try {
-    dynamics = &one.problem->dynamics();
-  } catch (const std::invalid_argument&) {
-    return;
-  }
-  solvers::CurveStabilityOptions options;
-  options.stability = stability_options(one.problem->condensed());
-  options.output_points = steps.output_points;
-  options.observer = observer;
-  one.stability = solvers::curve_stability(one.problem->condensed(), one.laws, one.curve, *dynamics, options);
-}
-
 /// Of an amplitude sweep `frequency` is that of all points; NaN for a frequency sweep.
 std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::object& laws,
                              double frequency, double from, double to, const Steps& steps) {
@@ -84,13 +64,11 @@ std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::
     const auto start = std::chrono::steady_clock::now();
     options.observer = observer;
     options.start.observer = observer;
-    const bool over_load = std::isfinite(frequency);
-    if (over_load) problem->at(frequency);
-    problem->moved();
-    if (!over_load) problem->condensed().set_load_scale(1.0);
-    one->curve = over_load ? solvers::amplitude_sweep(problem->condensed(), one->laws, options)
-                           : solvers::frequency_sweep(problem->condensed(), one->laws, options);
-    add_curve_stability(*one, steps, observer);
+    solvers::ContactProblem& with = problem->with(one->laws);
+    one->curve =
+        std::isfinite(frequency) ? with.amplitude_sweep(frequency, options) : with.sweep(options);
+    if (steps.stability && one->curve.status != solvers::SweepStatus::cancelled)
+      one->stability = with.stability(one->curve, steps.output_points, observer);
     one->wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return one;
   });
@@ -104,12 +82,9 @@ Response response_of(const Curve& one, int index) {
   const SweepPoint& point = one.curve.points[static_cast<std::size_t>(index < 0 ? index + count : index)];
   return unlocked([&](const solvers::Observer&) {
     const std::lock_guard alone(one.problem->alone);
-    solvers::CondensedProblem& problem = one.problem->at(point.frequency, point.load_scale);
-    problem.set_regularization(one.curve.regularization);
-    solvers::ContactSystem system(problem, one.laws);
-    Response response{one.problem, one.laws, solvers::response_at(system, point.unknown), point.load_scale};
-    problem.set_regularization({});
-    return response;
+    const double value = parameter_of(point, one.curve.parameter);
+    return Response{one.problem, one.laws,
+                    one.problem->with(one.laws).response(one.curve, value, point.unknown)};
   });
 }
 

@@ -8,8 +8,6 @@
 
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/report/artefact.hpp"
-#include "wavebalance/solvers/balance/contact_system.hpp"
-#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 
 namespace wavebalance::blade {
 namespace {
@@ -35,20 +33,17 @@ auto by_frequency(const Points& points, std::size_t first, bool upper) {
 
 class Counter {
  public:
-  Counter(const app::Scene& scene, const app::StructureModel& model)
-      : composed_(app::compose_problem(scene, model)), dynamics_(model.structure) {}
+  Counter(const app::Scene& scene, const app::StructureModel& model, const solvers::FrequencySweep& curve)
+      : problem_(app::compose_problem(scene, model)), curve_(curve) {}
 
   PointCount operator()(const solvers::SweepPoint& point) {
-    composed_.problem.set_frequency(point.frequency);
-    solvers::ContactSystem system(composed_.problem, composed_.laws);
-    const auto response = solvers::response_at(system, point.unknown);
-    const auto count = solvers::unstable_multipliers(dynamics_, composed_.problem, composed_.laws, response);
-    return {point.frequency, count.count};
+    const auto response = problem_.response(curve_, point.frequency, point.unknown);
+    return {point.frequency, problem_.stability(response).unstable};
   }
 
  private:
-  app::ComposedProblem composed_;
-  solvers::ContactDynamics dynamics_;
+  solvers::ContactProblem problem_;
+  const solvers::FrequencySweep& curve_;
 };
 
 }  // namespace
@@ -74,7 +69,7 @@ CurveParts curve_parts(const app::Scene& scene, const app::StructureModel& model
   const std::size_t highest = index_of(points, 0, points.size(), upper->frequency);
   const std::size_t back = index_of(points, highest, points.size(), lower->frequency);
   const std::array<std::size_t, 4> ends{0, highest, back, points.size() - 1};
-  Counter count(scene, model);
+  Counter count(scene, model, sweep.curve);
   parts.points.resize(points.size());
   for (std::size_t part = 0; part < 3; ++part) {
     const double from = points[ends[part]].frequency, to = points[ends[part + 1]].frequency;

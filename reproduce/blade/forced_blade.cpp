@@ -20,17 +20,17 @@ std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::Str
   solvers::ForcedResponseOptions nearby;
   nearby.fallbacks = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
-  auto composed = app::compose_problem(scene, model);
+  solvers::ContactProblem problem = app::compose_problem(scene, model);
   Eigen::VectorXd guess;
   const auto solve = [&](solvers::CondensedProblem& at) -> BladeResponse {
-    auto found = solvers::forced_response(at, composed.laws, nearby, guess);
-    if (!found.converged()) found = solvers::forced_response(at, composed.laws, {});  // the branch ends here
+    auto found = solvers::forced_response(at, problem.laws(), nearby, guess);
+    if (!found.converged()) found = solvers::forced_response(at, problem.laws(), {});  // the branch ends here
     guess = found.converged() ? found.displacement : Eigen::VectorXd();
     return {at.frequency(), found.converged(), solvers::by_contact(found.displacement, model.contacts()),
             solvers::by_contact(found.contact_force, model.contacts())};
   };
   std::vector<BladeResponse> responses;
-  for (auto& found : steps_over(composed.problem, frequencies, solve))
+  for (auto& found : steps_over(problem.condensed(), frequencies, solve))
     responses.push_back(found ? std::move(*found)
                               : BladeResponse{frequencies[responses.size()], false, {}, {}});
   return responses;

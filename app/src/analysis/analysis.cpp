@@ -214,16 +214,13 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 }
 
 /// The first point of a sweep that starts near a motion, or that has several periods of the load.
-solvers::PeriodicResponse first_point(const Scene& scene, const StructureModel& model,
-                                      ComposedProblem& composed, solvers::ForcedResponseOptions how,
-                                      const StartMotion& start, double& distance) {
+solvers::PeriodicResponse first_point(const Scene& scene, solvers::ContactProblem& problem,
+                                      solvers::ForcedResponseOptions how, const StartMotion& start,
+                                      double& distance) {
   StartSamples samples;
   if (!start.contacts.empty()) samples = start_samples(start, scene);
   how.stay_near_guess = !start.contacts.empty();
-  auto& [problem, laws] = composed;
-  auto first = scene.analysis.subharmonic == 1
-                   ? solvers::forced_response(problem, laws, how, samples.displacement, samples.force)
-                   : several_periods(problem, laws, model, how, samples.displacement);
+  auto first = problem.respond(scene.analysis.frequency_from, how, {samples.displacement, samples.force});
   distance = relative_distance(first.displacement, samples.displacement);
   return first;
 }
@@ -234,17 +231,16 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
   options.observer = observer;
   options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
   Sweep sweep;
-  ComposedProblem composed = compose_problem(scene, model);
+  solvers::ContactProblem problem = compose_problem(scene, model);
   if (scene.analysis.subharmonic == 1 && start.contacts.empty()) {
-    sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options);
+    sweep.curve = problem.sweep(options);
     return sweep;
   }
-  composed.problem.set_load_frequency(options.from);
   options.start.observer = options.observer;
-  const auto first = first_point(scene, model, composed, options.start, start, sweep.start_distance);
+  const auto first = first_point(scene, problem, options.start, start, sweep.start_distance);
   sweep.periods = scene.analysis.subharmonic;
-  sweep.motion_periods = solvers::motion_periods(composed.problem, first);
-  sweep.curve = solvers::frequency_sweep(composed.problem, composed.laws, options, {first, {}, {}});
+  sweep.motion_periods = solvers::motion_periods(problem.condensed(), first);
+  sweep.curve = problem.sweep(options, first);
   return sweep;
 }
 
@@ -286,8 +282,7 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
   options.observer = observer;
   options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
   Sweep sweep;
-  ComposedProblem composed = compose_problem(scene, model);
-  sweep.curve = solvers::amplitude_sweep(composed.problem, composed.laws, options);
+  sweep.curve = compose_problem(scene, model).amplitude_sweep(scene.forcing.frequency, options);
   sweep.amplitude_unit = load.unit;
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sweep;

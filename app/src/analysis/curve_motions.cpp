@@ -7,14 +7,10 @@
 #include <utility>
 
 #include "analysis/motion_files.hpp"
-#include "analysis/stability.hpp"
 #include "analysis/summary_parts.hpp"
 #include "analysis/sweep_axis.hpp"
-#include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/response/curve_responses.hpp"
-#include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -23,7 +19,7 @@ namespace {
 class MotionsOfCurve {
  public:
   MotionsOfCurve(const Scene& scene, const StructureModel& model, const Sweep& sweep)
-      : scene_(scene), model_(model), sweep_(sweep), composed_(compose_problem(scene, model)) {}
+      : scene_(scene), model_(model), sweep_(sweep), problem_(compose_problem(scene, model)) {}
 
   CurveMotion peak() {
     const auto& points = sweep_.curve.points;
@@ -41,52 +37,37 @@ class MotionsOfCurve {
   /// At a frequency or amplitude of the load.
   std::vector<CurveMotion> at_place(double place) {
     std::vector<CurveMotion> motions;
-    for (const auto& one : solvers::responses_at(composed_.problem, composed_.laws, sweep_.curve, place)) {
-      hold(place);
-      motions.push_back(measured(over_amplitude_ ? "amplitude" : "frequency", place, one));
-    }
+    for (const auto& response : problem_.responses_at(sweep_.curve, place))
+      motions.push_back(measured(over_amplitude_ ? "amplitude" : "frequency", place, response));
     return motions;
   }
 
  private:
-  /// Puts the problem at a frequency or load scale, since responses_at() leaves it at any.
-  void hold(double value) {
-    solvers::CondensedProblem& problem = composed_.problem;
-    if (over_amplitude_)
-      problem.set_load_scale(value);
-    else
-      problem.set_load_frequency(value);
-  }
-
   CurveMotion measured(std::string at, double value, const Eigen::VectorXd& unknown) {
-    const auto response =
-        solvers::curve_response(composed_.problem, composed_.laws, sweep_.curve, value, unknown);
-    return measured(std::move(at), value, response);
+    return measured(std::move(at), value, problem_.response(sweep_.curve, value, unknown));
   }
 
-  /// Of a response at which the problem is held.
   CurveMotion measured(std::string at, double place, const solvers::PeriodicResponse& response) {
     CurveMotion motion;
     motion.at = std::move(at);
     motion.place = place;
     motion.converged = response.converged();
     motion.residual = response.residual;
-    motion.contacts =
-        solvers::contact_motion(composed_.problem, response, composed_.laws, scene_.analysis.output_points);
+    motion.contacts = problem_.motion(response, scene_.analysis.output_points);
     motion.contact = leading_contact(motion.contacts, model_.gaps);
     if (scene_.analysis.motion_points > 0)
       motion.structure =
-          solvers::structure_motion(composed_.problem, response, scene_.analysis.motion_points).displacement;
+          problem_.structure_motion(response, scene_.analysis.motion_points).displacement;
     motion.stability.status.clear();
     if (scene_.analysis.stability && motion.converged)
-      motion.stability = response_stability(composed_.problem, composed_.laws, response, model_);
+      motion.stability = problem_.stability(response);
     return motion;
   }
 
   const Scene& scene_;
   const StructureModel& model_;
   const Sweep& sweep_;
-  ComposedProblem composed_;
+  solvers::ContactProblem problem_;
   const bool over_amplitude_ = sweep_.curve.parameter == solvers::SweepParameter::load_scale;
 };
 

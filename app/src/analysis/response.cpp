@@ -9,7 +9,6 @@
 #include <string>
 
 #include "analysis/response_parts.hpp"
-#include "analysis/stability.hpp"
 #include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -18,7 +17,6 @@
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
-#include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -31,50 +29,47 @@ double seconds_since(Clock::time_point start) {
 
 /// Sets the contacts' motion, the leading contact, and the motion of the whole structure if the options
 /// require it.
-void note_motion(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found,
-                 const solvers::ContactLaws& laws, const Scene& scene, const StructureModel& model,
-                 const ResponseOptions& options, Response& result) {
-  result.contacts = solvers::contact_motion(problem, found, laws, scene.analysis.output_points);
+void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
+                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                 Response& result) {
+  result.contacts = problem.motion(found, scene.analysis.output_points);
   result.contact = leading_contact(result.contacts, model.gaps);
   if (options.structure_points > 0)
-    result.structure = solvers::structure_motion(problem, found, options.structure_points);
+    result.structure = problem.structure_motion(found, options.structure_points);
   if (!found.converged()) return;
-  const solvers::ContactDynamics* dynamics = scene.analysis.phases ? model.contact_dynamics() : nullptr;
-  if (dynamics) result.phases = solvers::response_phases(problem, laws, found, *dynamics);
+  if (scene.analysis.phases) result.phases = problem.phases(found);
   if (options.stability)
-    result.stability =
-        response_stability(problem, laws, found, model, result.phases ? &result.phases->motion : nullptr);
+    result.stability = problem.stability(found, result.phases ? &result.phases->motion : nullptr);
 }
 
-void solve_law(const Scene& scene, const StructureModel& model, ComposedProblem& composed,
-               const ResponseOptions& options, Response& result) {
+void solve_law(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+               Response& result) {
   solvers::ForcedResponseOptions solver;
   solver.observer = options.observer;
   solver.form = scene.contact.form;
   solver.stay_near_guess = options.stay_near_guess;
-  auto& [problem, laws] = composed;
-  const auto found = scene.analysis.subharmonic == 1
-                         ? solvers::forced_response(problem, laws, solver, options.guess, options.guess_force)
-                         : several_periods(problem, laws, model, solver, options.guess);
-  note_solution(result, problem, found, scene, model);
+  solvers::ContactProblem problem = compose_problem(scene, model);
+  const auto found =
+      problem.respond(scene.forcing.frequency, solver, {options.guess, options.guess_force});
+  note_solution(result, problem.condensed(), found, scene, model);
   result.start_distance = relative_distance(found.displacement, options.guess);
-  note_motion(problem, found, laws, scene, model, options, result);
+  note_motion(problem, found, scene, model, options, result);
 }
 
 void solve_refined(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
   const solvers::ContactLaws laws = make_laws(scene);
   auto found = solve_to_tolerance(scene, model, laws, options, result);
-  note_motion(*found.problem, found.response, laws, scene, model, options, result);
+  solvers::ContactProblem problem(std::move(*found.problem), laws, model.dynamics);
+  note_motion(problem, found.response, scene, model, options, result);
 }
 
 /// A converged response without accurate digits is none.
 void require_digits(Response& result) {
-  if (!result.moves || !(result.rounding_error > largest_rounding_error)) return;
-  result.moves = false;
-  if (!result.converged) return;
-  result.converged = false;
-  result.status = inaccurate_status(result.rounding_error);
+  if (!(result.rounding_error > largest_rounding_error)) return;
+  const bool inaccurate = result.converged || result.status == to_string(solvers::SolveStatus::inaccurate);
+  result.converged = result.moves = false;
+  if (inaccurate) result.status = inaccurate_status(result.rounding_error);
 }
 
 /// Whether a reference keeps every degree of freedom.
@@ -155,13 +150,6 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   result.rigid = {held.max_penetration, held.min_force, held.product};
 }
 
-ResponseStability stability_of_multipliers(const Eigen::VectorXcd& multipliers) {
-  const auto unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
-  ResponseStability result{unstable > 0 ? "unstable" : "stable", unstable};
-  if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
-  return result;
-}
-
 double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& start) {
   if (start.size() == 0) return std::numeric_limits<double>::quiet_NaN();
   return (found - start).norm() / start.norm();
@@ -193,12 +181,10 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   Response result;
   result.unknowns = model.contacts() * scene.time.functions;
   try {
-    if (scene.time.tolerance > 0.0) {
+    if (scene.time.tolerance > 0.0)
       solve_refined(scene, model, options, result);
-    } else {
-      ComposedProblem composed = compose_problem(scene, model);
-      solve_law(scene, model, composed, options, result);
-    }
+    else
+      solve_law(scene, model, options, result);
   } catch (const solvers::SingularSystem& error) {
     result.converged = result.moves = false;  // also when only the whole structure's field cannot be had
     result.status = std::string("singular: ") + error.what();
@@ -258,7 +244,7 @@ Response shooting_response(const Scene& scene, const StructureModel& model, cons
   result.unknowns = 2 * model.size();
   result.contacts = found.contacts;
   result.structure = found.structure;
-  if (result.converged) result.stability = stability_of_multipliers(found.floquet_multipliers);
+  if (result.converged) result.stability = solvers::stability_of_multipliers(found.floquet_multipliers);
   return result;
 }
 

@@ -20,7 +20,4 @@ double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& st
 /// The status of a result whose rounding error is above largest_rounding_error.
 std::string inaccurate_status(double rounding_error);
 
-/// The stability of a motion whose Floquet multipliers are all known, by falling modulus.
-ResponseStability stability_of_multipliers(const Eigen::VectorXcd& multipliers);
-
 }  // namespace wavebalance::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,45 +11,9 @@
 #include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/stability/floquet_exponents.hpp"
-#include "wavebalance/solvers/stability/monodromy.hpp"
-#include "wavebalance/solvers/stability/subharmonic_response.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-/// Those of the trial functions, or fewer: at 127 harmonics exponents err by 1e-6 at most, and the cost grows
-/// like the cube. The monodromy, which is taken where contact is too stiff for the harmonics, costs seconds
-/// with many states. The operations take about ten seconds.
-solvers::StabilityOptions options_for(const solvers::CondensedProblem& problem) {
-  constexpr int most_harmonics = 255;
-  solvers::StabilityOptions options;
-  options.harmonics = std::clamp((problem.pair().functions() - 1) / 2, 1, most_harmonics);
-  options.max_states = 120;
-  options.max_operations = 3e10;
-  return options;
-}
-
-std::string status_of(const solvers::UnstableMultipliers& count) {
-  if (count.status != solvers::StabilityStatus::converged) return std::string(to_string(count.status));
-  return count.count > 0 ? "unstable" : "stable";
-}
-
-ResponseStability stability_of(const solvers::UnstableMultipliers& count) {
-  return {status_of(count), count.count, count.leading};
-}
-
-std::complex<double> leading_multiplier(const solvers::ContactDynamics& dynamics,
-                                        const solvers::CondensedProblem& problem,
-                                        const solvers::ContactLaws& laws,
-                                        const solvers::PeriodicResponse& found) {
-  solvers::FloquetOptions options;
-  options.stability = options_for(problem);
-  const auto exponents = solvers::floquet_exponents(dynamics, problem, laws, found, options);
-  if (exponents.status != solvers::StabilityStatus::converged || exponents.values.empty())
-    return {missing, missing};
-  return exponents.values.front().multiplier;
-}
 
 /// Frequencies, or amplitudes where these vary.
 std::vector<double> places_of(const solvers::FrequencySweep& curve) {
@@ -132,65 +95,7 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s"));
 }
 
-/// For a motion whose phases of contact are known: all multipliers at once, which have no harmonics to
-/// truncate.
-ResponseStability stability_by_phases(const solvers::ContactDynamics& dynamics,
-                                      const solvers::PhaseMotion& motion,
-                                      const solvers::CondensedProblem& problem) {
-  const solvers::StabilityOptions options = options_for(problem);
-  const solvers::PeriodicStiffness stiffness = contact_stiffness(motion);
-  Eigen::VectorXcd all;
-  if (2 * dynamics.poles().size() <= static_cast<std::size_t>(options.max_states))
-    all = solvers::monodromy(dynamics, stiffness, problem.frequency());
-  const bool known = all.size() > 0 && all.allFinite();
-  ResponseStability result =
-      known ? stability_of_multipliers(all)
-            : stability_of(solvers::unstable_multipliers(dynamics, stiffness, problem.frequency(), options));
-  result.by_phases = true;
-  return result;
-}
-
-ResponseStability stability_by_balance(const solvers::ContactDynamics& dynamics,
-                                       const solvers::CondensedProblem& problem,
-                                       const solvers::ContactLaws& laws,
-                                       const solvers::PeriodicResponse& found) {
-  const auto count = solvers::unstable_multipliers(dynamics, problem, laws, found, options_for(problem));
-  ResponseStability result = stability_of(count);
-  const bool known = std::isfinite(count.leading.real());
-  if (count.status == solvers::StabilityStatus::converged && !known)
-    result.leading = leading_multiplier(dynamics, problem, laws, found);
-  return result;
-}
-
 }  // namespace
-
-ResponseStability response_stability(const solvers::CondensedProblem& problem,
-                                     const solvers::ContactLaws& laws, const solvers::PeriodicResponse& found,
-                                     const StructureModel& model, const solvers::PhaseMotion* motion) {
-  const auto start = std::chrono::steady_clock::now();
-  ResponseStability result;
-  const solvers::ContactDynamics* dynamics = model.contact_dynamics();
-  if (!dynamics) return result;
-  if (motion && motion->status == solvers::PhasesStatus::no_motion_near) {
-    result.status = to_string(motion->status);
-    return result;
-  }
-  result = motion && motion->converged() ? stability_by_phases(*dynamics, *motion, problem)
-                                         : stability_by_balance(*dynamics, problem, laws, found);
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
-}
-
-solvers::PeriodicResponse several_periods(solvers::CondensedProblem& problem,
-                                          const solvers::ContactLaws& laws, const StructureModel& model,
-                                          const solvers::ForcedResponseOptions& how,
-                                          const Eigen::VectorXd& guess) {
-  const solvers::ContactDynamics* dynamics = model.contact_dynamics();
-  solvers::SubharmonicOptions options;
-  options.response = how;
-  options.floquet.stability = options_for(problem);
-  return solvers::subharmonic_response(problem, laws, dynamics, options, guess);
-}
 
 void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
   record.summary.emplace_back("stability", stability.status);
@@ -212,34 +117,24 @@ namespace {
 /// Period of a branch over that of the curve, at most. Each doubling takes twice the functions and points.
 constexpr int largest_period = 4;
 
-void add_branches(const Scene& scene, const StructureModel& model, const solvers::ContactLaws& laws,
-                  const solvers::ContactDynamics& dynamics, const solvers::CurveStabilityOptions& stability,
-                  const Observer& observer, Sweep& sweep) {
+void add_branches(const Scene& scene, solvers::ContactProblem& problem, const Observer& observer,
+                  Sweep& sweep) {
   solvers::BranchOptions options;
   options.sweep = sweep_options(scene);
-  options.stability = stability;
+  options.stability.output_points = scene.analysis.output_points;
   options.largest_period = largest_period;
   options.observer = observer;
-  const auto problems = [&](int periods) { return make_problem(with_longer_period(scene, periods), model); };
-  sweep.branches = solvers::follow_branches(problems, laws, dynamics, sweep.curve, sweep.stability, options);
+  const auto pairs = [&](int periods) { return make_pair(with_longer_period(scene, periods).time); };
+  sweep.branches = problem.branches(sweep.curve, sweep.stability, pairs, options);
 }
 
 }  // namespace
 
 void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
-  const solvers::ContactDynamics* dynamics = model.contact_dynamics();
-  if (!scene.analysis.stability || sweep.curve.points.empty() || !dynamics) return;
-  ComposedProblem composed = compose_problem(scene, model);
-  solvers::CurveStabilityOptions options;
-  options.stability = options_for(composed.problem);
-  options.output_points = scene.analysis.output_points;
-  options.observer = observer;
-  sweep.stability =
-      solvers::curve_stability(composed.problem, composed.laws, sweep.curve, *dynamics, options);
-  if (scene.analysis.branches && !sweep.stability.cancelled) {
-    options.observer = {};
-    add_branches(scene, model, composed.laws, *dynamics, options, observer, sweep);
-  }
+  if (!scene.analysis.stability || sweep.curve.points.empty() || !model.contact_dynamics()) return;
+  solvers::ContactProblem problem = compose_problem(scene, model);
+  sweep.stability = problem.stability(sweep.curve, scene.analysis.output_points, observer);
+  if (scene.analysis.branches && !sweep.stability.cancelled) add_branches(scene, problem, observer, sweep);
 }
 
 void append_stability(Record& record, const Sweep& sweep) {

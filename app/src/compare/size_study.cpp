@@ -13,15 +13,13 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 /// The problem before its condensation, which is part of a solve.
-solvers::CondensedProblem uncondensed_problem(const Scene& scene, const StructureModel& model) {
-  return {make_pair(scene.time), model.structure, Eigen::Vector2cd(0.0, 1.0)};
+solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model) {
+  return {make_pair(scene.time), model.structure, make_laws(scene)};
 }
 
 double relative_error(const Eigen::MatrixXd& values, const Eigen::MatrixXd& reference) {
@@ -143,16 +141,15 @@ class SizeSeries {
 
   bool goes_on() const { return solvers::goes_on(options_.observer, {phase_}); }
 
-  solvers::PeriodicResponse solve(solvers::CondensedProblem& problem,
-                                  const solvers::ContactLaws& laws) const {
-    problem.set_frequency(measured_.scene.forcing.frequency);
+  solvers::PeriodicResponse solve(solvers::ContactProblem& problem) const {
+    problem.condensed().forget_condensation();
     solvers::ForcedResponseOptions options;
     options.form = measured_.scene.contact.form;
     // Ends a solve that takes too long; it has not converged then.
     options.observer = [&, start = processor_seconds()](const solvers::Progress&) {
       return processor_seconds() - start < max_seconds_ && goes_on();
     };
-    return solvers::forced_response(problem, laws, options);
+    return problem.respond(measured_.scene.forcing.frequency, options);
   }
 
   void measure(const Scene& scene, SolvePoint& point) const {
@@ -163,11 +160,10 @@ class SizeSeries {
       point.status = "refused";  // as many Fourier functions as points at the middles
       return;
     }
-    solvers::CondensedProblem problem = uncondensed_problem(scene, measured_.model);
-    const solvers::ContactLaws laws = make_laws(scene);
+    solvers::ContactProblem problem = uncondensed_problem(scene, measured_.model);
     solvers::PeriodicResponse response;
     try {
-      point.seconds = least_seconds([&] { response = solve(problem, laws); }, options_.solve);
+      point.seconds = least_seconds([&] { response = solve(problem); }, options_.solve);
     } catch (const solvers::SingularSystem&) {
       point.status = "singular";
       return;
@@ -178,8 +174,8 @@ class SizeSeries {
       return;
     }
     point.converged = response.converged();
-    const auto motion = solvers::contact_motion(problem, response, laws,
-                                                static_cast<int>(measured_.reference.displacement.cols()));
+    const auto motion =
+        problem.motion(response, static_cast<int>(measured_.reference.displacement.cols()));
     point.error = displacement_error(motion, measured_.reference);
     point.force_error = force_error(motion, measured_.reference);
   }

@@ -186,8 +186,8 @@ solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::Mo
   return {model, options};
 }
 
-ComposedProblem compose_problem(const Scene& scene, const StructureModel& model) {
-  return {make_problem(scene, model), make_laws(scene)};
+solvers::ContactProblem compose_problem(const Scene& scene, const StructureModel& model) {
+  return {make_problem(scene, model), make_laws(scene), model.dynamics};
 }
 
 solvers::CondensedProblem make_problem(const Scene& scene) { return make_problem(scene, make_model(scene)); }

@@ -67,13 +67,12 @@ INSTANTIATE_TEST_SUITE_P(Pairs, BladeSweep,
 
 solvers::FrequencySweep sweep_of(const StructureModel& model, const Scene& scene,
                                  solvers::GrazingEvents events) {
-  ComposedProblem composed = compose_problem(scene, model);
   solvers::FrequencySweepOptions options;
   options.from = scene.analysis.frequency_from;
   options.to = scene.analysis.frequency_to;
   options.output_points = scene.analysis.output_points;
   options.arc_length.grazing_events = events;
-  return solvers::frequency_sweep(composed.problem, composed.laws, options);
+  return compose_problem(scene, model).sweep(options);
 }
 
 double largest_displacement(const solvers::FrequencySweep& sweep) {

@@ -34,19 +34,6 @@ Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
   return problem.contact_free_response().segment(contact * problem.points(), problem.points());
 }
 
-// A rigid obstacle and a contact with mass are satisfied by a continuum of motions.
-void require_massless_rigid_contacts(const LinearStructure& structure, const ContactLaws& laws) {
-  const std::vector<int> rigid = laws.rigid(structure.contacts());
-  if (contacts_are_massless(structure, rigid)) return;
-  std::string names;
-  for (const int c : rigid) names += (names.empty() ? "" : ", ") + std::to_string(c);
-  throw std::invalid_argument(
-      "contact_regularization: a rigid law needs contacts without mass, but contacts with mass have one (rigid: " +
-      names +
-      "). A continuum of motions satisfies both without a law of impact; expected rows of zeros in the mass at "
-      "these contacts, the mass redistributed, or a stiff linear law");
-}
-
 }  // namespace
 
 std::string_view to_string(ContactForm form) {
@@ -59,6 +46,18 @@ std::string_view to_string(ContactForm form) {
       return "force";
   }
   return "unknown";
+}
+
+void require_massless_rigid_contacts(const LinearStructure& structure, const ContactLaws& laws) {
+  const std::vector<int> rigid = laws.rigid(structure.contacts());
+  if (rigid.empty() || contacts_are_massless(structure, rigid)) return;
+  std::string names;
+  for (const int c : rigid) names += (names.empty() ? "" : ", ") + std::to_string(c);
+  throw std::invalid_argument(
+      "a rigid law needs contacts without mass, but contacts with mass have one (rigid: " +
+      names +
+      "). A continuum of motions satisfies both without a law of impact; expected rows of zeros in the mass at "
+      "these contacts, the mass redistributed, or a stiff linear law");
 }
 
 Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,

@@ -24,6 +24,8 @@ std::string_view to_string(SolveStatus status) {
       return "singular";
     case SolveStatus::unbalanced:
       return "unbalanced";
+    case SolveStatus::inaccurate:
+      return "inaccurate";
     case SolveStatus::cancelled:
       return "cancelled";
   }

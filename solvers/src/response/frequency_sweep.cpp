@@ -108,6 +108,7 @@ class Sweep {
   void trace() {
     const PeriodicResponse first = first_response();
     result_.condition = std::max(problem_.condensation().condition(), first.condition);
+    result_.rounding_error = first.rounding_error;
     if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
     problem_.set_regularization(first.regularization);

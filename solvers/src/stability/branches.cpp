@@ -45,7 +45,7 @@ class Branches {
         laws_(laws),
         dynamics_(dynamics),
         options_(options),
-        load_periods_(problems(1).periods()) {}
+        load_periods_(options.load_periods) {}
 
   std::vector<Branch> run(const FrequencySweep& main, const CurveStability& stability) {
     branches_.reserve(std::size_t(options_.max_branches));  // parents point at them

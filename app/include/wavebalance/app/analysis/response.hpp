@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <complex>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
@@ -33,21 +33,8 @@ struct Refinement {
   std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
-/// The stability of a response.
-struct ResponseStability {
-  /// "stable", "unstable", or why it is not known: a solvers::StabilityStatus, or "no_modes".
-  std::string status = "no_modes";
-  int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
-  /// The multiplier of the largest modulus, Im >= 0; NaN where it is not known or below 1e-2.
-  std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::quiet_NaN()};
-  /// Whether it is that of the motion of the structure, by phases of contact, or of the balance.
-  bool by_phases = false;
-  double wall_seconds = 0.0;
-};
-
-/// Rounding errors of the condensation that a result may have, relative to the motion.
-inline constexpr double largest_rounding_error = 1e-3;
+using ResponseStability = solvers::MotionStability;
+using solvers::largest_rounding_error;
 
 /// A periodic response of a scene's contacts, or the status and the last iterate if none was found.
 struct Response {

@@ -4,6 +4,7 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
 
@@ -46,14 +47,9 @@ StructureModes make_modes(const StructureModel& model);
 /// The scene's nonlinear mode on these modes.
 solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model);
 
-/// A scene made ready for the solvers, once.
-struct ComposedProblem {
-  solvers::CondensedProblem problem;  ///< as make_problem() returns it
-  solvers::ContactLaws laws;          ///< no contact where the obstacles are rigid
-};
-
-/// The scene's pair and contact laws with its structure composed before.
-ComposedProblem compose_problem(const Scene& scene, const StructureModel& model);
+/// What there is to ask of a scene: make_problem() with the scene's contact laws, and the dynamics of its
+/// structure composed before.
+solvers::ContactProblem compose_problem(const Scene& scene, const StructureModel& model);
 
 /// The scene's pair and structure, condensed on the contacts; at forcing.frequency if that is set. The period
 /// of the problem is that of analysis.subharmonic periods of the load, and its frequency accordingly.

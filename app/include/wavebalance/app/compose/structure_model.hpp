@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/compose/structure_dynamics.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/problem/structure_dynamics.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
@@ -34,7 +34,7 @@ struct StructureModel {
   /// Of the condensations of problems that are made of it, as CondensedProblem::set_threads() takes them.
   int threads = 0;
   /// Of `structure`, for all runs that share the model.
-  std::shared_ptr<StructureDynamics> dynamics = std::make_shared<StructureDynamics>();
+  std::shared_ptr<solvers::StructureDynamics> dynamics = std::make_shared<solvers::StructureDynamics>();
 
   int contacts() const { return structure.contacts(); }
   int size() const { return structure.size(); }

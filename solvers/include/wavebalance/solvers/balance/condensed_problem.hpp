@@ -75,6 +75,9 @@ class CondensedProblem {
   /// condensation and O(C N log N).
   void set_frequency(double frequency_hz);
   double frequency() const { return frequency_; }
+  /// Makes the next set_frequency() condense, also at the frequency that the problem has: for measurements of
+  /// whole solves.
+  void forget_condensation() { condensed_at_ = 0.0; }
 
   /// Says that a period of the problem is `periods` of the load, 1 until it is said: curves are told in
   /// frequencies of the load. The harmonics of the load stay as they are. Throws std::invalid_argument below
@@ -93,6 +96,7 @@ class CondensedProblem {
   /// to that. Throws std::invalid_argument for an amplitude that is not positive and finite.
   void set_load_unit(double amplitude, std::string unit);
   const std::string& load_unit() const { return load_unit_; }
+  double full_load() const { return full_load_; }  ///< that amplitude, 1 where no unit was set
   /// The factor on every harmonic of load and forces but the static one.
   double load_factor() const { return load_scale_ / full_load_; }
 

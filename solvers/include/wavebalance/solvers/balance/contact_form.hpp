@@ -26,4 +26,8 @@ std::string_view to_string(ContactForm form);
 Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,
                                        ContactForm form);
 
+/// Throws std::invalid_argument that names the contacts where a rigid law acts at contacts with mass: a
+/// continuum of motions satisfies both without a law of impact.
+void require_massless_rigid_contacts(const LinearStructure& structure, const ContactLaws& laws);
+
 }  // namespace wavebalance::solvers

@@ -16,6 +16,7 @@ enum class SolveStatus {
   effort_limit,     ///< the limit of operations was reached
   singular,         ///< the Newton matrix is singular, or so nearly that GMRES does not converge
   unbalanced,       ///< nothing balances the static load of a structure that is free to move
+  inaccurate,       ///< converged, but ContactProblem finds the rounding errors of the condensation too large
   cancelled         ///< the observer returned false
 };
 

@@ -90,6 +90,7 @@ class Condensation {
   /// structure and factors of its own: `dense` and `sparse` from 64 degrees of freedom on. The results are
   /// the same to the last digit. A BLAS with threads of its own should be set to one (use_one_blas_thread()).
   void set_threads(int threads);
+  int threads() const { return threads_; }
 
   /// Condenses for the factors {s2, s1, s0} of M, C, K and their derivatives {d2, d1, d0}. Throws
   /// SingularSystem.

@@ -1,10 +1,10 @@
-#include "wavebalance/app/compose/structure_dynamics.hpp"
+#include "wavebalance/solvers/problem/structure_dynamics.hpp"
 
 #include <stdexcept>
 
-namespace wavebalance::app {
+namespace wavebalance::solvers {
 
-const solvers::ContactDynamics* StructureDynamics::of(const solvers::LinearStructure& structure) {
+const ContactDynamics* StructureDynamics::of(const LinearStructure& structure) {
   std::call_once(once_, [&] {
     try {
       dynamics_.emplace(structure);
@@ -15,4 +15,4 @@ const solvers::ContactDynamics* StructureDynamics::of(const solvers::LinearStruc
   return dynamics_ ? &*dynamics_ : nullptr;
 }
 
-}  // namespace wavebalance::app
+}  // namespace wavebalance::solvers

@@ -1,0 +1,107 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
+#include "wavebalance/solvers/period/time_stepping.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/problem/motion_stability.hpp"
+#include "wavebalance/solvers/problem/structure_dynamics.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/branches.hpp"
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+
+namespace wavebalance::solvers {
+
+/// Rounding errors of the condensation that a converged response may have, relative to the motion; one with
+/// larger ones has the status `inaccurate`.
+inline constexpr double largest_rounding_error = 1e-3;
+
+/// Where a response is sought first, samples() values each.
+struct ResponseStart {
+  Eigen::VectorXd displacement{};  ///< m; empty: the contact-free response
+  Eigen::VectorXd force{};         ///< N; empty where none is known
+};
+
+/// A structure with its contacts and their laws in one pair of time bases, under a cosine load and its other
+/// forces: what there is to ask of it. Frequencies are those of the load (Hz), of which a motion spans one
+/// period or, as it is said, several. What a question takes is put right before it, so that questions may
+/// come in any order. Owns plans and buffers: one object per thread.
+class ContactProblem {
+ public:
+  /// Throws std::invalid_argument for laws that are neither one nor one for each contact, for a rigid law at a
+  /// contact with mass, and as CondensedProblem does.
+  ContactProblem(TimePair pair, const LinearStructure& structure, ContactLaws laws, int periods = 1);
+  /// Of a problem with another load, or a structure whose dynamics are shared with others.
+  ContactProblem(CondensedProblem problem, ContactLaws laws,
+                 std::shared_ptr<StructureDynamics> dynamics = std::make_shared<StructureDynamics>());
+
+  const TimePair& pair() const { return condensed_.pair(); }
+  const LinearStructure& structure() const { return condensed_.structure(); }
+  int contacts() const { return condensed_.contacts(); }
+  int samples() const { return condensed_.samples(); }
+  const ContactLaws& laws() const { return laws_; }
+  /// Takes other laws, which are refused as in the constructor.
+  void set_laws(ContactLaws laws);
+  /// Null where the structure has no modes to compute. O(n^3) the first time.
+  const ContactDynamics* dynamics() const { return dynamics_->of(structure()); }
+  /// The equations, at the frequency and load of the last question.
+  CondensedProblem& condensed() { return condensed_; }
+  const CondensedProblem& condensed() const { return condensed_; }
+
+  /// A response at a frequency: forced_response(), or subharmonic_response() of several periods. One whose
+  /// rounding error exceeds largest_rounding_error is `inaccurate`. Throws as these do.
+  PeriodicResponse respond(double frequency, const ForcedResponseOptions& options = {},
+                           const ResponseStart& start = {});
+
+  /// contact_motion() and structure_motion() of a response.
+  Motion motion(const PeriodicResponse& response, int points);
+  Motion structure_motion(const PeriodicResponse& response, int points);
+  /// The phases of contact near a response; nothing where the structure has no modes to compute.
+  std::optional<ResponsePhases> phases(const PeriodicResponse& response,
+                                       const ContactPhasesOptions& options = {});
+  /// The stability of a response, that of the phases `motion` where it is not null.
+  MotionStability stability(const PeriodicResponse& response, const PhaseMotion* motion = nullptr);
+  /// Its exponents of the largest multipliers, `most` at most; without values where the structure has no
+  /// modes.
+  FloquetExponents exponents(const PeriodicResponse& response, int most);
+
+  /// frequency_sweep() from options.from to options.to at the full load.
+  FrequencySweep sweep(const FrequencySweepOptions& options);
+  /// The same from a response at options.from, respond() with options.start and `start`.
+  FrequencySweep sweep(const FrequencySweepOptions& options, const PeriodicResponse& first);
+  /// amplitude_sweep() at a frequency; from and to are in CondensedProblem::load_unit().
+  FrequencySweep amplitude_sweep(double frequency, const FrequencySweepOptions& options);
+  /// The stability along a curve that was traced with keep_unknowns; without points where the structure has
+  /// no modes.
+  CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
+                           const Observer& observer = {});
+  /// Makes the pair for motions of so many periods of the curve's, as BranchProblems says.
+  using PairOfPeriods = std::function<TimePair(int periods)>;
+  /// follow_branches() of a curve and its stability.
+  std::vector<Branch> branches(const FrequencySweep& curve, const CurveStability& stability,
+                               const PairOfPeriods& pairs, BranchOptions options);
+  /// The response at a value of the curve's parameter and an unknown there, as of one of its points.
+  PeriodicResponse response(const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown);
+  /// All responses of a curve at a value of its parameter, responses_at().
+  std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
+
+  /// Motions in time, from rest: settle(), shoot() of one contact, integrate_to_periodic().
+  SettledMotion settle(double frequency, const SettlingOptions& options = {});
+  ShootingResult shoot(double frequency, const ShootingOptions& options = {}) const;
+  TimeSteppingResult integrate(double frequency, const TimeSteppingOptions& options = {}) const;
+
+ private:
+  void require_well_posed() const;
+  void hold(const PeriodicResponse& response);
+  void load_fully(double frequency);
+
+  CondensedProblem condensed_;
+  ContactLaws laws_;
+  std::shared_ptr<StructureDynamics> dynamics_;
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,44 @@
+#pragma once
+#include <complex>
+#include <limits>
+#include <string>
+
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/response/periodic_response.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+
+namespace wavebalance::solvers {
+
+/// The stability of a motion.
+struct MotionStability {
+  /// "stable", "unstable", or why it is not known: a StabilityStatus, "no_modes" of the structure, or
+  /// "no_motion_near" of a PhasesStatus.
+  std::string status = "no_modes";
+  int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
+  /// The multiplier of the largest modulus, Im >= 0; NaN where it is not known or below 1e-2.
+  std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
+  /// Whether it is that of the motion of the structure, by phases of contact, or of the balance.
+  bool by_phases = false;
+  double wall_seconds = 0.0;
+};
+
+/// How the stability of a problem's motions is found unless it is said otherwise: harmonics of the trial
+/// functions, at most 255, since exponents err by 1e-6 at most with 127 and the cost grows like their cube;
+/// the monodromy of up to 120 states where contact is too stiff for the harmonics, since it costs seconds
+/// with many; operations of about ten seconds.
+StabilityOptions stability_options(const CondensedProblem& problem);
+
+/// The verdict on a motion of which all multipliers are known, the largest first.
+MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers);
+
+/// The stability of a response, at whose frequency and load the problem is. By the phases of contact of
+/// `motion` where these are known: all multipliers at once up to 120 states, which have no harmonics to
+/// truncate. Where the structure has no motion near the response there is no verdict. `motion` may be null.
+MotionStability motion_stability(const CondensedProblem& problem, const ContactLaws& laws,
+                                 const PeriodicResponse& response, const ContactDynamics& dynamics,
+                                 const PhaseMotion* motion = nullptr);
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,170 @@
+#include "wavebalance/solvers/problem/contact_problem.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "wavebalance/solvers/response/curve_responses.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+#include "wavebalance/solvers/structure/contact_mass.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// One period of the load in harmonic `periods`.
+CondensedProblem with_cosine(TimePair pair, const LinearStructure& structure, int periods) {
+  Eigen::VectorXcd cosine = Eigen::VectorXcd::Zero(std::max(periods, 1) + 1);
+  cosine[std::max(periods, 1)] = 1.0;
+  CondensedProblem problem(std::move(pair), structure, std::move(cosine));
+  problem.set_periods(periods);
+  return problem;
+}
+
+}  // namespace
+
+ContactProblem::ContactProblem(TimePair pair, const LinearStructure& structure, ContactLaws laws, int periods)
+    : ContactProblem(with_cosine(std::move(pair), structure, periods), std::move(laws)) {}
+
+ContactProblem::ContactProblem(CondensedProblem problem, ContactLaws laws,
+                               std::shared_ptr<StructureDynamics> dynamics)
+    : condensed_(std::move(problem)), laws_(std::move(laws)), dynamics_(std::move(dynamics)) {
+  require_well_posed();
+}
+
+void ContactProblem::require_well_posed() const {
+  laws_.require(contacts());
+  require_massless_rigid_contacts(structure(), laws_);
+}
+
+void ContactProblem::set_laws(ContactLaws laws) {
+  laws_ = std::move(laws);
+  require_well_posed();
+}
+
+void ContactProblem::hold(const PeriodicResponse& response) {
+  condensed_.set_load_scale(response.load_scale);
+  condensed_.set_frequency(response.frequency);
+}
+
+void ContactProblem::load_fully(double frequency) {
+  condensed_.set_load_scale(condensed_.full_load());
+  condensed_.set_load_frequency(frequency);
+}
+
+PeriodicResponse ContactProblem::respond(double frequency, const ForcedResponseOptions& options,
+                                         const ResponseStart& start) {
+  load_fully(frequency);
+  PeriodicResponse response;
+  if (condensed_.periods() == 1) {
+    response = forced_response(condensed_, laws_, options, start.displacement, start.force);
+  } else {
+    SubharmonicOptions several;
+    several.response = options;
+    several.floquet.stability = stability_options(condensed_);
+    response = subharmonic_response(condensed_, laws_, dynamics(), several, start.displacement);
+  }
+  if (response.converged() && response.rounding_error > largest_rounding_error)
+    response.status = SolveStatus::inaccurate;
+  return response;
+}
+
+Motion ContactProblem::motion(const PeriodicResponse& response, int points) {
+  hold(response);
+  return contact_motion(condensed_, response, laws_, points);
+}
+
+Motion ContactProblem::structure_motion(const PeriodicResponse& response, int points) {
+  hold(response);
+  return solvers::structure_motion(condensed_, response, points);
+}
+
+std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& response,
+                                                     const ContactPhasesOptions& options) {
+  if (!dynamics()) return std::nullopt;
+  hold(response);
+  return response_phases(condensed_, laws_, response, *dynamics(), options);
+}
+
+MotionStability ContactProblem::stability(const PeriodicResponse& response, const PhaseMotion* motion) {
+  if (!dynamics()) return {};
+  hold(response);
+  return motion_stability(condensed_, laws_, response, *dynamics(), motion);
+}
+
+FloquetExponents ContactProblem::exponents(const PeriodicResponse& response, int most) {
+  if (!dynamics()) return {};
+  hold(response);
+  FloquetOptions options;
+  options.stability = stability_options(condensed_);
+  options.max_exponents = most;
+  return floquet_exponents(*dynamics(), condensed_, laws_, response, options);
+}
+
+FrequencySweep ContactProblem::sweep(const FrequencySweepOptions& options) {
+  condensed_.set_load_scale(condensed_.full_load());
+  return frequency_sweep(condensed_, laws_, options);
+}
+
+FrequencySweep ContactProblem::sweep(const FrequencySweepOptions& options, const PeriodicResponse& first) {
+  hold(first);
+  return frequency_sweep(condensed_, laws_, options, {first, {}, {}});
+}
+
+FrequencySweep ContactProblem::amplitude_sweep(double frequency, const FrequencySweepOptions& options) {
+  condensed_.set_load_frequency(frequency);
+  return solvers::amplitude_sweep(condensed_, laws_, options);
+}
+
+CurveStability ContactProblem::stability(const FrequencySweep& curve, int output_points,
+                                         const Observer& observer) {
+  if (!dynamics() || curve.points.empty()) return {};
+  CurveStabilityOptions options;
+  options.stability = stability_options(condensed_);
+  options.output_points = output_points;
+  options.observer = observer;
+  condensed_.set_load_scale(curve.points.front().load_scale);
+  return curve_stability(condensed_, laws_, curve, *dynamics(), options);
+}
+
+std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const CurveStability& stability,
+                                             const PairOfPeriods& pairs, BranchOptions options) {
+  if (!dynamics()) return {};
+  options.stability.stability = stability_options(condensed_);
+  options.load_periods = condensed_.periods();
+  const auto problems = [&](int periods) {
+    CondensedProblem problem(pairs(periods), structure(),
+                             over_periods(condensed_.load_harmonics(), periods));
+    problem.set_threads(condensed_.condensation().threads());
+    return problem;
+  };
+  return follow_branches(problems, laws_, *dynamics(), curve, stability, options);
+}
+
+PeriodicResponse ContactProblem::response(const FrequencySweep& curve, double value,
+                                          const Eigen::VectorXd& unknown) {
+  if (!curve.points.empty()) condensed_.set_load_scale(curve.points.front().load_scale);
+  return curve_response(condensed_, laws_, curve, value, unknown);
+}
+
+std::vector<PeriodicResponse> ContactProblem::responses_at(const FrequencySweep& curve, double value) {
+  if (!curve.points.empty()) condensed_.set_load_scale(curve.points.front().load_scale);
+  return solvers::responses_at(condensed_, laws_, curve, value);
+}
+
+SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& options) {
+  load_fully(frequency);
+  return solvers::settle(condensed_, laws_, options);
+}
+
+ShootingResult ContactProblem::shoot(double frequency, const ShootingOptions& options) const {
+  if (contacts() != 1)
+    throw std::invalid_argument("ContactProblem::shoot: the structure has " + std::to_string(contacts()) +
+                                " contacts; shooting takes one");
+  return solvers::shoot(structure(), laws_[0], frequency, options);
+}
+
+TimeSteppingResult ContactProblem::integrate(double frequency, const TimeSteppingOptions& options) const {
+  return integrate_to_periodic(structure(), laws_, frequency, options);
+}
+
+}  // namespace wavebalance::solvers

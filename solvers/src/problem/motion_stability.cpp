@@ -1,0 +1,87 @@
+#include "wavebalance/solvers/problem/motion_stability.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/stability/floquet_exponents.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+MotionStability stability_of(const UnstableMultipliers& count) {
+  MotionStability result;
+  result.status = count.status != StabilityStatus::converged ? to_string(count.status)
+                  : count.count > 0                          ? "unstable"
+                                                             : "stable";
+  result.unstable = count.count;
+  result.leading = count.leading;
+  return result;
+}
+
+MotionStability by_phases(const CondensedProblem& problem, const ContactDynamics& dynamics,
+                          const PhaseMotion& motion) {
+  const StabilityOptions options = stability_options(problem);
+  const PeriodicStiffness stiffness = contact_stiffness(motion);
+  Eigen::VectorXcd all;
+  if (2 * dynamics.poles().size() <= static_cast<std::size_t>(options.max_states))
+    all = monodromy(dynamics, stiffness, problem.frequency());
+  const bool known = all.size() > 0 && all.allFinite();
+  MotionStability result =
+      known ? stability_of_multipliers(all)
+            : stability_of(unstable_multipliers(dynamics, stiffness, problem.frequency(), options));
+  result.by_phases = true;
+  return result;
+}
+
+MotionStability by_balance(const CondensedProblem& problem, const ContactLaws& laws,
+                           const PeriodicResponse& response, const ContactDynamics& dynamics) {
+  FloquetOptions options;
+  options.stability = stability_options(problem);
+  const auto count = unstable_multipliers(dynamics, problem, laws, response, options.stability);
+  MotionStability result = stability_of(count);
+  if (count.status != StabilityStatus::converged || std::isfinite(count.leading.real())) return result;
+  const FloquetExponents exponents = floquet_exponents(dynamics, problem, laws, response, options);
+  if (exponents.status == StabilityStatus::converged && !exponents.values.empty())
+    result.leading = exponents.values.front().multiplier;
+  return result;
+}
+
+}  // namespace
+
+StabilityOptions stability_options(const CondensedProblem& problem) {
+  constexpr int most_harmonics = 255;
+  StabilityOptions options;
+  options.harmonics = std::clamp((problem.pair().functions() - 1) / 2, 1, most_harmonics);
+  options.max_states = 120;
+  options.max_operations = 3e10;
+  return options;
+}
+
+MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers) {
+  const auto unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
+  MotionStability result;
+  result.status = unstable > 0 ? "unstable" : "stable";
+  result.unstable = unstable;
+  if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
+  return result;
+}
+
+MotionStability motion_stability(const CondensedProblem& problem, const ContactLaws& laws,
+                                 const PeriodicResponse& response, const ContactDynamics& dynamics,
+                                 const PhaseMotion* motion) {
+  const auto start = std::chrono::steady_clock::now();
+  if (motion && motion->status == PhasesStatus::no_motion_near) {
+    MotionStability unknown;
+    unknown.status = to_string(motion->status);
+    return unknown;
+  }
+  MotionStability result = motion && motion->converged() ? by_phases(problem, dynamics, *motion)
+                                                         : by_balance(problem, laws, response, dynamics);
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace wavebalance::solvers

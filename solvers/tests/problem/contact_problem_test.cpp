@@ -1,0 +1,125 @@
+// One object for all questions about a structure with its contacts: the answers of the functions that it calls,
+// in any order.
+#include "wavebalance/solvers/problem/contact_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "constants.hpp"
+#include "support/oscillator.hpp"
+#include "support/refusal.hpp"
+#include "support/rigid_law.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+const testing::LinearContact elastic_stop{10.0, 0.1};
+const LinearStructure impacting_oscillator = testing::unit_oscillator(0.1, 0.8);
+
+ContactProblem stopped(int periods = 1) {
+  return {testing::fourier_pair(62 * periods + 1, 256 * periods), impacting_oscillator, elastic_stop, periods};
+}
+
+TEST(ContactProblem, RespondsAsTheFunctionOfItsParts) {
+  ContactProblem problem = stopped();
+  const PeriodicResponse response = problem.respond(0.2);
+  CondensedProblem parts(testing::fourier_pair(63, 256), impacting_oscillator, testing::cosine_load());
+  parts.set_frequency(0.2);
+  const PeriodicResponse expected = forced_response(parts, elastic_stop, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_EQ(response.displacement, expected.displacement);
+  EXPECT_EQ(problem.motion(response, 64).force, contact_motion(parts, expected, elastic_stop, 64).force);
+}
+
+TEST(ContactProblem, AnswersQuestionsInAnyOrder) {
+  ContactProblem problem = stopped();
+  const PeriodicResponse low = problem.respond(0.15);
+  const Motion motion = problem.motion(low, 64), structure = problem.structure_motion(low, 64);
+  const MotionStability stability = problem.stability(low);
+  const PeriodicResponse high = problem.respond(0.3);
+  FrequencySweepOptions sweep;
+  sweep.from = 0.1;
+  sweep.to = 0.6;
+  sweep.keep_unknowns = true;
+  problem.amplitude_sweep(0.2, sweep);
+  EXPECT_EQ(problem.motion(low, 64).force, motion.force);
+  EXPECT_EQ(problem.structure_motion(low, 64).displacement, structure.displacement);
+  EXPECT_EQ(problem.stability(low).leading, stability.leading);
+  EXPECT_EQ(problem.respond(0.3).displacement, high.displacement);
+}
+
+TEST(ContactProblem, FollowsACurveWhosePointsAreItsResponses) {
+  ContactProblem problem = stopped();
+  FrequencySweepOptions options;
+  options.from = 0.1;
+  options.to = 0.3;
+  options.keep_unknowns = true;
+  const FrequencySweep curve = problem.sweep(options);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  for (std::size_t i = 0; i < curve.points.size(); i += 7) {
+    const PeriodicResponse response =
+        problem.response(curve, curve.points[i].frequency, curve.points[i].unknown);
+    EXPECT_LE(response.residual, 1e-9);
+    EXPECT_EQ(response.frequency, curve.points[i].frequency);
+  }
+  const std::vector<PeriodicResponse> at = problem.responses_at(curve, 0.2);
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_LE((at[0].displacement - problem.respond(0.2).displacement).norm(), 1e-8 * at[0].displacement.norm());
+  const CurveStability stability = problem.stability(curve);
+  EXPECT_EQ(stability.points.size(), curve.points.size());
+}
+
+// The motion of one period is unstable from 2.2062 to 2.9737 rad/s, where one of two periods is stable.
+TEST(ContactProblem, OfTwoPeriodsFindsTheMotionOfTwoPeriodsAtTheFrequencyOfTheLoad) {
+  const double frequency = 2.6 / two_pi;
+  ContactProblem one = stopped(), two = stopped(2);
+  const PeriodicResponse single = one.respond(frequency), doubled = two.respond(frequency);
+  ASSERT_TRUE(single.converged() && doubled.converged());
+  EXPECT_EQ(one.stability(single).unstable, 1);
+  EXPECT_EQ(two.stability(doubled).unstable, 0);
+  EXPECT_NEAR(doubled.frequency, 0.5 * frequency, 1e-15);
+  EXPECT_EQ(motion_periods(two.condensed(), doubled), 2);
+}
+
+TEST(ContactProblem, TellsAmplitudesInTheUnitOfItsLoad) {
+  CondensedProblem parts(testing::fourier_pair(31, 128), impacting_oscillator, testing::cosine_load());
+  parts.set_load_unit(0.8, "N");
+  ContactProblem newtons(std::move(parts), elastic_stop);
+  FrequencySweepOptions options;
+  options.from = 0.05;
+  options.to = 0.8;
+  options.keep_unknowns = true;
+  std::string_view unit;
+  options.observer = [&](const Progress& progress) {
+    if (progress.phase == "amplitude sweep") unit = progress.measure;
+    return true;
+  };
+  const FrequencySweep curve = newtons.amplitude_sweep(0.12, options);
+  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  EXPECT_EQ(unit, "N");
+  EXPECT_NEAR(curve.points.front().load_scale, 0.05, 1e-12);
+  EXPECT_NEAR(curve.points.back().load_scale, 0.8, 1e-9);
+  const PeriodicResponse full = newtons.respond(0.12);
+  EXPECT_EQ(full.load_scale, 0.8);
+  EXPECT_NEAR(curve.points.back().max_displacement, newtons.motion(full, 1024).displacement.maxCoeff(), 1e-7);
+}
+
+TEST(ContactProblem, RefusesWhatIsIllPosed) {
+  EXPECT_NE(testing::refusal([] {
+              ContactProblem(testing::fourier_pair(7, 32), impacting_oscillator, testing::Rigid{0.1});
+            }).find("a rigid law needs contacts without mass"),
+            std::string::npos);
+  EXPECT_THROW(ContactProblem(testing::fourier_pair(7, 32), impacting_oscillator,
+                              ContactLaws({AnyContactLaw(), AnyContactLaw()})),
+               std::invalid_argument);
+  EXPECT_THROW(stopped(0), std::invalid_argument);
+  CondensedProblem parts(testing::fourier_pair(7, 32), impacting_oscillator, testing::cosine_load());
+  EXPECT_THROW(parts.set_load_unit(0.0, "N"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
