@@ -3,7 +3,7 @@
 
 #include "balance/active_slopes.hpp"
 #include "linalg/dense.hpp"
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_operator.hpp"
 
 namespace wavebalance::solvers {
 
@@ -14,15 +14,15 @@ class ActiveBlock {
  public:
   /// Factorizes for `slopes`, which must outlive the solves. False when singular to working precision.
   /// O(active^3).
-  bool factorize(CondensedProblem& problem, ActiveSlopes& slopes);
+  bool factorize(ContactOperator& contact, ActiveSlopes& slopes);
   /// x = J^-1 r.
-  void solve(CondensedProblem& problem, const Eigen::VectorXd& r, Eigen::VectorXd& x);
+  void solve(ContactOperator& contact, const Eigen::VectorXd& r, Eigen::VectorXd& x);
 
   /// The same for [J b; c^T d].
-  bool factorize_bordered(CondensedProblem& problem, ActiveSlopes& slopes, const Eigen::VectorXd& b,
+  bool factorize_bordered(ContactOperator& contact, ActiveSlopes& slopes, const Eigen::VectorXd& b,
                           const Eigen::VectorXd& c, double d);
   /// J x + b y = r, c.x + d y = s.
-  void solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, Eigen::VectorXd& x,
+  void solve_bordered(ContactOperator& contact, const Eigen::VectorXd& r, double s, Eigen::VectorXd& x,
                       double& y);
   /// 1 or -1: the sign of the determinant of the matrix last factorized, that of the whole [J b; c^T d].
   int determinant_sign() const;
@@ -31,8 +31,8 @@ class ActiveBlock {
   double condition() const;
 
  private:
-  void fill(CondensedProblem& problem);
-  void complete(CondensedProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& active_values,
+  void fill(ContactOperator& contact);
+  void complete(ContactOperator& contact, const Eigen::VectorXd& r, const Eigen::VectorXd& active_values,
                 Eigen::VectorXd& x);
   Eigen::Index count() const { return slopes_->count(); }
 

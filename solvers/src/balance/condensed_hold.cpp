@@ -44,28 +44,28 @@ const Eigen::MatrixXd& CondensedProblem::hold_response() {
     for (int c = 0; c < contacts(); ++c)
       force.segment(c * points(), points())
           .setConstant(hold_->match * hold_->held.stiffness * directions(c, i));
-    apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), motion);
+    apply(force, motion);
     hold_->response.col(i) = motion;
   }
   return hold_->response;
 }
 
-Eigen::VectorXd CondensedProblem::rigid_position(const Eigen::VectorXd& unknown,
-                                                 const Eigen::VectorXd& force) const {
+Eigen::VectorXd CondensedProblem::rigid_position(const Eigen::VectorXd& unknown, const Eigen::VectorXd& force,
+                                                 const Eigen::VectorXd& flexibility) const {
   Eigen::VectorXd mean(contacts());
   for (int c = 0; c < contacts(); ++c) {
     mean[c] = unknown.segment(c * points(), points()).mean();
-    if (regularization_.size() > 0)
-      mean[c] -= regularization_[c] / hold_->match * force.segment(c * points(), points()).mean();
+    if (flexibility.size() > 0)
+      mean[c] -= flexibility[c] / hold_->match * force.segment(c * points(), points()).mean();
   }
   return rigid_directions().transpose() * mean;
 }
 
-Eigen::VectorXd CondensedProblem::held_force(const Eigen::VectorXd& force,
-                                             const Eigen::VectorXd& unknown) const {
+Eigen::VectorXd CondensedProblem::held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
+                                             const Eigen::VectorXd& flexibility) const {
   if (!is_free()) return force;
   const Eigen::VectorXd springs =
-      hold_->match * hold_->held.stiffness * (rigid_directions() * rigid_position(unknown, force));
+      hold_->match * hold_->held.stiffness * (rigid_directions() * rigid_position(unknown, force, flexibility));
   Eigen::VectorXd held = force;
   for (int c = 0; c < contacts(); ++c) held.segment(c * points(), points()).array() -= springs[c];
   return held;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -29,7 +28,6 @@ CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structu
       structure_(std::make_shared<const LinearStructure>(structure)),
       load_harmonics_(std::move(load_harmonics)),
       condensation_(structure, method),
-      columns_are_current_(static_cast<std::size_t>(structure.contacts()), false),
       hold_(structure.is_free() ? std::make_unique<Hold>(structure, pair_) : nullptr),
       work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {
   set_unit_loads();
@@ -149,33 +147,9 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   if (!structure_->forces.empty()) update_load();  // some grow with the frequency
   condense();
   append_dropped();
-  update_kernel();
+  ++condensations_;
   update_free_response();
   condensed_at_ = frequency_hz;
-}
-
-void CondensedProblem::set_regularization(Eigen::VectorXd flexibility) {
-  if (flexibility.size() != 0 && flexibility.size() != contacts())
-    throw std::invalid_argument("CondensedProblem::set_regularization: there are " +
-                                std::to_string(flexibility.size()) + " entries; give none or " +
-                                std::to_string(contacts()) + ", one per contact");
-  if (!flexibility.allFinite() || (flexibility.array() < 0.0).any())
-    throw std::invalid_argument(
-        "CondensedProblem::set_regularization: every flexibility must be at least 0 m/N and finite");
-  const bool same =
-      flexibility.size() == regularization_.size() && (flexibility.array() == regularization_.array()).all();
-  if (same) return;  // and the columns stay
-  regularization_ = std::move(flexibility);
-  if (frequency_ > 0.0) update_kernel();
-}
-
-// P is the inverse of the symbol of degree 0 after the inner products with the weighting functions.
-void CondensedProblem::update_kernel() {
-  columns_are_current_.assign(columns_are_current_.size(), false);
-  kernel_ = condensed_.compliance;
-  for (int c = 0; c < regularization_.size(); ++c)
-    kernel_.col(c + contacts() * c).head(pair_.solved_size()) -=
-        regularization_[c] * pair_.symbol(0).head(pair_.solved_size()).cwiseInverse();
 }
 
 // The median of three harmonics leaves out one at a resonance, and the static one of a structure that is
@@ -254,54 +228,25 @@ void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::Vect
 }
 
 void CondensedProblem::apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement) {
-  apply_kernel(force, pair_.weight_spectrum(), kernel_, pair_.trial_spectrum(), displacement);
+  apply(condensed_.compliance, force, displacement);
 }
 
 void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd& slope) {
-  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance_slope, pair_.trial_spectrum(), slope);
+  apply(condensed_.compliance_slope, force, slope);
+}
+
+void CondensedProblem::apply(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& force,
+                             Eigen::VectorXd& displacement) {
+  apply_kernel(force, pair_.weight_spectrum(), compliance, pair_.trial_spectrum(), displacement);
 }
 
 // Exchanging the two bases and the contacts transposes K; a symmetric compliance needs no exchange of these.
-void CondensedProblem::apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result) {
-  Eigen::MatrixXcd transposed = kernel_.conjugate();
+void CondensedProblem::apply_transposed(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& values,
+                                        Eigen::VectorXd& result) {
+  Eigen::MatrixXcd transposed = compliance.conjugate();
   for (int c = 0; c < contacts() && !condensation_.symmetric(); ++c)
     for (int d = 0; d < c; ++d) transposed.col(c + contacts() * d).swap(transposed.col(d + contacts() * c));
   apply_kernel(values, pair_.trial_spectrum(), transposed, pair_.weight_spectrum(), result);
-}
-
-Eigen::MatrixXcd CondensedProblem::harmonic_response(int n) const {
-  const int k = n % pair_.functions();
-  const bool mirrored = k >= pair_.spectrum_size();
-  const double scale = double(pair_.functions()) / points() / points();
-  const std::complex<double> bases =
-      scale * std::conj(pair_.weight_spectrum()[n]) * pair_.trial_spectrum()[n];
-  Eigen::MatrixXcd compliance =
-      kernel_.row(mirrored ? pair_.functions() - k : k).reshaped(contacts(), contacts());
-  if (mirrored) compliance = compliance.conjugate().eval();
-  return bases * compliance;
-}
-
-const Eigen::MatrixXd& CondensedProblem::columns() {
-  std::vector<int> all(static_cast<std::size_t>(contacts()));
-  std::iota(all.begin(), all.end(), 0);
-  return columns(all);
-}
-
-const Eigen::MatrixXd& CondensedProblem::columns(std::span<const int> wanted) {
-  const int period = pair_.shift_period();
-  columns_.resize(samples(), contacts() * period);
-  Eigen::VectorXd unit, column;
-  for (const int d : wanted) {
-    if (columns_are_current_[static_cast<std::size_t>(d)]) continue;
-    for (int m = 0; m < period; ++m) {
-      unit.setZero(samples());
-      unit[d * points() + m] = 1.0;
-      apply(unit, column);
-      columns_.col(d * period + m) = column;
-    }
-    columns_are_current_[static_cast<std::size_t>(d)] = true;
-  }
-  return columns_;
 }
 
 // <p, force> of each contact into translates.
@@ -314,29 +259,24 @@ void CondensedProblem::project(const Eigen::VectorXd& force) {
 
 Eigen::VectorXd CondensedProblem::displacement(const Eigen::VectorXd& force) {
   Eigen::VectorXd product;
-  apply_kernel(force, pair_.weight_spectrum(), condensed_.compliance, pair_.trial_spectrum(), product);
+  apply(force, product);
   return free_response_ - product;
 }
 
-// Contact-free response less what the force causes by `kernel`.
-Eigen::MatrixXcd CondensedProblem::respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force) {
+// Contact-free response less what the force causes.
+Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::MatrixXcd& compliance,
+                                                const Eigen::VectorXd& force) {
   project(force);
   Eigen::MatrixXcd spectra = load_response_;
   for (int c = 0; c < contacts(); ++c)
     for (int d = 0; d < contacts(); ++d)
       spectra.col(c) -=
-          kernel.col(c + contacts() * d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
+          compliance.col(c + contacts() * d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
   return spectra;
 }
 
 Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
-  return respond(condensed_.compliance, force);
-}
-
-Eigen::MatrixXcd CondensedProblem::unknown_coefficients(const Eigen::VectorXd& force,
-                                                        const Eigen::VectorXd& held) {
-  if (!is_free()) return respond(kernel_, force);
-  return coefficients(held) + respond(kernel_, force) - respond(condensed_.compliance, force);
+  return coefficients(condensed_.compliance, force);
 }
 
 // Of the contact-free response, (M/2 + 1) x C.

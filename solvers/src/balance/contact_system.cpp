@@ -44,19 +44,19 @@ int rest_piece_of(const AnyContactLaw& law, const std::vector<LawKink>& kinks) {
 
 }  // namespace
 
-ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws)
-    : problem_(&problem),
+ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd regularization)
+    : operator_(problem, std::move(regularization)),
       laws_(std::move(laws)),
       position_(problem.is_free() ? std::make_unique<RigidPosition>() : nullptr),
       rates_(laws_.depend_on_velocity() ? std::make_unique<RateMap>(problem.pair()) : nullptr),
       jacobian_(std::make_unique<JacobianSolver>(rates_.get())) {
   laws_.require(problem.contacts());
-  if (problem.regularization().size() > 0) {
+  if (operator_.is_force_form()) {
     if (laws_.depend_on_velocity() || laws_.act_over_period())
       throw std::invalid_argument(
           "ContactSystem: the force of a law depends on the velocity or on the whole period; it is solved in the "
           "displacement form");
-    laws_ = laws_.resolvents(problem.regularization());
+    laws_ = laws_.resolvents(operator_.regularization());
   }
   for (int c = 0; c < problem.contacts(); ++c) {
     kinks_.push_back(kinks_of(laws_[c]));
@@ -74,8 +74,8 @@ int ContactSystem::piece_at(int sample, double displacement) const {
 }
 
 void ContactSystem::evaluate_laws(const Eigen::VectorXd& displacement) {
-  if (rates_) rates_->apply(displacement, problem_->frequency(), velocity_);
-  laws_.evaluate(problem_->contacts(), displacement, velocity_, forces_);
+  if (rates_) rates_->apply(displacement, operator_.problem().frequency(), velocity_);
+  laws_.evaluate(operator_.problem().contacts(), displacement, velocity_, forces_);
 }
 
 double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
@@ -113,7 +113,7 @@ void ContactSystem::take_side(int sample, const ForceSlopes& side) {
 
 // Force and slopes at a kink from one side of it, at the velocity that the sample has.
 ForceSlopes ContactSystem::side_of(int sample, const LawKink& kink, bool beyond) const {
-  const AnyContactLaw& law = laws_[sample / problem_->points()];
+  const AnyContactLaw& law = laws_[sample / operator_.problem().points()];
   if (!law.depends_on_velocity()) return {kink.force, beyond ? kink.beyond : kink.below, 0.0};
   const double inside = std::nextafter(kink.at, beyond ? -far_below : far_below);
   return law.at(inside, velocity_[sample]);
@@ -122,22 +122,22 @@ ForceSlopes ContactSystem::side_of(int sample, const LawKink& kink, bool beyond)
 void ContactSystem::add_velocity_slope(Eigen::VectorXd& slope) {
   if (!rates_) return;
   // At fixed samples the velocities f V u grow like the frequency.
-  problem_->apply(forces_.slopes.velocity.cwiseProduct(velocity_) / problem_->frequency(), product_);
+  operator_.apply(forces_.slopes.velocity.cwiseProduct(velocity_) / operator_.problem().frequency(), product_);
   slope += product_;
 }
 
 double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
-  const Eigen::VectorXd& free = problem_->contact_free_response();
+  const Eigen::VectorXd& free = operator_.problem().contact_free_response();
   if (forces_.force.isZero(0.0)) {
     product_.setZero(displacement.size());
   } else {
-    problem_->apply(forces_.force, product_);
-    const double contacts = problem_->contacts(), points = problem_->points();
+    operator_.apply(forces_.force, product_);
+    const double contacts = operator_.problem().contacts(), points = operator_.problem().points();
     products_ += contacts * points * (20.0 * std::log2(points + 1.0) + 8.0 * contacts);
   }
   if (position_) {
     state_ = displacement;
-    product_ -= problem_->hold_response() * problem_->rigid_position(displacement, forces_.force);
+    product_ -= operator_.problem().hold_response() * operator_.rigid_position(displacement, forces_.force);
   }
   residual_ = displacement - free + product_;
   if (added_motion_.size() > 0) residual_ -= added_motion_;
@@ -149,47 +149,47 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
 void ContactSystem::set_linear_solver(LinearSolver method) { jacobian_->set_method(method); }
 
 Eigen::VectorXd ContactSystem::held_force() const {
-  return position_ ? problem_->held_force(forces_.force, state_) : forces_.force;
+  return position_ ? operator_.held_force(forces_.force, state_) : forces_.force;
 }
 
 bool ContactSystem::factorize_position(bool bordered) {
   constexpr double reduction = 1e-12;
   return position_->factorize(
-      *problem_, tangent(), [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
+      operator_, tangent(), [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
         y = 0.0;
-        return bordered ? jacobian_->solve_bordered(*problem_, r, 0.0, reduction, x, y)
-                        : jacobian_->solve(*problem_, r, reduction, x);
+        return bordered ? jacobian_->solve_bordered(operator_, r, 0.0, reduction, x, y)
+                        : jacobian_->solve(operator_, r, reduction, x);
       });
 }
 
 bool ContactSystem::factorize() {
-  return jacobian_->factorize(*problem_, slopes()) && (!position_ || factorize_position(false));
+  return jacobian_->factorize(operator_, slopes()) && (!position_ || factorize_position(false));
 }
 
 bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
-  const bool solved = jacobian_->solve(*problem_, r, reduction, x);
+  const bool solved = jacobian_->solve(operator_, r, reduction, x);
   double none = 0.0;
-  if (position_) position_->correct(*problem_, tangent(), x, none);
+  if (position_) position_->correct(operator_, tangent(), x, none);
   return solved;
 }
 
 double ContactSystem::operations() const { return products_ + jacobian_->operations(); }
 
-double ContactSystem::condition() { return jacobian_->condition(*problem_); }
+double ContactSystem::condition() { return jacobian_->condition(operator_); }
 
 bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   column_scale_ = border_scale(b);
   row_scale_ = border_scale(c);
   const Eigen::VectorXd column = column_scale_ * b, row = row_scale_ * c;
   const double corner = column_scale_ * d * row_scale_;
-  return jacobian_->factorize_bordered(*problem_, slopes(), column, row, corner) &&
+  return jacobian_->factorize_bordered(operator_, slopes(), column, row, corner) &&
          (!position_ || factorize_position(true));
 }
 
 bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                                    double reduction) {
-  const bool solved = jacobian_->solve_bordered(*problem_, r, row_scale_ * s, reduction, x, y);
-  if (position_) position_->correct(*problem_, tangent(), x, y);
+  const bool solved = jacobian_->solve_bordered(operator_, r, row_scale_ * s, reduction, x, y);
+  if (position_) position_->correct(operator_, tangent(), x, y);
   y *= column_scale_;
   return solved;
 }

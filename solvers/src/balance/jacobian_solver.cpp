@@ -17,21 +17,21 @@ constexpr int most_failures = 3;
 // The largest LU, also as a fallback of GMRES.
 constexpr Eigen::Index largest_dense = 4096;
 
-ComplianceOperator compliance_of(CondensedProblem& problem) {
-  return {problem.contacts(), problem.points(),
-          [&problem](const Eigen::VectorXd& f, Eigen::VectorXd& u) { problem.apply(f, u); },
-          [&problem](const Eigen::VectorXd& v, Eigen::VectorXd& u) { problem.apply_transposed(v, u); },
-          [&problem](int n) { return problem.harmonic_response(n); }};
+ComplianceOperator compliance_of(ContactOperator& contact) {
+  return {contact.problem().contacts(), contact.problem().points(),
+          [&contact](const Eigen::VectorXd& f, Eigen::VectorXd& u) { contact.apply(f, u); },
+          [&contact](const Eigen::VectorXd& v, Eigen::VectorXd& u) { contact.apply_transposed(v, u); },
+          [&contact](int n) { return contact.harmonic_response(n); }};
 }
 
 }  // namespace
 
-void JacobianSolver::choose(const CondensedProblem& problem, const PeriodSlopes& slopes) {
-  active_.set(slopes, rates_, problem.frequency());
+void JacobianSolver::choose(const ContactOperator& contact, const PeriodSlopes& slopes) {
+  active_.set(slopes, rates_, contact.problem().frequency());
   // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
-  const bool decays = problem.regularization().size() == 0;
+  const bool decays = contact.regularization().size() == 0;
   const Eigen::Index limit = !decays                   ? largest_dense
-                             : problem.contacts() == 1 ? crossover
+                             : contact.problem().contacts() == 1 ? crossover
                                                        : crossover_of_several;
   const bool large = active_.count() > limit;
   const bool given_up = krylov_failures_ >= most_failures && active_.count() <= largest_dense;
@@ -50,65 +50,65 @@ void JacobianSolver::count_dense() {
   operations_ += 2.0 / 3.0 * active * active * active;
 }
 
-void JacobianSolver::count_krylov(const CondensedProblem& problem, int iterations) {
-  const double points = problem.points();
-  const double contacts = problem.contacts(), coarse = double(krylov_.size());
+void JacobianSolver::count_krylov(const ContactOperator& contact, int iterations) {
+  const double points = contact.problem().points();
+  const double contacts = contact.problem().contacts(), coarse = double(krylov_.size());
   operations_ += 2.0 / 3.0 * coarse * coarse * coarse + 4.0 * contacts * coarse * coarse;
   operations_ += (10.0 * points * std::log2(points + 1.0) * contacts) * iterations;
 }
 
-bool JacobianSolver::factorize(CondensedProblem& problem, const PeriodSlopes& slopes) {
-  choose(problem, slopes);
-  if (used_ == Used::dense) return dense_.factorize(problem, active_);
-  return krylov_.factorize(compliance_of(problem), active_, slopes, problem.frequency());
+bool JacobianSolver::factorize(ContactOperator& contact, const PeriodSlopes& slopes) {
+  choose(contact, slopes);
+  if (used_ == Used::dense) return dense_.factorize(contact, active_);
+  return krylov_.factorize(compliance_of(contact), active_, slopes, contact.problem().frequency());
 }
 
-bool JacobianSolver::solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction,
+bool JacobianSolver::solve(ContactOperator& contact, const Eigen::VectorXd& r, double reduction,
                            Eigen::VectorXd& x) {
   if (used_ == Used::krylov) {
-    const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(problem), r, reduction, x);
-    count_krylov(problem, outcome.iterations);
+    const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(contact), r, reduction, x);
+    count_krylov(contact, outcome.iterations);
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
     count_dense();
-    if (!may_fall_back() || !dense_.factorize(problem, active_)) return false;
+    if (!may_fall_back() || !dense_.factorize(contact, active_)) return false;
     used_ = Used::dense;
   }
-  dense_.solve(problem, r, x);
+  dense_.solve(contact, r, x);
   return true;
 }
 
-bool JacobianSolver::factorize_bordered(CondensedProblem& problem, const PeriodSlopes& slopes,
+bool JacobianSolver::factorize_bordered(ContactOperator& contact, const PeriodSlopes& slopes,
                                         const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
-  choose(problem, slopes);
-  if (used_ == Used::dense) return dense_.factorize_bordered(problem, active_, b, c, d);
+  choose(contact, slopes);
+  if (used_ == Used::dense) return dense_.factorize_bordered(contact, active_, b, c, d);
   border_column_ = b;
   border_row_ = c;
   border_corner_ = d;
-  return krylov_.factorize_bordered(compliance_of(problem), active_, slopes, problem.frequency(), b, c, d);
+  return krylov_.factorize_bordered(compliance_of(contact), active_, slopes, contact.problem().frequency(), b, c, d);
 }
 
-bool JacobianSolver::solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s,
+bool JacobianSolver::solve_bordered(ContactOperator& contact, const Eigen::VectorXd& r, double s,
                                     double reduction, Eigen::VectorXd& x, double& y) {
   if (used_ == Used::krylov) {
     const KrylovBlock::Outcome outcome =
-        krylov_.solve_bordered(compliance_of(problem), r, s, reduction, x, y);
-    count_krylov(problem, outcome.iterations);
+        krylov_.solve_bordered(compliance_of(contact), r, s, reduction, x, y);
+    count_krylov(contact, outcome.iterations);
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
     count_dense();
     if (!may_fall_back() ||
-        !dense_.factorize_bordered(problem, active_, border_column_, border_row_, border_corner_))
+        !dense_.factorize_bordered(contact, active_, border_column_, border_row_, border_corner_))
       return false;
     used_ = Used::dense;
   }
-  dense_.solve_bordered(problem, r, s, x, y);
+  dense_.solve_bordered(contact, r, s, x, y);
   return true;
 }
 
-double JacobianSolver::condition(CondensedProblem& problem) {
+double JacobianSolver::condition(ContactOperator& contact) {
   if (used_ == Used::none) return 0.0;
-  return used_ == Used::dense ? dense_.condition() : krylov_.condition(compliance_of(problem));
+  return used_ == Used::dense ? dense_.condition() : krylov_.condition(compliance_of(contact));
 }
 
 }  // namespace wavebalance::solvers

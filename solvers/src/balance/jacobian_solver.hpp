@@ -18,14 +18,14 @@ class JacobianSolver {
   void set_method(LinearSolver method) { method_ = method; }
 
   /// False when singular to working precision.
-  bool factorize(CondensedProblem& problem, const PeriodSlopes& slopes);
+  bool factorize(ContactOperator& contact, const PeriodSlopes& slopes);
   /// Solves J x = r to `reduction` of r on the active samples, by LU exactly. False when that was not
   /// reached.
-  bool solve(CondensedProblem& problem, const Eigen::VectorXd& r, double reduction, Eigen::VectorXd& x);
+  bool solve(ContactOperator& contact, const Eigen::VectorXd& r, double reduction, Eigen::VectorXd& x);
 
-  bool factorize_bordered(CondensedProblem& problem, const PeriodSlopes& slopes, const Eigen::VectorXd& b,
+  bool factorize_bordered(ContactOperator& contact, const PeriodSlopes& slopes, const Eigen::VectorXd& b,
                           const Eigen::VectorXd& c, double d);
-  bool solve_bordered(CondensedProblem& problem, const Eigen::VectorXd& r, double s, double reduction,
+  bool solve_bordered(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
                       Eigen::VectorXd& x, double& y);
 
   /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
@@ -37,14 +37,14 @@ class JacobianSolver {
   double operations() const { return operations_; }
 
   /// Condition of the matrix last factorized, as in NewtonResult; 0 before any.
-  double condition(CondensedProblem& problem);
+  double condition(ContactOperator& contact);
 
  private:
   enum class Used { none, dense, krylov };
-  void choose(const CondensedProblem& problem, const PeriodSlopes& slopes);
+  void choose(const ContactOperator& contact, const PeriodSlopes& slopes);
   bool may_fall_back() const;
   void count_dense();
-  void count_krylov(const CondensedProblem& problem, int iterations);
+  void count_krylov(const ContactOperator& contact, int iterations);
 
   LinearSolver method_ = LinearSolver::automatic;
   Used used_ = Used::none;

@@ -2,8 +2,8 @@
 
 namespace wavebalance::solvers {
 
-bool RigidPosition::factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent, const Solve& solve) {
-  const Eigen::MatrixXd& held = problem.hold_response();
+bool RigidPosition::factorize(ContactOperator& contact, const Eigen::VectorXd& tangent, const Solve& solve) {
+  const Eigen::MatrixXd& held = contact.problem().hold_response();
   const Eigen::Index count = held.cols();
   responses_.resize(held.rows(), count);
   borders_.resize(count);
@@ -12,7 +12,7 @@ bool RigidPosition::factorize(CondensedProblem& problem, const Eigen::VectorXd& 
   for (Eigen::Index i = 0; i < count; ++i) {
     if (!solve(held.col(i), x, borders_[i])) return false;
     responses_.col(i) = x;
-    matrix.col(i) = -problem.rigid_position(x, tangent.cwiseProduct(x));
+    matrix.col(i) = -contact.rigid_position(x, tangent.cwiseProduct(x));
     matrix(i, i) += 1.0;
   }
   capacitance_.compute(matrix);
@@ -23,11 +23,11 @@ bool RigidPosition::factorize(CondensedProblem& problem, const Eigen::VectorXd& 
          (count == 0 || matrix.cwiseAbs().maxCoeff() > rounding);
 }
 
-void RigidPosition::correct(const CondensedProblem& problem, const Eigen::VectorXd& tangent,
+void RigidPosition::correct(const ContactOperator& contact, const Eigen::VectorXd& tangent,
                             Eigen::VectorXd& x, double& y) const {
   if (borders_.size() == 0) return;
   const Eigen::VectorXd amplitudes =
-      capacitance_.solve(Eigen::VectorXd(problem.rigid_position(x, tangent.cwiseProduct(x))));
+      capacitance_.solve(Eigen::VectorXd(contact.rigid_position(x, tangent.cwiseProduct(x))));
   x += responses_ * amplitudes;
   y += borders_.dot(amplitudes);
 }

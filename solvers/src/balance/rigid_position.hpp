@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "linalg/dense.hpp"
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_operator.hpp"
 
 namespace wavebalance::solvers {
 
@@ -16,9 +16,9 @@ class RigidPosition {
   using Solve = std::function<bool(const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y)>;
 
   /// False when J is singular, as it is where nothing resists the motion. One solve per rigid motion.
-  bool factorize(CondensedProblem& problem, const Eigen::VectorXd& tangent, const Solve& solve);
+  bool factorize(ContactOperator& contact, const Eigen::VectorXd& tangent, const Solve& solve);
   /// Turns the solution of the system with A into that with J.
-  void correct(const CondensedProblem& problem, const Eigen::VectorXd& tangent, Eigen::VectorXd& x,
+  void correct(const ContactOperator& contact, const Eigen::VectorXd& tangent, Eigen::VectorXd& x,
                double& y) const;
   /// The sign of det J / det A, 1 or -1.
   int sign() const { return capacitance_.determinant_sign(); }

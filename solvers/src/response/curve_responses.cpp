@@ -12,20 +12,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-/// Keeps a problem in the form of a curve, and leaves it in the displacement form.
-class FormOfCurve {
- public:
-  FormOfCurve(CondensedProblem& problem, const FrequencySweep& curve) : problem_(problem) {
-    problem_.set_regularization(curve.regularization);
-  }
-  ~FormOfCurve() { problem_.set_regularization({}); }
-  FormOfCurve(const FormOfCurve&) = delete;
-  FormOfCurve& operator=(const FormOfCurve&) = delete;
-
- private:
-  CondensedProblem& problem_;
-};
-
 void require_unknown(const CondensedProblem& problem, const Eigen::VectorXd& unknown) {
   if (unknown.size() != problem.samples())
     throw std::invalid_argument("curve_response: a point of the curve has " + std::to_string(unknown.size()) +
@@ -109,8 +95,7 @@ class Crossings {
  public:
   Crossings(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve, double wanted)
       : problem_(problem),
-        form_(problem, curve),
-        system_(problem, laws),
+        system_(problem, laws, curve.regularization),
         parameter_(curve_parameter(curve.parameter)),
         path_(system_, parameter_, scales_of(curve)),
         wanted_(wanted) {}
@@ -160,7 +145,6 @@ class Crossings {
   }
 
   CondensedProblem& problem_;
-  FormOfCurve form_;
   ContactSystem system_;
   const CurveParameter& parameter_;
   ArcLength path_;
@@ -173,8 +157,7 @@ PeriodicResponse curve_response(CondensedProblem& problem, const ContactLaws& la
                                 const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown) {
   require_unknown(problem, unknown);
   set_frequency_of(curve, problem);
-  const FormOfCurve form(problem, curve);
-  ContactSystem system(problem, laws);
+  ContactSystem system(problem, laws, curve.regularization);
   curve_parameter(curve.parameter).set(system, value);
   return response_at(system, unknown);
 }

@@ -36,7 +36,7 @@ void require_start(const CondensedProblem& problem, const Start& guess) {
 /// What Newton's method ended with in one form.
 struct Candidate {
   NewtonResult newton;
-  Eigen::VectorXd regularization;  // of its form, see CondensedProblem::set_regularization
+  Eigen::VectorXd regularization;  // of its form, see ContactOperator
   Eigen::VectorXd unknown;         // m, samples() values
   Strategy strategy = Strategy::none;
   int iterations = 0;  // of all attempts so far
@@ -59,18 +59,6 @@ Candidate better(Candidate before, Candidate next) {
   return before;
 }
 
-/// Leaves the problem in the displacement form, also where an exception is thrown.
-class DisplacementFormAtTheEnd {
- public:
-  explicit DisplacementFormAtTheEnd(CondensedProblem& problem) : problem_(problem) {}
-  ~DisplacementFormAtTheEnd() { problem_.set_regularization({}); }
-  DisplacementFormAtTheEnd(const DisplacementFormAtTheEnd&) = delete;
-  DisplacementFormAtTheEnd& operator=(const DisplacementFormAtTheEnd&) = delete;
-
- private:
-  CondensedProblem& problem_;
-};
-
 /// The problem, its laws and options, as all attempts see them.
 struct Task {
   CondensedProblem& problem;
@@ -78,8 +66,7 @@ struct Task {
   const ForcedResponseOptions& options;
 
   ContactSystem system(const Eigen::VectorXd& regularization) const {
-    problem.set_regularization(regularization);
-    return ContactSystem(problem, laws);
+    return {problem, laws, regularization};
   }
 };
 
@@ -264,7 +251,6 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   const bool guessed = guess.size() > 0;
   if (!guessed) start = {problem.contact_free_response(), {}};
   laws.require(problem.contacts());
-  const DisplacementFormAtTheEnd restored(problem);
   const Task task{problem, laws, options};
   int attractor_periods = SettledMotion::unknown;
   Candidate candidate;

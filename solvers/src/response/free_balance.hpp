@@ -16,7 +16,7 @@ struct BalancedMotion {
   Eigen::VectorXd force;         ///< N
 };
 
-/// `regularization` as of CondensedProblem::set_regularization(); rigid laws need it. Not `moving` is the
+/// `regularization` as of ContactOperator; rigid laws need it. Not `moving` is the
 /// mean. Each rigid motion in turn by bisection. O(C N) per step.
 BalancedMotion balanced_motion(const CondensedProblem& problem, const ContactLaws& laws,
                                const Eigen::VectorXd& regularization, bool moving);

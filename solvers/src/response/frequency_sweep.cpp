@@ -68,8 +68,6 @@ class Sweep {
         parameter_(parameter),
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
-  ~Sweep() { problem_.set_regularization({}); }
-
   FrequencySweep run() {
     // Whether long steps pass a narrow undamped resonance depends on where they end, so other lengths are
     // tried.
@@ -111,8 +109,7 @@ class Sweep {
     result_.rounding_error = first.rounding_error;
     if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
-    problem_.set_regularization(first.regularization);
-    system_ = ContactSystem(problem_, laws_);  // in the form of the first point
+    system_ = ContactSystem(problem_, laws_, first.regularization);  // in the form of the first point
     result_.regularization = first.regularization;
     result_.form = first.regularization.size() > 0 ? ContactForm::force : ContactForm::displacement;
     follow_until_open(first_point(first), scaled_options(first));

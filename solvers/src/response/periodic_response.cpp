@@ -36,9 +36,8 @@ PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown) {
   response.contact_force = system.force();
   response.held_force = system.held_force();
   response.coefficients = system.problem().coefficients(response.held_force);
-  response.unknown_coefficients =
-      system.problem().unknown_coefficients(response.contact_force, response.held_force);
-  response.regularization = problem.regularization();
+  response.unknown_coefficients = system.unknown_coefficients();
+  response.regularization = system.regularization();
   response.displacement =
       response.regularization.size() == 0 ? unknown : system.problem().displacement(response.held_force);
   response.unknown = std::move(unknown);

@@ -92,7 +92,6 @@ class Branches {
       throw std::invalid_argument("follow_branches: the problem of " + std::to_string(branch.periods) +
                                   " periods has " + std::to_string(problem.samples()) +
                                   " samples; expected " + std::to_string(times * from.unknown.size()));
-    problem.set_regularization(parent.curve->regularization);
     FrequencySweepOptions sweep = sweep_options(branch.periods);
     const Scales scales{scale_of(from), sweep.arc_length.parameter_scale};
     SweepStart start;
@@ -127,8 +126,7 @@ class Branches {
   Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times, const TimePair& pair) {
     CondensedProblem before = problem_of(parent.periods);
     before.set_load_frequency(from.frequency);
-    before.set_regularization(parent.curve->regularization);
-    ContactSystem system(before, laws_);
+    ContactSystem system(before, laws_, parent.curve->regularization);
     FloquetOptions how;
     how.stability = options_.stability.stability;
     const double due = times == 2 ? -1.0 : 1.0;
@@ -149,7 +147,7 @@ class Branches {
              CondensedProblem& problem, const Scales& scales, SweepStart& start) {
     const Eigen::VectorXd way = side * direction(parent, from, times, problem.pair());
     if (way.size() != problem.samples()) return false;
-    ContactSystem system(problem, laws_);
+    ContactSystem system(problem, laws_, parent.curve->regularization);
     const FrequencyParameter frequency;
     ArcLengthOptions lengths;
     lengths.displacement_scale = scales.displacement;
@@ -222,8 +220,7 @@ class Branches {
 
   // The special points at which a branch begins and ends are points of it, with the counts beside them.
   void add_ends(const Parent& parent, CondensedProblem& problem, Branch& branch) {
-    problem.set_regularization(parent.curve->regularization);
-    ContactSystem system(problem, laws_);
+    ContactSystem system(problem, laws_, parent.curve->regularization);
     TrialEvaluator evaluator(problem.pair().trial(), options_.sweep.output_points * branch.periods, 0);
     const auto point_of = [&](int special_point) {
       const SpecialPoint& from = parent.special_points()[std::size_t(special_point)];

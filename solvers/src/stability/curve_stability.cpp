@@ -70,11 +70,6 @@ double distance_from(SpecialPointType type, Complex multiplier) {
   return std::abs(multiplier - 1.0);
 }
 
-CondensedProblem& in_form_of(const FrequencySweep& curve, CondensedProblem& problem) {
-  problem.set_regularization(curve.regularization);
-  return problem;
-}
-
 class Tracker {
  public:
   Tracker(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve,
@@ -84,14 +79,12 @@ class Tracker {
         curve_(curve),
         dynamics_(dynamics),
         options_(options),
-        system_(in_form_of(curve, problem), laws),
+        system_(problem, laws, curve.regularization),
         path_(system_, curve_parameter(curve.parameter), scales()),
         evaluator_(problem.pair().trial(), options.output_points, 0) {
     if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
       problem.set_load_frequency(curve.points.front().frequency);
   }
-
-  ~Tracker() { problem_.set_regularization({}); }
 
   CurveStability run() {
     std::optional<CurveSample> before;

@@ -11,7 +11,7 @@ struct Perturbation {
   Eigen::VectorXd displacement;  ///< contact-major, with the largest rms of all phases; its rms is 1 m
   Eigen::VectorXd force;         ///< N
 
-  /// What it is in the unknown of a form, see CondensedProblem::set_regularization.
+  /// What it is in the unknown of a form, see ContactOperator.
   Eigen::VectorXd unknown(const Eigen::VectorXd& regularization) const;
 };
 

@@ -80,7 +80,6 @@ class Search {
   std::optional<PeriodicResponse> along_curve(const PeriodicResponse& response, const Perturbation& way) {
     const double wanted = response.frequency;
     const int before = periods(response);
-    problem_.set_regularization(response.regularization);
     const Eigen::VectorXd direction = way.unknown(response.regularization);
     const double rms = response.unknown.norm() / std::sqrt(double(response.unknown.size()));
     std::optional<PeriodicResponse> found;
@@ -90,16 +89,14 @@ class Search {
       const int load = problem_.periods();
       const FrequencySweep curve = frequency_sweep(
           problem_, laws_, towards(load * start->response.frequency, load * wanted, rms), *start);
-      problem_.set_regularization(response.regularization);
       if (curve.status != SweepStatus::reached_end) continue;
       problem_.set_frequency(wanted);
-      ContactSystem system(problem_, laws_);
+      ContactSystem system(problem_, laws_, response.regularization);
       PeriodicResponse last = response_at(system, curve.points.back().unknown);
       last.strategy = Strategy::perturbation;
       if (periods(last) > before) found = std::move(last);
       if (found) break;
     }
-    problem_.set_regularization({});
     problem_.set_frequency(wanted);
     return found;
   }
@@ -107,7 +104,7 @@ class Search {
   // The solution in the plane perpendicular to `change` through its end, at whatever frequency.
   std::optional<SweepStart> beside(const PeriodicResponse& response, const Eigen::VectorXd& change,
                                    double rms) {
-    ContactSystem system(problem_, laws_);
+    ContactSystem system(problem_, laws_, response.regularization);
     const FrequencyParameter frequency;
     ArcLengthOptions lengths;
     lengths.displacement_scale = rms;

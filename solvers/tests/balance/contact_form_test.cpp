@@ -139,8 +139,7 @@ TEST(RigidContact, DependsOnEpsilonByLessThanTheDiscretisation) {
       contact_regularization(problem, Rigid{one.law.start}, ContactForm::automatic);
   std::vector<Eigen::VectorXd> motions;
   for (const double factor : {1.0, 3.0}) {
-    problem.set_regularization(factor * chosen);
-    ContactSystem system(problem, Rigid{one.law.start});
+    ContactSystem system(problem, Rigid{one.law.start}, factor * chosen);
     Eigen::VectorXd unknown = problem.contact_free_response();
     ASSERT_EQ(newton(system, unknown, {}).status, SolveStatus::converged);
     motions.push_back(problem.displacement(system.force()));
@@ -261,8 +260,8 @@ TEST(ContactForm, RefusesWhatItCannotSolve) {
   EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::automatic).size(),
             0);
   EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::force).size(), 1);
-  EXPECT_THROW(problem.set_regularization(Eigen::VectorXd::Ones(2)), std::invalid_argument);
-  EXPECT_THROW(problem.set_regularization(-Eigen::VectorXd::Ones(1)), std::invalid_argument);
+  EXPECT_THROW(ContactOperator(problem, Eigen::VectorXd::Ones(2)), std::invalid_argument);
+  EXPECT_THROW(ContactOperator(problem, -Eigen::VectorXd::Ones(1)), std::invalid_argument);
 }
 
 // A law that also pushes on the other side was taken for a one-sided one, and its motion called converged.

@@ -130,7 +130,8 @@ TEST_P(ContactSystemTest, ResidualIsThatOfTheExplicitCompliance) {
 }
 
 TEST_P(ContactSystemTest, ColumnsRepeatWithTheShiftPeriod) {
-  const Eigen::MatrixXd& columns = problem_.columns();
+  ContactOperator contact(problem_);
+  const Eigen::MatrixXd& columns = contact.columns();
   const int points = problem_.points(), period = problem_.pair().shift_period();
   ASSERT_EQ(columns.cols(), period);
   for (int m = 0; m < points; ++m)

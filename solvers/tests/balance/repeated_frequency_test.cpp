@@ -3,7 +3,7 @@
 
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_operator.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -15,11 +15,9 @@ CondensedProblem unit_problem(double damping) {
 TEST(RepeatedFrequency, HasTheFreeResponseOfAProblemSetOnce) {
   CondensedProblem once = unit_problem(0.1), twice = unit_problem(0.1);
   twice.set_frequency(0.3);
-  twice.set_regularization(Eigen::VectorXd::Constant(1, 1e-3));
   twice.set_load_scale(2.0);
   twice.set_frequency(0.3);
   once.set_load_scale(2.0);
-  once.set_regularization(Eigen::VectorXd::Constant(1, 1e-3));
   once.set_frequency(0.3);
   EXPECT_EQ(twice.contact_free_response(), once.contact_free_response());
   const Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(16, -1.0, 2.0);
@@ -27,6 +25,25 @@ TEST(RepeatedFrequency, HasTheFreeResponseOfAProblemSetOnce) {
   once.apply(force, of_once);
   twice.apply(force, of_twice);
   EXPECT_EQ(of_twice, of_once);
+}
+
+TEST(RepeatedFrequency, IsFollowedByTheOperatorOfAForm) {
+  const Eigen::VectorXd form = Eigen::VectorXd::Constant(1, 1e-3), force = Eigen::VectorXd::LinSpaced(16, -1.0, 2.0);
+  CondensedProblem problem = unit_problem(0.1);
+  problem.set_frequency(0.3);
+  ContactOperator followed(problem, form);
+  Eigen::VectorXd before, there, back, expected;
+  followed.apply(force, before);
+  const Eigen::MatrixXd columns = followed.columns();
+  problem.set_frequency(0.4);
+  followed.apply(force, there);
+  ContactOperator(problem, form).apply(force, expected);
+  EXPECT_EQ(there, expected);
+  EXPECT_NE(followed.columns(), columns);
+  problem.set_frequency(0.3);
+  followed.apply(force, back);
+  EXPECT_EQ(back, before);
+  EXPECT_EQ(followed.columns(), columns);
 }
 
 TEST(RepeatedFrequency, ThatHasNoCondensationThrowsEachTime) {

@@ -77,7 +77,6 @@ TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
     }
   }
   EXPECT_EQ(responses_at(problem, Hardening{}, curve, 0.3).size(), 3u);
-  EXPECT_EQ(problem.regularization().size(), 0);
 }
 
 // Over the load the curve of a frequency above resonance passes a load three times, too.

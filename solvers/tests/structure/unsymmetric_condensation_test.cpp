@@ -124,7 +124,7 @@ TEST(UnsymmetricCondensation, TheTransposedProductIsTheAdjointOfTheProduct) {
                           values = testing::random_vector(problem.samples(), generator);
     Eigen::VectorXd product, transposed;
     problem.apply(force, product);
-    problem.apply_transposed(values, transposed);
+    problem.apply_transposed(problem.compliance(), values, transposed);
     EXPECT_NEAR(values.dot(product), transposed.dot(force), 1e-12 * values.norm() * product.norm());
   }
 }

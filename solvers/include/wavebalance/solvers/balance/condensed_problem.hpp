@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,17 +25,8 @@ namespace wavebalance::solvers {
 /// translates, whatever their generator. k and -k stay conjugate, so that motions are real. The static
 /// coefficient and an alternating one, k = M/2, which stands for both signs, have none.
 ///
-/// A Nyquist coefficient that the pair drops is never condensed: its compliance, load response and, in the
-/// force form, its part of P are zero.
-///
-/// In the force form the unknown is v = u + E lambda / epsilon, with lambda = P f the coefficients of the
-/// contact force in the trial functions and E their samples:
-///
-///   v = u0 - (K - E P / epsilon) rho(v),
-///
-/// rho the resolvent of the contact law (ContactLaws::resolvents). This is the same equation for another K,
-/// which set_regularization() makes: one residual, one Newton matrix and one curve serve both forms. A rigid
-/// obstacle has a resolvent of slope epsilon, and epsilon -> infinity is the displacement form.
+/// A Nyquist coefficient that the pair drops is never condensed: its compliance and load response are zero.
+/// What stands between forces and the unknown in which contact is solved for is a ContactOperator.
 ///
 /// A structure that is free to move (LinearStructure::rigid_modes) has no static compliance along the rigid
 /// contact displacements Q, an orthonormal basis of S R: the mean contact forces must balance the static load
@@ -105,24 +96,19 @@ class CondensedProblem {
   const Eigen::VectorXd& contact_free_response_slope();
   Eigen::VectorXd contact_free_response_by_scale();
 
-  /// Takes K - E P / epsilon in place of K in apply(), apply_transposed(), harmonic_response() and columns():
-  /// the force form. `flexibility[c]` is 1 / epsilon of contact c, m/N, at least 0; an empty vector is the
-  /// displacement form. coefficients() stay those of the displacement u. O(C M). Throws
-  /// std::invalid_argument for another number of entries or a negative one.
-  void set_regularization(Eigen::VectorXd flexibility);
-  /// 1 / epsilon of each contact, m/N; empty in the displacement form.
-  const Eigen::VectorXd& regularization() const { return regularization_; }
-
   /// Whether the structure is free to move.
   bool is_free() const { return hold_ != nullptr; }
   /// K of the springs' forces kappa Q, constant in time, samples() x q; a free structure's alone. O(q N log
   /// N) on first use.
   const Eigen::MatrixXd& hold_response();
-  /// Q^T mean(u), q values, m, of an unknown of the form and its contact force, samples() each. O(C N).
-  Eigen::VectorXd rigid_position(const Eigen::VectorXd& unknown, const Eigen::VectorXd& force) const;
+  /// Q^T mean(u), q values, m, of an unknown u + E lambda / epsilon with the flexibilities 1 / epsilon of a
+  /// ContactOperator and its contact force, samples() each. O(C N).
+  Eigen::VectorXd rigid_position(const Eigen::VectorXd& unknown, const Eigen::VectorXd& force,
+                                 const Eigen::VectorXd& flexibility) const;
   /// The contact force less kappa Q Q^T mean(u), N, samples() values: what the motion follows from in all
   /// functions below. The force itself for a structure that is held.
-  Eigen::VectorXd held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown) const;
+  Eigen::VectorXd held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
+                             const Eigen::VectorXd& flexibility) const;
   /// Q, C x q, and the mean contact forces Q^T f that balance the static load, q values, N.
   const Eigen::MatrixXd& rigid_directions() const;
   Eigen::VectorXd balancing_force() const;
@@ -138,33 +124,28 @@ class CondensedProblem {
   /// How far it yields to forces as brief as the functions resolve, m/N: the median over all harmonics.
   Eigen::VectorXd brief_compliance() const;
 
+  /// The compliance over translates, (M/2 + 1) x C^2, m/N: K of samples follows from it and the two bases.
+  const Eigen::MatrixXcd& compliance() const { return condensed_.compliance; }
+  /// Counts how often it has changed.
+  std::uint64_t condensations() const { return condensations_; }
+
   /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
   void apply(const Eigen::VectorXd& force, Eigen::VectorXd& displacement);
   /// (dK / d frequency) f, m/Hz.
   void apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd& slope);
-  /// K^T v.
-  void apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result);
+  /// The same products, and K^T v, with another compliance over translates.
+  void apply(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& force, Eigen::VectorXd& displacement);
+  void apply_transposed(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& values,
+                        Eigen::VectorXd& result);
 
-  /// C x C: the parts exp(2 pi i n t) of the displacements that contact forces exp(2 pi i n t) cause, m/N,
-  /// 0 <= n <= N/2. The diagonal of K over harmonics of the samples, which is all of K for two Fourier bases.
-  Eigen::MatrixXcd harmonic_response(int n) const;
-
-  /// The first p = shift_period() columns of K of each contact, samples() x C p: column d p + m belongs to a
-  /// unit force at point m of contact d. The column of point m + j p is that of m with the samples of every
-  /// contact shifted cyclically by j p. Made on first use after set_frequency. O(C p (C N log N + C M)).
-  const Eigen::MatrixXd& columns();
-  /// columns() of which only those of the contacts in `wanted` need be valid.
-  const Eigen::MatrixXd& columns(std::span<const int> wanted);
-
-  /// u0 - K f with the K of the displacement form in either form, m, samples() values.
+  /// u0 - K f, m, samples() values.
   Eigen::VectorXd displacement(const Eigen::VectorXd& force);
 
   /// Spectra over translates, (M/2 + 1) x C, of the coefficients that belong to force samples (samples()):
   /// a(k) = contact-free response - compliance * <p, f>. O(C N log N + C^2 M).
   Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
-  /// The same of v, the unknown of the form: coefficients() in the displacement form. `held` is the
-  /// held_force() of a free structure, and not used for others.
-  Eigen::MatrixXcd unknown_coefficients(const Eigen::VectorXd& force, const Eigen::VectorXd& held = {});
+  /// The same with another compliance over translates.
+  Eigen::MatrixXcd coefficients(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& force);
 
   /// Estimated rounding error of the condensation in the motion of those coefficients, at fixed forces: the
   /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
@@ -185,14 +166,12 @@ class CondensedProblem {
                     const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);
   void project(const Eigen::VectorXd& force);
-  Eigen::MatrixXcd respond(const Eigen::MatrixXcd& kernel, const Eigen::VectorXd& force);
   void set_unit_loads();
   double load_power(Eigen::Index load) const;
   Eigen::MatrixXcd combine_loads(const Eigen::MatrixXcd& responses, const Eigen::MatrixXcd& loads) const;
   Eigen::MatrixXd load_errors() const;
   void update_load();
   void update_free_response();
-  void update_kernel();
   void condense();
   void append_dropped();
 
@@ -207,15 +186,12 @@ class CondensedProblem {
   double load_scale_ = 1.0, full_load_ = 1.0;
   std::string load_unit_ = "of the load";
   double condensed_at_ = 0.0;                // Hz, at which all below is current; 0: none
+  std::uint64_t condensations_ = 0;
   StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
   CondensedSpectrum condensed_;              // load responses to unit loads
   Eigen::MatrixXcd load_response_;           // to the projected loads, (M/2 + 1) x C
-  Eigen::VectorXd regularization_;
-  Eigen::MatrixXcd kernel_;  // of K or, in the force form, of K - E P / epsilon
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
-  Eigen::MatrixXd columns_;
-  std::vector<bool> columns_are_current_;  // one entry per contact
   struct Hold;                             // of a structure that is free to move
   std::unique_ptr<Hold> hold_;
   struct Work;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/balance/contact_operator.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 
 namespace wavebalance::solvers {
@@ -38,30 +38,33 @@ enum class LinearSolver {
 /// D has one block per sample for laws of one instant, and few entries per row for laws over a period. A
 /// velocity f V u of the motion u is read by D_u + D_v f V. A linear solve with J reduces exactly to the
 /// active samples, those whose force changes with u: x = r - K D x, an LU of their number and one product
-/// with K. Many of them are solved for by GMRES, which forms no matrix over them. In the force form of the
-/// problem u stands for its unknown v, and the laws are their resolvents.
+/// with K. Many of them are solved for by GMRES, which forms no matrix over them. In the force form
+/// (ContactOperator) u stands for its unknown v, and the laws are their resolvents.
 class ContactSystem {
  public:
   /// Throws std::invalid_argument when there are neither one law nor one for each contact, for a law that
   /// depends on the velocity where the trial functions have no pointwise derivative, and for one that depends
-  /// on the velocity or acts over a period where the problem is in the force form.
-  ContactSystem(CondensedProblem& problem, ContactLaws laws);
+  /// on the velocity or acts over a period in the force form, and as ContactOperator does for the
+  /// `regularization` of its form. Keeps a reference to the problem.
+  ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd regularization = {});
   ContactSystem(ContactSystem&&) noexcept;
   ContactSystem& operator=(ContactSystem&&) noexcept;
   ~ContactSystem();
 
-  CondensedProblem& problem() { return *problem_; }
-  /// The laws of the form that the problem had at construction.
+  CondensedProblem& problem() { return operator_.problem(); }
+  /// ContactOperator::regularization() of its form.
+  const Eigen::VectorXd& regularization() const { return operator_.regularization(); }
+  /// The laws of its form.
   const ContactLaws& laws() const { return laws_; }
   /// The kinks of the law of the contact that a sample belongs to, ascending.
   std::span<const LawKink> kinks_at(int sample) const {
-    return kinks_[static_cast<std::size_t>(sample / problem_->points())];
+    return kinks_[static_cast<std::size_t>(sample / operator_.problem().points())];
   }
   /// The piece of that law at a displacement, m; at a kink the lower one.
   int piece_at(int sample, double displacement) const;
   /// The piece in which a contact is open or, of a law that acts everywhere, at rest.
   int rest_piece(int sample) const {
-    return rest_pieces_[static_cast<std::size_t>(sample / problem_->points())];
+    return rest_pieces_[static_cast<std::size_t>(sample / operator_.problem().points())];
   }
 
   /// Computes force, its slopes and residual at `displacement`. Returns relative_residual(). One product with K.
@@ -74,6 +77,10 @@ class ContactSystem {
   const Eigen::VectorXd& force() const { return forces_.force; }  ///< f_c(u), N
   /// CondensedProblem::held_force() of the state: force() where the structure is held.
   Eigen::VectorXd held_force() const;
+  /// ContactOperator::unknown_coefficients() of the state.
+  Eigen::MatrixXcd unknown_coefficients() {
+    return operator_.unknown_coefficients(force(), held_force());
+  }
   /// The slopes of each force by the displacement of the same sample, N/m: D of laws that read it alone.
   const Eigen::VectorXd& tangent() const { return forces_.slopes.displacement; }
   /// D.
@@ -132,7 +139,7 @@ class ContactSystem {
   void continue_piece(int sample, double displacement, const LawKink& kink, bool beyond);
   bool factorize_position(bool bordered);
 
-  CondensedProblem* problem_;
+  ContactOperator operator_;
   ContactLaws laws_;
   std::vector<std::vector<LawKink>> kinks_;  // of each contact
   std::vector<int> rest_pieces_;
