@@ -143,7 +143,7 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
     result.unknown_coefficients = found.unknown_coefficients;
     result.regularization = found.regularization;
   }
-  result.condition = std::max(problem.condensation().condition(), found.condition);
+  result.condition = std::max(problem.condition(), found.condition);
   result.rounding_error = found.rounding_error;
   if (!is_rigid(scene.contact.law)) return;
   const auto held = solvers::complementarity(found.displacement, found.contact_force, model.gaps);

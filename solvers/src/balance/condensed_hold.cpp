@@ -1,40 +1,6 @@
 #include "balance/condensed_hold.hpp"
 
-#include <utility>
-
 namespace wavebalance::solvers {
-namespace {
-
-// `first` above the rows of `matrix`.
-template <class Matrix, class Row>
-void prepend(const Row& first, Matrix& matrix) {
-  Matrix joined(matrix.rows() + 1, matrix.cols());
-  joined << first.reshaped().transpose(), matrix;
-  matrix = std::move(joined);
-}
-
-}  // namespace
-
-// All coefficients, that at rest of a free structure by the held one.
-void CondensedProblem::condense() {
-  const Eigen::Index solved = factors_[0].size();
-  if (!is_free()) {
-    condensation_.condense(factors_, derivatives_, condensed_, load_.topRows(solved));
-    return;
-  }
-  const auto moving = [&](const StiffnessSpectrum& all) -> StiffnessSpectrum {
-    return {all[0].tail(solved - 1), all[1].tail(solved - 1), all[2].tail(solved - 1)};
-  };
-  condensation_.condense(moving(factors_), moving(derivatives_), condensed_, load_.middleRows(1, solved - 1));
-  const CondensedPoint& rest = hold_->at_rest;
-  prepend(rest.compliance, condensed_.compliance);
-  prepend(rest.load_response, condensed_.load_response);
-  prepend(rest.compliance_slope, condensed_.compliance_slope);
-  prepend(rest.load_response_slope, condensed_.load_response_slope);
-  prepend(rest.compliance_error, condensed_.compliance_error);
-  prepend(rest.load_response_error, condensed_.load_response_error);
-}
-
 const Eigen::MatrixXd& CondensedProblem::hold_response() {
   if (hold_->response.rows() > 0) return hold_->response;
   const Eigen::MatrixXd& directions = rigid_directions();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "balance/condensed_hold.hpp"
+#include "balance/structure_compliance.hpp"
 #include "linalg/safe_norm.hpp"
 #include "linalg/spans.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -22,14 +24,31 @@ struct CondensedProblem::Work {
   Eigen::VectorXcd product;
 };
 
+namespace {
+
+std::unique_ptr<HarmonicCompliance> compliance_of(const TimePair& pair, const LinearStructure& structure,
+                                                  CondensationMethod method) {
+  structure.validate();
+  const auto held = structure.is_free() ? std::optional<HeldStructure>(hold(structure)) : std::nullopt;
+  return std::make_unique<StructureCompliance>(pair, structure, method, held ? &*held : nullptr);
+}
+
+}  // namespace
+
 CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structure,
                                    Eigen::VectorXcd load_harmonics, CondensationMethod method)
+    : CondensedProblem(pair, structure, std::move(load_harmonics), compliance_of(pair, structure, method)) {}
+
+CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structure,
+                                   Eigen::VectorXcd load_harmonics,
+                                   std::unique_ptr<HarmonicCompliance> compliance)
     : pair_(std::move(pair)),
       structure_(std::make_shared<const LinearStructure>(structure)),
       load_harmonics_(std::move(load_harmonics)),
-      condensation_(structure, method),
       hold_(structure.is_free() ? std::make_unique<Hold>(structure, pair_) : nullptr),
+      harmonics_(std::move(compliance)),
       work_(std::make_unique<Work>(pair_.points(), structure.contacts())) {
+  if (!harmonics_) throw std::invalid_argument("CondensedProblem: compliance is null; it must be an object");
   set_unit_loads();
   update_load();
 }
@@ -37,20 +56,6 @@ CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structu
 CondensedProblem::CondensedProblem(CondensedProblem&&) noexcept = default;
 CondensedProblem& CondensedProblem::operator=(CondensedProblem&&) noexcept = default;
 CondensedProblem::~CondensedProblem() = default;
-
-// Zeros for a dropped Nyquist coefficient, which is not condensed.
-void CondensedProblem::append_dropped() {
-  if (!pair_.drops_nyquist()) return;
-  for (Eigen::MatrixXcd* spectrum : {&condensed_.compliance, &condensed_.load_response,
-                                     &condensed_.compliance_slope, &condensed_.load_response_slope}) {
-    spectrum->conservativeResize(pair_.spectrum_size(), Eigen::NoChange);
-    spectrum->bottomRows(1).setZero();
-  }
-  for (Eigen::MatrixXd* errors : {&condensed_.compliance_error, &condensed_.load_response_error}) {
-    errors->conservativeResize(pair_.spectrum_size(), Eigen::NoChange);
-    errors->bottomRows(1).setZero();
-  }
-}
 
 void CondensedProblem::set_unit_loads() {
   unit_loads_.resize(pair_.spectrum_size(), structure_->load_count());
@@ -125,10 +130,6 @@ void CondensedProblem::set_periods(int periods) {
   periods_ = periods;
 }
 
-ImpedanceCoefficients CondensedProblem::factors(int k) const {
-  return {factors_[0][k], factors_[1][k], factors_[2][k]};
-}
-
 void CondensedProblem::set_frequency(double frequency_hz) {
   if (!(frequency_hz > 0.0) || !std::isfinite(frequency_hz))
     throw std::invalid_argument("CondensedProblem: frequency is " + std::to_string(frequency_hz) +
@@ -136,17 +137,8 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   if (frequency_hz == condensed_at_) return;
   condensed_at_ = 0.0;  // in case that no condensation exists there
   frequency_ = frequency_hz;
-  const int solved = pair_.solved_size();
-  const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
-  factors_ = {symbol(2) * (frequency_ * frequency_), symbol(1) * frequency_, symbol(0)};
-  // Of the harmonics below M/2; K itself at k = 0, and at M/2, whose coefficient stands for both signs.
-  const int damped = (pair_.functions() - 1) / 2;
-  if (structure_->loss_factor > 0.0)
-    factors_[2].segment(1, damped) *= std::complex<double>(1.0, structure_->loss_factor);
-  derivatives_ = {symbol(2) * (2.0 * frequency_), symbol(1), Eigen::VectorXcd::Zero(solved)};
   if (!structure_->forces.empty()) update_load();  // some grow with the frequency
-  condense();
-  append_dropped();
+  harmonics_->condense(frequency_, load_, condensed_);
   ++condensations_;
   update_free_response();
   condensed_at_ = frequency_hz;
@@ -244,7 +236,7 @@ void CondensedProblem::apply(const Eigen::MatrixXcd& compliance, const Eigen::Ve
 void CondensedProblem::apply_transposed(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& values,
                                         Eigen::VectorXd& result) {
   Eigen::MatrixXcd transposed = compliance.conjugate();
-  for (int c = 0; c < contacts() && !condensation_.symmetric(); ++c)
+  for (int c = 0; c < contacts() && !harmonics_->symmetric(); ++c)
     for (int d = 0; d < c; ++d) transposed.col(c + contacts() * d).swap(transposed.col(d + contacts() * c));
   apply_kernel(values, pair_.trial_spectrum(), transposed, pair_.weight_spectrum(), result);
 }
@@ -319,13 +311,11 @@ Eigen::VectorXd CondensedProblem::rounding_motion(const Eigen::VectorXd& force) 
 
 Eigen::MatrixXcd CondensedProblem::full_coefficients(const Eigen::VectorXd& force) {
   project(force);
-  Eigen::MatrixXcd spectra = Eigen::MatrixXcd::Zero(condensation_.size(), pair_.spectrum_size());
+  Eigen::MatrixXcd spectra = Eigen::MatrixXcd::Zero(structure_->size(), pair_.spectrum_size());
   Eigen::VectorXcd forces(contacts());
   for (int k = 0; k < pair_.solved_size(); ++k) {
     for (int c = 0; c < contacts(); ++c) forces[c] = work_->translates[static_cast<std::size_t>(c)][k];
-    const bool rests = is_free() && k == 0;
-    const Eigen::VectorXcd loads = load_.row(k).transpose();
-    spectra.col(k) = (rests ? hold_->condensation : condensation_).recover(factors(k), loads, forces);
+    spectra.col(k) = harmonics_->recover(k, load_.row(k).transpose(), forces);
   }
   if (is_free()) {
     const Eigen::MatrixXcd drifting = hold_->held.drifting.cast<std::complex<double>>();

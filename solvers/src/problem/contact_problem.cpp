@@ -134,7 +134,7 @@ std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const 
   const auto problems = [&](int periods) {
     CondensedProblem problem(pairs(periods), structure(),
                              over_periods(condensed_.load_harmonics(), periods));
-    problem.set_threads(condensed_.condensation().threads());
+    problem.set_threads(condensed_.threads());
     return problem;
   };
   return follow_branches(problems, laws_, *dynamics(), curve, stability, options);

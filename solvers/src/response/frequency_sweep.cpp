@@ -105,7 +105,7 @@ class Sweep {
 
   void trace() {
     const PeriodicResponse first = first_response();
-    result_.condition = std::max(problem_.condensation().condition(), first.condition);
+    result_.condition = std::max(problem_.condition(), first.condition);
     result_.rounding_error = first.rounding_error;
     if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
@@ -245,7 +245,7 @@ class Sweep {
 
   SweepPoint measure(const CurvePoint& point) {
     SweepPoint measured = sweep_point(system_, evaluator_, point, parameter_);
-    result_.condition = std::max(result_.condition, problem_.condensation().condition());
+    result_.condition = std::max(result_.condition, problem_.condition());
     result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.held_force()));
     if (!options_.keep_unknowns) measured.unknown.resize(0);
     return measured;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/solvers/structure/condensation.hpp"
+#include "wavebalance/solvers/balance/harmonic_compliance.hpp"
 #include "wavebalance/solvers/time/time_pair.hpp"
 
 namespace wavebalance::solvers {
@@ -47,20 +47,26 @@ class CondensedProblem {
   /// Throws as Condensation does.
   CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
                    CondensationMethod method = CondensationMethod::automatic);
+  /// With a compliance of one's own, of as many contacts and loads as the structure has; the matrices of the
+  /// structure are then not condensed.
+  CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
+                   std::unique_ptr<HarmonicCompliance> compliance);
   CondensedProblem(CondensedProblem&&) noexcept;
   CondensedProblem& operator=(CondensedProblem&&) noexcept;
   ~CondensedProblem();
 
   const TimePair& pair() const { return pair_; }
-  int contacts() const { return condensation_.contacts(); }  ///< C
-  int points() const { return pair_.points(); }              ///< N, samples of each contact
-  int samples() const { return contacts() * points(); }      ///< C N
-  const Condensation& condensation() const { return condensation_; }
+  int contacts() const { return structure_->contacts(); }  ///< C
+  int points() const { return pair_.points(); }            ///< N, samples of each contact
+  int samples() const { return contacts() * points(); }    ///< C N
+  /// HarmonicCompliance::condition() at the frequency.
+  double condition() const { return harmonics_->condition(); }
   const LinearStructure& structure() const { return *structure_; }
   const Eigen::VectorXcd& load_harmonics() const { return load_harmonics_; }
 
   /// Threads of each condensation, as Condensation::set_threads() takes them; 1 until it is called.
-  void set_threads(int threads) { condensation_.set_threads(threads); }
+  void set_threads(int threads) { harmonics_->set_threads(threads); }
+  int threads() const { return harmonics_->threads(); }
 
   /// Condenses at a frequency (Hz, > 0). Throws std::invalid_argument or SingularSystem. M/2 + 1 points of
   /// condensation and O(C N log N).
@@ -160,7 +166,6 @@ class CondensedProblem {
   Eigen::MatrixXcd full_coefficients(const Eigen::VectorXd& force);
 
  private:
-  ImpedanceCoefficients factors(int k) const;
   Eigen::VectorXd median_compliance(int harmonics) const;
   void apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
                     const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
@@ -172,13 +177,13 @@ class CondensedProblem {
   Eigen::MatrixXd load_errors() const;
   void update_load();
   void update_free_response();
-  void condense();
-  void append_dropped();
 
   TimePair pair_;
   std::shared_ptr<const LinearStructure> structure_;
   Eigen::VectorXcd load_harmonics_;
-  Condensation condensation_;
+  struct Hold;  // of a structure that is free to move
+  std::unique_ptr<Hold> hold_;
+  std::unique_ptr<HarmonicCompliance> harmonics_;
   Eigen::MatrixXcd unit_loads_, static_loads_;  // projected at 1 Hz, over translates (rows): all, and static
   Eigen::MatrixXcd load_;                       // those that act at frequency_
   int periods_ = 1;
@@ -187,13 +192,10 @@ class CondensedProblem {
   std::string load_unit_ = "of the load";
   double condensed_at_ = 0.0;                // Hz, at which all below is current; 0: none
   std::uint64_t condensations_ = 0;
-  StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
   CondensedSpectrum condensed_;              // load responses to unit loads
   Eigen::MatrixXcd load_response_;           // to the projected loads, (M/2 + 1) x C
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
-  struct Hold;                             // of a structure that is free to move
-  std::unique_ptr<Hold> hold_;
   struct Work;
   std::unique_ptr<Work> work_;
 };

@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+
+#include "structure/held_structure.hpp"
+#include "wavebalance/solvers/balance/harmonic_compliance.hpp"
+#include "wavebalance/solvers/time/time_pair.hpp"
+
+namespace wavebalance::solvers {
+
+/// The compliance of a structure of matrices in a pair of bases: Z(k) = lambda_2(k) f^2 M + lambda_1(k) f C +
+/// lambda_0(k) K (1 + i eta) with the symbols lambda of the pair and the loss factor eta below the Nyquist
+/// coefficient. That at rest of a structure that is free to move is that of the held one, at any frequency. A
+/// Nyquist coefficient that the pair drops has no compliance.
+class StructureCompliance final : public HarmonicCompliance {
+ public:
+  /// `held` is the structure at rest where it is free to move; null for others.
+  StructureCompliance(TimePair pair, const LinearStructure& structure, CondensationMethod method,
+                      const HeldStructure* held);
+
+  void condense(double frequency, const Eigen::MatrixXcd& loads, CondensedSpectrum& result) override;
+  Eigen::VectorXcd recover(int k, const Eigen::VectorXcd& loads, const Eigen::VectorXcd& forces) override;
+  bool symmetric() const override { return condensation_.symmetric(); }
+  double condition() const override { return condensation_.condition(); }
+  void set_threads(int threads) override { condensation_.set_threads(threads); }
+  int threads() const override { return condensation_.threads(); }
+
+ private:
+  struct Rest {
+    Condensation condensation;
+    CondensedPoint point;
+  };
+  void set_factors(double frequency);
+  void condense_moving(const Eigen::MatrixXcd& loads, CondensedSpectrum& result);
+
+  TimePair pair_;
+  double loss_factor_;
+  Condensation condensation_;
+  std::unique_ptr<Rest> rest_;               // null for a structure that is held
+  StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for
+};
+
+}  // namespace wavebalance::solvers
