@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <random>
 #include <stdexcept>
 
 #include "constants.hpp"
@@ -13,6 +15,7 @@
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/structure/massless_contacts.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -106,6 +109,32 @@ TEST(ContactProblem, TellsAmplitudesInTheUnitOfItsLoad) {
   const PeriodicResponse full = newtons.respond(0.12);
   EXPECT_EQ(full.load_scale, 0.8);
   EXPECT_NEAR(curve.points.back().max_displacement, newtons.motion(full, 1024).displacement.maxCoeff(), 1e-7);
+}
+
+// The lowest frequencies and the static deflections stay, and a rigid obstacle then has a motion.
+TEST(ContactProblem, TakesARigidObstacleAtContactsWithoutMass) {
+  std::mt19937 generator(8);
+  const LinearStructure chain = testing::random_chain(6, generator);
+  const MasslessContacts massless = with_massless_contacts(chain);
+  ContactProblem open(testing::fourier_pair(63, 256), chain, {});
+  const double free = open.respond(0.06).displacement.maxCoeff(), gap = 0.5 * free;
+  double coarse = 0.0;  // how far the obstacle is passed at the points, an error of the discretisation
+  for (const int functions : {63, 255}) {
+    ContactProblem problem(testing::fourier_pair(functions, 4 * functions), massless.structure, testing::Rigid{gap});
+    const PeriodicResponse response = problem.respond(0.06);
+    ASSERT_TRUE(response.converged());
+    EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
+    const double passed = response.displacement.maxCoeff() - gap;
+    EXPECT_LT(passed, 0.2 * gap);
+    if (functions > 63) EXPECT_LT(passed, 0.5 * coarse);
+    coarse = passed;
+  }
+  const Eigen::VectorXd push = chain.contact_directions.transpose() * Eigen::VectorXd::Ones(1);
+  const Eigen::VectorXd reduced_push = massless.structure.contact_directions.transpose() * Eigen::VectorXd::Ones(1);
+  const Eigen::VectorXd whole = Eigen::MatrixXd(chain.stiffness).ldlt().solve(push);
+  const Eigen::VectorXd recovered =
+      massless.recovery * Eigen::MatrixXd(massless.structure.stiffness).ldlt().solve(reduced_push);
+  EXPECT_LE((whole - recovered).norm(), 1e-10 * whole.norm());
 }
 
 TEST(ContactProblem, RefusesWhatIsIllPosed) {
