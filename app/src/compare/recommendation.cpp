@@ -8,9 +8,19 @@
 #include <tuple>
 #include <utility>
 
+#include "scene/enum_names.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
+
+template <>
+inline constexpr std::array<NamedValue<BasisMatters>, 5> enum_names<BasisMatters>{
+    {{BasisMatters::no_choice, "no_choice"},
+     {BasisMatters::little, "little"},
+     {BasisMatters::much, "much"},
+     {BasisMatters::fourier_fails, "fourier_fails"},
+     {BasisMatters::not_compared, "not_compared"}}};
+
 namespace {
 
 constexpr double known_share = 0.25;  // of an error that a reference may have itself
@@ -215,21 +225,7 @@ std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double
   });
 }
 
-std::string_view to_string(BasisMatters value) {
-  switch (value) {
-    case BasisMatters::no_choice:
-      return "no_choice";
-    case BasisMatters::little:
-      return "little";
-    case BasisMatters::much:
-      return "much";
-    case BasisMatters::fourier_fails:
-      return "fourier_fails";
-    case BasisMatters::not_compared:
-      return "not_compared";
-  }
-  return "";
-}
+std::string_view to_string(BasisMatters value) { return enum_name(value); }
 
 double Recommendation::fourier_time_ratio() const {
   return choice && fourier ? fourier->seconds / choice->seconds : SolvePoint::unknown;

@@ -14,7 +14,7 @@ namespace wavebalance::app {
 template <class Enum>
 using NamedValue = std::pair<Enum, std::string_view>;
 
-/// The values of an enumeration with their names in a scene file, in the order of the help.
+/// The values of an enumeration with their names in scenes and results, in the order of the help.
 template <class Enum>
 inline constexpr std::array<NamedValue<Enum>, 0> enum_names{};
 template <>
@@ -74,9 +74,9 @@ inline constexpr std::array<NamedValue<AnalysisType>, 6> enum_names<AnalysisType
      {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
 
 template <class Enum>
-std::string enum_name(Enum value) {
+constexpr std::string_view enum_name(Enum value) {
   for (const auto& [known, name] : enum_names<Enum>)
-    if (known == value) return std::string(name);
+    if (known == value) return name;
   throw std::invalid_argument("enum_name: the value " + std::to_string(static_cast<int>(value)) +
                               " has no name");
 }

@@ -8,16 +8,16 @@
 
 namespace wavebalance::app {
 
-std::string name_of(StructureType value) { return enum_name(value); }
-std::string name_of(SolidElement value) { return enum_name(value); }
-std::string name_of(Direction value) { return enum_name(value); }
-std::string name_of(TipPlace value) { return enum_name(value); }
-std::string name_of(ObstacleSide value) { return enum_name(value); }
-std::string name_of(Formulation value) { return enum_name(value); }
-std::string name_of(InnerProducts value) { return enum_name(value); }
-std::string name_of(NyquistCoefficient value) { return enum_name(value); }
-std::string name_of(AnalysisType value) { return enum_name(value); }
-std::string name_of(LoadKind value) { return enum_name(value); }
+std::string name_of(StructureType value) { return std::string(enum_name(value)); }
+std::string name_of(SolidElement value) { return std::string(enum_name(value)); }
+std::string name_of(Direction value) { return std::string(enum_name(value)); }
+std::string name_of(TipPlace value) { return std::string(enum_name(value)); }
+std::string name_of(ObstacleSide value) { return std::string(enum_name(value)); }
+std::string name_of(Formulation value) { return std::string(enum_name(value)); }
+std::string name_of(InnerProducts value) { return std::string(enum_name(value)); }
+std::string name_of(NyquistCoefficient value) { return std::string(enum_name(value)); }
+std::string name_of(AnalysisType value) { return std::string(enum_name(value)); }
+std::string name_of(LoadKind value) { return std::string(enum_name(value)); }
 
 std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
   if (forcing.amplitude != 0.0) return ReferenceLoad{forcing.amplitude, "N"};

@@ -60,7 +60,7 @@ SceneValue value_of(const Field& field) {
   if constexpr (std::is_same_v<Field, MotionAt>)
     return entries_of(field);
   else if constexpr (std::is_enum_v<Field>)
-    return enum_name(field);
+    return std::string(enum_name(field));
   else if constexpr (is_list_of<Field>)
     return std::vector<Stored<typename Field::value_type>>(field.begin(), field.end());
   else if constexpr (std::is_same_v<Field, int>)

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "enumerators.hpp"
 #include "wavebalance/app/compare/recommendation.hpp"
 
 namespace wavebalance::app {
@@ -196,6 +198,13 @@ TEST(DurationText, HasThreeDigitsAndItsUnit) {
   EXPECT_EQ(duration_text(54.321e-6), "54.3 µs");
   EXPECT_EQ(duration_text(1.8e-3), "1.8 ms");
   EXPECT_EQ(duration_text(2.125), "2.12 s");
+}
+
+TEST(Recommendation, NamesEveryAnswerToWhetherTheBasisMatters) {
+  std::set<std::string_view> names;
+  for (const auto matters : enumerators<BasisMatters>()) names.insert(to_string(matters));
+  EXPECT_EQ(names,
+            (std::set<std::string_view>{"no_choice", "little", "much", "fourier_fails", "not_compared"}));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Mistakes in the text of a scene, and changes of it.
 #include <gtest/gtest.h>
 
+#include "enumerators.hpp"
+#include "scene/enum_names.hpp"
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -25,6 +27,20 @@ TEST(SceneText, TextsWithoutTheirQuotesAreShownWithThem) {
 TEST(SceneText, OverridesMayHaveBlanksAroundTheirKeyAndValue) {
   const std::vector<std::string> overrides{" contact.gap = 2e-3 "};
   EXPECT_EQ(parse_scene(bar_scene, "case.toml", overrides).contact.gap, 2e-3);
+}
+
+template <class Enum>
+class SceneEnum : public ::testing::Test {};
+
+using SceneEnums =
+    ::testing::Types<StructureType, SolidElement, Direction, TipPlace, ContactForm, ContactMass, ObstacleSide,
+                     Formulation, InnerProducts, NyquistCoefficient, LoadKind, AnalysisType>;
+TYPED_TEST_SUITE(SceneEnum, SceneEnums);
+
+TYPED_TEST(SceneEnum, EveryEnumeratorHasAName) {
+  EXPECT_EQ(wavebalance::enumerators<TypeParam>().size(), enum_names<TypeParam>.size());
+  for (const TypeParam value : wavebalance::enumerators<TypeParam>())
+    EXPECT_EQ(enum_value<TypeParam>(enum_name(value)), value);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "modes/mode_option_checks.hpp"
 
@@ -67,27 +68,17 @@ bool newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient
 }  // namespace
 
 std::string_view to_string(LagrangianStatus status) {
-  switch (status) {
-    case LagrangianStatus::converged:
-      return "converged";
-    case LagrangianStatus::linear:
-      return "linear";
-    case LagrangianStatus::inner_stalled:
-      return "inner_stalled";
-    case LagrangianStatus::inner_limit:
-      return "inner_limit";
-    case LagrangianStatus::singular:
-      return "singular";
-    case LagrangianStatus::outer_stalled:
-      return "outer_stalled";
-    case LagrangianStatus::outer_limit:
-      return "outer_limit";
-    case LagrangianStatus::internal_resonance:
-      return "tongue";
-    case LagrangianStatus::left_mode:
-      return "left_mode";
-  }
-  return "unknown";
+  using enum LagrangianStatus;
+  return solvers::detail::name_in<LagrangianStatus>({{converged, "converged"},
+                                                     {linear, "linear"},
+                                                     {inner_stalled, "inner_stalled"},
+                                                     {inner_limit, "inner_limit"},
+                                                     {singular, "singular"},
+                                                     {outer_stalled, "outer_stalled"},
+                                                     {outer_limit, "outer_limit"},
+                                                     {internal_resonance, "tongue"},
+                                                     {left_mode, "left_mode"}},
+                                                    status);
 }
 
 void LagrangianModeOptions::validate() const {

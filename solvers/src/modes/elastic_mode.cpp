@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "modes/elastic_backbone.hpp"
 #include "modes/elastic_point.hpp"
@@ -75,23 +76,15 @@ Eigen::VectorXd flexibility_of(const ModalModel& model, const ContactLaws& laws,
 }  // namespace
 
 std::string_view to_string(BackboneStatus status) {
-  switch (status) {
-    case BackboneStatus::reached_energy:
-      return "reached_energy";
-    case BackboneStatus::reached_frequency:
-      return "reached_frequency";
-    case BackboneStatus::internal_resonance:
-      return "internal_resonance";
-    case BackboneStatus::lost:
-      return "lost";
-    case BackboneStatus::no_start:
-      return "no_start";
-    case BackboneStatus::point_limit:
-      return "point_limit";
-    case BackboneStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  using enum BackboneStatus;
+  return detail::name_in<BackboneStatus>({{reached_energy, "reached_energy"},
+                                          {reached_frequency, "reached_frequency"},
+                                          {internal_resonance, "internal_resonance"},
+                                          {lost, "lost"},
+                                          {no_start, "no_start"},
+                                          {point_limit, "point_limit"},
+                                          {cancelled, "cancelled"}},
+                                         status);
 }
 
 void require_free_motions(const TimePair& pair) { make_pair_transform(pair, false); }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "linalg/bracket.hpp"
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "modes/mode_option_checks.hpp"
 #include "modes/mode_solver.hpp"
@@ -13,21 +14,14 @@
 namespace wavebalance::solvers {
 
 std::string_view to_string(ModeStatus status) {
-  switch (status) {
-    case ModeStatus::converged:
-      return "converged";
-    case ModeStatus::linear:
-      return "linear";
-    case ModeStatus::no_contact:
-      return "no_contact";
-    case ModeStatus::cycling:
-      return "cycling";
-    case ModeStatus::singular:
-      return "singular";
-    case ModeStatus::internal_resonance:
-      return "tongue";
-  }
-  return "unknown";
+  using enum ModeStatus;
+  return detail::name_in<ModeStatus>({{converged, "converged"},
+                                      {linear, "linear"},
+                                      {no_contact, "no_contact"},
+                                      {cycling, "cycling"},
+                                      {singular, "singular"},
+                                      {internal_resonance, "tongue"}},
+                                     status);
 }
 
 void ModalModel::validate() const {

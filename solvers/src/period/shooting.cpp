@@ -8,6 +8,7 @@
 
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "period/shooting_propagator.hpp"
 
@@ -206,19 +207,13 @@ class Shooting {
 }  // namespace
 
 std::string_view to_string(ShootingStatus status) {
-  switch (status) {
-    case ShootingStatus::converged:
-      return "converged";
-    case ShootingStatus::stalled:
-      return "stalled";
-    case ShootingStatus::iteration_limit:
-      return "iteration_limit";
-    case ShootingStatus::step_failure:
-      return "step_failure";
-    case ShootingStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  using enum ShootingStatus;
+  return detail::name_in<ShootingStatus>({{converged, "converged"},
+                                          {stalled, "stalled"},
+                                          {iteration_limit, "iteration_limit"},
+                                          {step_failure, "step_failure"},
+                                          {cancelled, "cancelled"}},
+                                         status);
 }
 
 void ShootingOptions::validate(int dofs) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "period/bdf_map.hpp"
 #include "period/repetition.hpp"
@@ -71,19 +72,13 @@ TimeSteppingStatus run(BdfMap& map, PeriodState state, const TimeSteppingOptions
 }  // namespace
 
 std::string_view to_string(TimeSteppingStatus status) {
-  switch (status) {
-    case TimeSteppingStatus::converged:
-      return "converged";
-    case TimeSteppingStatus::subharmonic:
-      return "subharmonic";
-    case TimeSteppingStatus::iteration_limit:
-      return "iteration_limit";
-    case TimeSteppingStatus::step_failure:
-      return "step_failure";
-    case TimeSteppingStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  using enum TimeSteppingStatus;
+  return detail::name_in<TimeSteppingStatus>({{converged, "converged"},
+                                              {subharmonic, "subharmonic"},
+                                              {iteration_limit, "iteration_limit"},
+                                              {step_failure, "step_failure"},
+                                              {cancelled, "cancelled"}},
+                                             status);
 }
 
 void TimeSteppingOptions::validate(int dofs) const {

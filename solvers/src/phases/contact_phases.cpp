@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "phases/phase_equations.hpp"
 
@@ -226,25 +227,16 @@ void ContactPhasesOptions::validate() const {
 }
 
 std::string_view to_string(PhasesStatus status) {
-  switch (status) {
-    case PhasesStatus::converged:
-      return "converged";
-    case PhasesStatus::no_motion_near:
-      return "no_motion_near";
-    case PhasesStatus::tolerance_missed:
-      return "tolerance_missed";
-    case PhasesStatus::rigid_contact:
-      return "rigid_contact";
-    case PhasesStatus::velocity_and_no_mass:
-      return "velocity_and_no_mass";
-    case PhasesStatus::free_structure:
-      return "free_structure";
-    case PhasesStatus::undamped:
-      return "undamped";
-    case PhasesStatus::structural_damping:
-      return "structural_damping";
-  }
-  return "";
+  using enum PhasesStatus;
+  return detail::name_in<PhasesStatus>({{converged, "converged"},
+                                        {no_motion_near, "no_motion_near"},
+                                        {tolerance_missed, "tolerance_missed"},
+                                        {rigid_contact, "rigid_contact"},
+                                        {velocity_and_no_mass, "velocity_and_no_mass"},
+                                        {free_structure, "free_structure"},
+                                        {undamped, "undamped"},
+                                        {structural_damping, "structural_damping"}},
+                                       status);
 }
 
 Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {

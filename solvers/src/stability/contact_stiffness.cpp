@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "linalg/enum_table.hpp"
 #include "stability/contact_along.hpp"
 #include "stability/stiffness_cuts.hpp"
 
@@ -188,29 +189,18 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
 }
 
 std::string_view to_string(StabilityStatus status) {
-  switch (status) {
-    case StabilityStatus::converged:
-      return "converged";
-    case StabilityStatus::no_response:
-      return "no_response";
-    case StabilityStatus::no_finite_stiffness:
-      return "no_finite_stiffness";
-    case StabilityStatus::too_few_samples:
-      return "too_few_samples";
-    case StabilityStatus::too_few_harmonics:
-      return "too_few_harmonics";
-    case StabilityStatus::undamped:
-      return "undamped";
-    case StabilityStatus::coupled_massless:
-      return "coupled_massless";
-    case StabilityStatus::too_many_states:
-      return "too_many_states";
-    case StabilityStatus::structural_damping:
-      return "structural_damping";
-    case StabilityStatus::effort_limit:
-      return "effort_limit";
-  }
-  return "unknown";
+  using enum StabilityStatus;
+  return detail::name_in<StabilityStatus>({{converged, "converged"},
+                                           {no_response, "no_response"},
+                                           {no_finite_stiffness, "no_finite_stiffness"},
+                                           {too_few_samples, "too_few_samples"},
+                                           {too_few_harmonics, "too_few_harmonics"},
+                                           {undamped, "undamped"},
+                                           {coupled_massless, "coupled_massless"},
+                                           {too_many_states, "too_many_states"},
+                                           {structural_damping, "structural_damping"},
+                                           {effort_limit, "effort_limit"}},
+                                          status);
 }
 
 PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const ContactLaws& laws,

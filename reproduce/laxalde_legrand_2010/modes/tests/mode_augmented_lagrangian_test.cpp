@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <set>
 
+#include "enumerators.hpp"
 #include "ll10_rod.hpp"
 #include "wavebalance/contact/multipliers.hpp"
 
@@ -375,6 +377,12 @@ TEST(LagrangianMode, BadArgumentsAreErrors) {
   EXPECT_THROW(LagrangianMode(rod.model, {.mode = 5}), std::invalid_argument);
   EXPECT_THROW(LagrangianMode(rod.model, {.harmonics = 11}), std::invalid_argument);
   EXPECT_THROW(LagrangianMode(rod.model, {.inner_tolerance = 0.0}), std::invalid_argument);
+}
+
+TEST(LagrangianStatus, EveryEnumeratorHasANameOfItsOwn) {
+  std::set<std::string_view> names{"unknown"};
+  for (const auto status : enumerators<LagrangianStatus>())
+    EXPECT_TRUE(names.insert(to_string(status)).second) << to_string(status);
 }
 
 }  // namespace
