@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "linalg/index.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -14,10 +16,9 @@ class HessenbergLeastSquares {
 
   // `column`: the next column of H, one entry longer than the last. False when it adds nothing to the range.
   bool add(Eigen::VectorXd column) {
-    const auto j = static_cast<Eigen::Index>(rotations_.size());
+    const auto j = Index(rotations_.size());
     const double size = column.norm();
-    for (Eigen::Index i = 0; i < j; ++i)
-      rotate(rotations_[static_cast<std::size_t>(i)], column[i], column[i + 1]);
+    for (Index i = 0; i < j; ++i) rotate(rotations_[static_cast<std::size_t>(i)], column[i], column[i + 1]);
     const double length = std::hypot(column[j], column[j + 1]);
     constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
     if (!(length > rounding * size)) return false;
@@ -33,11 +34,11 @@ class HessenbergLeastSquares {
   double residual() const { return std::abs(right_.back()); }
 
   Eigen::VectorXd solution() const {
-    const auto size = static_cast<Eigen::Index>(columns_.size());
+    const auto size = Index(columns_.size());
     Eigen::VectorXd y(size);
-    for (Eigen::Index i = size - 1; i >= 0; --i) {
+    for (Index i = size - 1; i >= 0; --i) {
       double value = right_[static_cast<std::size_t>(i)];
-      for (Eigen::Index j = i + 1; j < size; ++j) value -= columns_[static_cast<std::size_t>(j)][i] * y[j];
+      for (Index j = i + 1; j < size; ++j) value -= columns_[static_cast<std::size_t>(j)][i] * y[j];
       y[i] = value / columns_[static_cast<std::size_t>(i)][i];
     }
     return y;
@@ -75,10 +76,10 @@ GmresResult gmres(const LinearMap& map, const Eigen::VectorXd& right, double tar
   Eigen::VectorXd next;
   while (result.residual > target && result.iterations < max_iterations) {
     map(basis.back(), next);
-    Eigen::VectorXd column(static_cast<Eigen::Index>(basis.size()) + 1);
+    Eigen::VectorXd column(Index(basis.size()) + 1);
     for (std::size_t i = 0; i < basis.size(); ++i) {
-      column[static_cast<Eigen::Index>(i)] = basis[i].dot(next);
-      next -= column[static_cast<Eigen::Index>(i)] * basis[i];
+      column[Index(i)] = basis[i].dot(next);
+      next -= column[Index(i)] * basis[i];
     }
     const double length = next.norm();
     column[column.size() - 1] = length;
@@ -89,7 +90,7 @@ GmresResult gmres(const LinearMap& map, const Eigen::VectorXd& right, double tar
     basis.emplace_back(next / length);
   }
   const Eigen::VectorXd weights = least.solution();
-  for (Eigen::Index i = 0; i < weights.size(); ++i) x += weights[i] * basis[static_cast<std::size_t>(i)];
+  for (Index i = 0; i < weights.size(); ++i) x += weights[i] * basis[static_cast<std::size_t>(i)];
   result.solved = result.residual <= target;
   return result;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/index.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -28,8 +30,7 @@ double stored_energy(const ModeProblem& problem, const Eigen::MatrixXd& displace
   double stored = 0.0;
   for (int c = 0; c < problem.contacts(); ++c) {
     if (problem.laws[c].is_rigid()) continue;
-    for (Eigen::Index l = 0; l < displacement.rows(); ++l)
-      stored += problem.laws[c].potential(displacement(l, c));
+    for (Index l = 0; l < displacement.rows(); ++l) stored += problem.laws[c].potential(displacement(l, c));
   }
   return stored / static_cast<double>(displacement.rows());
 }
@@ -37,7 +38,7 @@ double stored_energy(const ModeProblem& problem, const Eigen::MatrixXd& displace
 void set_amplitudes(const ModeProblem& problem, const Eigen::MatrixXd& modes, ModePoint& point) {
   const PairTransform& transform = problem.transform;
   point.amplitudes.resize(modes.cols(), transform.harmonics.rows());
-  for (Eigen::Index j = 0; j < modes.cols(); ++j) {
+  for (Index j = 0; j < modes.cols(); ++j) {
     const Eigen::VectorXcd spectrum = transform.spectrum(modes.col(j));
     point.amplitudes.row(j) =
         (transform.harmonics * spectrum + transform.conjugated * spectrum.conjugate()).transpose();
@@ -49,7 +50,7 @@ InternalResonance strongest_resonance(const ModeProblem& problem, const Eigen::M
   const PairTransform& transform = problem.transform;
   InternalResonance strongest;
   for (int k = 2; k <= transform.highest(); ++k)
-    for (Eigen::Index j = 0; j < modes.cols(); ++j) {
+    for (Index j = 0; j < modes.cols(); ++j) {
       double square = 0.0;
       const int row = transform.real_rows[static_cast<std::size_t>(k)];
       for (int part = 0; part < (transform.has_sines() ? 2 : 1); ++part)

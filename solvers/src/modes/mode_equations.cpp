@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 
@@ -46,7 +47,7 @@ void ModeEquations::set_forces() {
   const int contacts = problem_.contacts(), rows = problem_.rows();
   const Eigen::Map<const Eigen::MatrixXd> coefficients(y_.data(), rows, contacts);
   samples_ = problem_.unit * detail::product(problem_.transform.synthesis, coefficients);
-  const Eigen::Index points = samples_.rows();
+  const Index points = samples_.rows();
   Eigen::VectorXd force(points * contacts), tangent(points * contacts);
   laws_.evaluate(contacts, samples_.reshaped(), force, tangent);
   force_ = force.reshaped(points, contacts);
@@ -105,8 +106,8 @@ double ModeEquations::imbalance() const {
 
 // R x R: coefficients of the force of a contact from its own.
 Eigen::MatrixXd ModeEquations::force_slope(int contact) const {
-  std::vector<Eigen::Index> active;
-  for (Eigen::Index l = 0; l < tangent_.rows(); ++l)
+  std::vector<Index> active;
+  for (Index l = 0; l < tangent_.rows(); ++l)
     if (tangent_(l, contact) != 0.0) active.push_back(l);
   const Eigen::VectorXd slopes = tangent_.col(contact)(active);
   const PairTransform& transform = problem_.transform;

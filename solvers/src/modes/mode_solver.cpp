@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -57,13 +58,13 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
   std::vector<int> representatives;
   for (const int index : active)
     if (time_mirror(index).size() == 1 || index % samples_ <= samples_ / 2) representatives.push_back(index);
-  const auto count = static_cast<Eigen::Index>(representatives.size());
+  const auto count = Index(representatives.size());
   Eigen::MatrixXd matrix(count, count);
   Eigen::VectorXd right(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
+  for (Index i = 0; i < count; ++i) {
     const int row = representatives[static_cast<std::size_t>(i)];
     right[i] = -mode_.model().gaps[row / samples_];
-    for (Eigen::Index j = 0; j < count; ++j) {
+    for (Index j = 0; j < count; ++j) {
       matrix(i, j) = 0.0;
       for (const int column : time_mirror(representatives[static_cast<std::size_t>(j)]))
         matrix(i, j) += compliance(row, column);
@@ -72,7 +73,7 @@ bool ModeSolver::solve_forces(const std::vector<int>& active, Eigen::VectorXd& f
   const detail::Lu<double> lu(matrix);
   const Eigen::VectorXd values = lu.solve(right);
   force.setZero(unknowns_);
-  for (Eigen::Index i = 0; i < count; ++i)
+  for (Index i = 0; i < count; ++i)
     for (const int index : time_mirror(representatives[static_cast<std::size_t>(i)]))
       force[index] = values[i];
   constexpr double tiny = 1e-13;
@@ -163,7 +164,7 @@ void ModeSolver::finish(ModePoint& point, int harmonics, const Eigen::VectorXd& 
 void ModeSolver::measure_energy(ModePoint& point) const {
   const ModalModel& model = mode_.model();
   double mass = 0.0, stiffness = 0.0;
-  for (Eigen::Index n = 0; n < point.amplitudes.cols(); ++n) {
+  for (Index n = 0; n < point.amplitudes.cols(); ++n) {
     const Eigen::VectorXd squares = point.amplitudes.col(n).cwiseAbs2();
     const double both = n == 0 ? 1.0 : 2.0;
     mass += both * double(n * n) * squares.sum();
@@ -183,7 +184,7 @@ void ModeSolver::measure_complementarity(ModePoint& point) const {
   point.max_penetration = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < fine * samples_; ++k) {
     Eigen::VectorXd displacement = contact.col(0).real();
-    for (Eigen::Index n = 1; n < contact.cols(); ++n)
+    for (Index n = 1; n < contact.cols(); ++n)
       displacement +=
           2.0 * (contact.col(n) * std::polar(1.0, two_pi * double(n) * k / (fine * samples_))).real();
     const double excess = (displacement.cwiseQuotient(mode_.model().gaps).array() - 1.0).maxCoeff();
@@ -196,10 +197,10 @@ void ModeSolver::measure_complementarity(ModePoint& point) const {
 
 void ModeSolver::classify_resonance(ModePoint& point) const {
   double mass = 0.0;
-  for (Eigen::Index n = 1; n < point.amplitudes.cols(); ++n)
+  for (Index n = 1; n < point.amplitudes.cols(); ++n)
     mass += double(n * n) * point.amplitudes.col(n).cwiseAbs2().sum();
-  for (Eigen::Index n = 2; n < point.amplitudes.cols(); ++n)
-    for (Eigen::Index j = 0; j < point.amplitudes.rows(); ++j) {
+  for (Index n = 2; n < point.amplitudes.cols(); ++n)
+    for (Index j = 0; j < point.amplitudes.rows(); ++j) {
       const double share = double(n * n) * std::norm(point.amplitudes(j, n)) / mass;
       if (share > point.resonance.share)
         point.resonance = {static_cast<int>(n), static_cast<int>(j + 1), share};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/monodromy_map.hpp"
 
@@ -18,10 +19,10 @@ using Complex = std::complex<double>;
 
 // The velocity of a motion at t = 0 in the states of the monodromy: of each mode a = q' + i omega_j q, here
 // its rate a' = i omega_j a - s_j^T f. Of the first modes.
-Eigen::VectorXcd rate_of_states(const ModalModel& model, const ModePoint& point, Eigen::Index modes) {
+Eigen::VectorXcd rate_of_states(const ModalModel& model, const ModePoint& point, Index modes) {
   const Eigen::VectorXcd& mean = point.amplitudes.col(0);
   Eigen::VectorXcd displacement = mean.real().cast<Complex>(), velocity = Eigen::VectorXcd::Zero(mean.size());
-  for (Eigen::Index n = 1; n < point.amplitudes.cols(); ++n) {
+  for (Index n = 1; n < point.amplitudes.cols(); ++n) {
     const Eigen::VectorXcd amplitude = 2.0 * point.amplitudes.col(n);
     displacement += amplitude.real().cast<Complex>();
     velocity -= (double(n) * point.omega * amplitude.imag()).cast<Complex>();
@@ -36,14 +37,14 @@ Eigen::VectorXcd rate_of_states(const ModalModel& model, const ModePoint& point,
 // (Re x_1, Im x_1, Re x_2, ...).
 Eigen::VectorXd interleaved(const Eigen::VectorXcd& x) {
   Eigen::VectorXd result(2 * x.size());
-  for (Eigen::Index j = 0; j < x.size(); ++j) result.segment<2>(2 * j) << x[j].real(), x[j].imag();
+  for (Index j = 0; j < x.size(); ++j) result.segment<2>(2 * j) << x[j].real(), x[j].imag();
   return result;
 }
 
 // i x of interleaved columns: the matrix of the symplectic form in coordinates whose length is the action.
 Eigen::MatrixXd turned(const Eigen::MatrixXd& x) {
   Eigen::MatrixXd result(x.rows(), x.cols());
-  for (Eigen::Index j = 0; j < x.rows(); j += 2) {
+  for (Index j = 0; j < x.rows(); j += 2) {
     result.row(j) = -x.row(j + 1);
     result.row(j + 1) = x.row(j);
   }
@@ -71,7 +72,7 @@ Eigen::MatrixXd beginning_with(const Eigen::VectorXcd& x) {
   const Eigen::MatrixXcd reflection =
       Eigen::MatrixXcd::Identity(x.size(), x.size()) - 2.0 / normal.squaredNorm() * normal * normal.adjoint();
   Eigen::MatrixXd result(2 * x.size(), 2 * x.size());
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
+  for (Index j = 0; j < x.size(); ++j) {
     result.col(2 * j) = interleaved(reflection.col(j));
     result.col(2 * j + 1) = interleaved(Complex(0.0, 1.0) * reflection.col(j));
   }
@@ -81,10 +82,10 @@ Eigen::MatrixXd beginning_with(const Eigen::VectorXcd& x) {
 // The map beside phase and energy, and the relative error of its closure.
 std::pair<Eigen::MatrixXd, double> reduced(const Eigen::MatrixXd& map, const ModalModel& model,
                                            const ModePoint& point) {
-  const Eigen::Index modes = map.rows() / 2;
+  const Index modes = map.rows() / 2;
   const Eigen::ArrayXd scale = model.omega_squared.head(modes).array().pow(-0.25);
   Eigen::VectorXd scales(map.rows());
-  for (Eigen::Index j = 0; j < scale.size(); ++j) scales.segment<2>(2 * j).setConstant(scale[j]);
+  for (Index j = 0; j < scale.size(); ++j) scales.segment<2>(2 * j).setConstant(scale[j]);
   const Eigen::MatrixXd canonical = scales.asDiagonal() * map * scales.cwiseInverse().asDiagonal();
   const Eigen::VectorXcd rate = (scale * rate_of_states(model, point, modes).array()).matrix();
   const Eigen::VectorXd x = interleaved(rate);
@@ -92,14 +93,14 @@ std::pair<Eigen::MatrixXd, double> reduced(const Eigen::MatrixXd& map, const Mod
   const Eigen::MatrixXd basis = beginning_with(rate);
   const Eigen::MatrixXd inner =
       detail::transposed_product(basis, detail::product(closed(canonical, x), basis));
-  const Eigen::Index rest = map.rows() - 2;
+  const Index rest = map.rows() - 2;
   return {inner.bottomRightCorner(rest, rest), closure};
 }
 
 // Those of the other modes, of the first `modes`, without contact.
 Eigen::VectorXcd linear_multipliers(const ModalModel& model, double omega, int own, int modes) {
   Eigen::VectorXcd values(2 * (modes - 1));
-  Eigen::Index place = 0;
+  Index place = 0;
   for (int j = 0; j < modes; ++j) {
     if (j == own) continue;
     values[place++] = std::polar(1.0, 2.0 * std::numbers::pi * std::sqrt(model.omega_squared[j]) / omega);

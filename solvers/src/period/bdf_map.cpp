@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "linalg/gsl_errors.hpp"
+#include "linalg/index.hpp"
 #include "period/contact_free_motion.hpp"
 
 namespace wavebalance::solvers {
@@ -25,11 +26,11 @@ double linear_size(const LinearStructure& structure, double frequency, double an
   constexpr double small = 1e-2;
   Eigen::MatrixXcd loads = structure.load_amplitudes(frequency);
   const Eigen::VectorXd sizes = loads.colwise().norm();
-  for (Eigen::Index m = 0; m < loads.cols(); ++m)
+  for (Index m = 0; m < loads.cols(); ++m)
     if (m != 1 && sizes[m] < small * sizes.maxCoeff()) loads.col(m).setZero();
   const Eigen::MatrixXcd response = contact_free_response(structure, loads, frequency);
   double size = 0.0;
-  for (Eigen::Index m = 0; m < loads.cols(); ++m) {
+  for (Index m = 0; m < loads.cols(); ++m) {
     const double state = angular_frequency * std::max(1.0, double(m)) * response.col(m).cwiseAbs().maxCoeff();
     if (std::isfinite(state)) size = std::max(size, state);
   }
@@ -225,10 +226,10 @@ Period BdfMap::advance(const PeriodState& begin, const StepControl& control) {
   if (!integrator_ || begin.motion != end_.motion || control.tolerance != tolerance_)
     start(begin, control.tolerance);
   const double limit = operations() + control.max_operations;
-  const Eigen::Index samples = states_.cols();
+  const Index samples = states_.cols();
   Eigen::MatrixXd states(states_.rows(), samples);
   Period period;
-  for (Eigen::Index next = 0;;) {
+  for (Index next = 0;;) {
     for (; next < samples; ++next) {
       const double time = period_ + double(next) / double(samples);
       if (time > integrator_->end().time) break;

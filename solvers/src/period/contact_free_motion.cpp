@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -17,11 +18,11 @@ constexpr double whole_turn = 2.0 * std::numbers::pi;
 // `series` is at its maximum.
 Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXcd& series, double& start) {
   start = 0.0;
-  Eigen::Index first = 1;
+  Index first = 1;
   while (first < series.size() && series[first] == 0.0) ++first;
   if (first >= series.size()) return amplitudes;
   start = -std::arg(series[first]) / (whole_turn * double(first));
-  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n)
+  for (Index n = 0; n < amplitudes.cols(); ++n)
     amplitudes.col(n) *= std::polar(1.0, whole_turn * double(n) * start);
   return amplitudes;
 }
@@ -29,7 +30,7 @@ Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXc
 // Every `step`-th harmonic: those of a load that repeats `step` times within the period.
 Eigen::VectorXcd every(int step, const Eigen::VectorXcd& harmonics) {
   if (step == 1) return harmonics;
-  const Eigen::Index count = (harmonics.size() + step - 1) / step;
+  const Index count = (harmonics.size() + step - 1) / step;
   return Eigen::VectorXcd(harmonics(Eigen::seqN(0, count, step)));
 }
 
@@ -41,7 +42,7 @@ Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
   forced.load = Eigen::VectorXd::Zero(structure.size());
   forced.forces = structure.forces;
   Eigen::MatrixXcd amplitudes = forced.load_amplitudes(repeats * problem.frequency());
-  const Eigen::Index before = amplitudes.cols(), count = std::max(before, harmonics.size());
+  const Index before = amplitudes.cols(), count = std::max(before, harmonics.size());
   amplitudes.conservativeResize(Eigen::NoChange, count);
   amplitudes.rightCols(count - before).setZero();
   amplitudes.leftCols(harmonics.size()) += structure.load.cast<Complex>() * harmonics.transpose();
@@ -54,7 +55,7 @@ Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
 Eigen::MatrixXcd contact_free_response(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
                                        double frequency) {
   Eigen::MatrixXcd responses = Eigen::MatrixXcd::Zero(structure.size(), amplitudes.cols());
-  for (Eigen::Index n = 0; n < amplitudes.cols(); ++n) {
+  for (Index n = 0; n < amplitudes.cols(); ++n) {
     if (amplitudes.col(n).isZero(0.0)) continue;
     const Complex rate(0.0, whole_turn * frequency * double(n));
     const Complex elastic(1.0, n > 0 ? structure.loss_factor : 0.0);
@@ -78,7 +79,7 @@ ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int sample
   contact_rates_ = contact_responses_;
   initial_displacement_ = responses.real().rowwise().sum();
   initial_velocity_ = Eigen::VectorXd::Zero(structure.size());
-  for (Eigen::Index n = 0; n < responses.cols(); ++n) {
+  for (Index n = 0; n < responses.cols(); ++n) {
     const double rate = whole_turn * frequency_ * double(n);
     contact_rates_.col(n) *= Complex(0.0, rate);
     initial_velocity_ -= rate * responses.col(n).imag();
@@ -95,7 +96,7 @@ Eigen::VectorXd ContactFreeMotion::at(const Eigen::MatrixXcd& responses, double 
   const Complex turn = std::polar(1.0, whole_turn * periods);
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(responses.rows());
   Complex phase(1.0, 0.0);
-  for (Eigen::Index n = 0; n < responses.cols(); ++n, phase *= turn)
+  for (Index n = 0; n < responses.cols(); ++n, phase *= turn)
     motion += phase.real() * responses.col(n).real() - phase.imag() * responses.col(n).imag();
   return motion;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -12,14 +13,14 @@ namespace {
 double least_mass(const Eigen::VectorXd& diagonal) { return 1e-9 * diagonal.mean(); }
 
 // The number of degrees of freedom with less than the least mass.
-Eigen::Index without_mass(const LinearStructure& structure) {
+Index without_mass(const LinearStructure& structure) {
   const Eigen::VectorXd diagonal = structure.mass.diagonal();
   return (diagonal.array() < least_mass(diagonal)).count();
 }
 
 Eigen::MatrixXd with_mass_everywhere(Eigen::MatrixXd mass) {
   const double least = least_mass(mass.diagonal());
-  for (Eigen::Index i = 0; i < mass.rows(); ++i)
+  for (Index i = 0; i < mass.rows(); ++i)
     if (mass(i, i) < least) mass(i, i) = least;
   return mass;
 }
@@ -27,7 +28,7 @@ Eigen::MatrixXd with_mass_everywhere(Eigen::MatrixXd mass) {
 // First-order form of q'' + damping q' + (diag(stiffness) + skew) q = input f, of y = (sigma q, q').
 Eigen::MatrixXd first_order(const Eigen::VectorXd& sigma, const Eigen::VectorXd& stiffness,
                             const std::optional<Eigen::MatrixXd>& skew, const Eigen::MatrixXd& damping) {
-  const Eigen::Index m = sigma.size();
+  const Index m = sigma.size();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * m, 2 * m);
   matrix.topRightCorner(m, m) = sigma.asDiagonal();
   matrix.bottomLeftCorner(m, m) = (-stiffness.cwiseQuotient(sigma)).asDiagonal();
@@ -46,8 +47,7 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   if (circulatory) elastic = (0.5 * (elastic + elastic.transpose())).eval();
   const auto eigen = detail::symmetric_eigen(elastic, mass);
   if (!eigen) return std::nullopt;
-  const Eigen::Index all = eigen->values.size(),
-                     m = std::min<Eigen::Index>(all - without_mass(structure), max_modes);
+  const Index all = eigen->values.size(), m = std::min<Index>(all - without_mass(structure), max_modes);
   if (m < 1) return std::nullopt;
   ModalFlow flow;
   flow.shapes_ = eigen->vectors.leftCols(m);
@@ -79,7 +79,7 @@ ModalFlow ModalFlow::over(double step) const {
 
 // Van Loan's block matrix for a force that is linear in time.
 void ModalFlow::set_step(double step) {
-  const Eigen::Index m = modes(), states = 2 * m, contacts = contact_.rows(), size = states + 2 * contacts;
+  const Index m = modes(), states = 2 * m, contacts = contact_.rows(), size = states + 2 * contacts;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
   block.topLeftCorner(states, states) = step * rates_;
   block.block(m, states, m, contacts) = -step * contact_.transpose();
@@ -91,7 +91,7 @@ void ModalFlow::set_step(double step) {
   begin_ = exponential.block(0, states, states, contacts) - end_;
   contact_exponential_ = contact_ * sigma_.cwiseInverse().asDiagonal() * exponential_.topRows(m);
   step_compliance_ = static_compliance_;
-  for (Eigen::Index c = 0; c < contacts; ++c) step_compliance_.col(c) -= contact_displacement(end_.col(c));
+  for (Index c = 0; c < contacts; ++c) step_compliance_.col(c) -= contact_displacement(end_.col(c));
   step_mobility_ = -contact_ * end_.bottomRows(m);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "period/modal_map.hpp"
 #include "period/repetition.hpp"
@@ -30,7 +31,7 @@ struct Verdict {
 
 // Puts a period of the load that was integrated in its place, the `block`-th of a period of the problem.
 void place(const Motion& period, int block, Motion& whole) {
-  const Eigen::Index steps = period.points();
+  const Index steps = period.points();
   whole.displacement.middleCols(block * steps, steps) = period.displacement;
   whole.velocity.middleCols(block * steps, steps) = period.velocity;
   whole.force.middleCols(block * steps, steps) = period.force;
@@ -140,9 +141,9 @@ class Settling {
   std::optional<Eigen::MatrixXd> defect_slope(const PeriodState& state, const Eigen::VectorXd& end) {
     constexpr double change = 1e-5;
     const double step = change * map_.size(state);
-    const Eigen::Index size = end.size();
+    const Index size = end.size();
     Eigen::MatrixXd slope(size, size);
-    for (Eigen::Index i = 0; i < size; ++i) {
+    for (Index i = 0; i < size; ++i) {
       PeriodState other = state;
       other.motion[i] += step;
       const auto other_end = after_period(map_.balanced(std::move(other)));
@@ -240,13 +241,13 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
 }
 
 Eigen::VectorXd resample(const Eigen::MatrixXd& by_contact, int points, double start) {
-  const Eigen::Index steps = by_contact.cols();
+  const Index steps = by_contact.cols();
   Eigen::VectorXd samples(by_contact.rows() * points);
-  for (Eigen::Index c = 0; c < by_contact.rows(); ++c)
+  for (Index c = 0; c < by_contact.rows(); ++c)
     for (int l = 0; l < points; ++l) {
       const double shifted = double(l) / points - start;
       const double at = (shifted - std::floor(shifted)) * double(steps);
-      const auto before = static_cast<Eigen::Index>(at);
+      const auto before = Index(at);
       const double share = at - double(before);
       samples[c * points + l] =
           (1.0 - share) * by_contact(c, before % steps) + share * by_contact(c, (before + 1) % steps);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -18,8 +19,8 @@ void require_modal_damping(const Eigen::MatrixXd& modal) {
   const double largest = sizes.maxCoeff();
   double worst = 0.0;
   bool coupled = false;
-  for (Eigen::Index j = 0; j < modal.cols(); ++j)
-    for (Eigen::Index i = 0; i < modal.rows(); ++i) {
+  for (Index j = 0; j < modal.cols(); ++j)
+    for (Index i = 0; i < modal.rows(); ++i) {
       const double rounding = std::max(1e-9 * largest, 1e-8 * std::sqrt(sizes[i] * sizes[j]));
       if (i == j || std::abs(modal(i, j)) <= rounding) continue;
       coupled = true;
@@ -59,13 +60,13 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
   contact = along.row(0).transpose();
   const Eigen::MatrixXcd loads = structure.load_amplitudes(frequency_hz);
   linear_response = Eigen::MatrixXcd::Zero(size(), loads.cols());
-  for (Eigen::Index m = 0; m < loads.cols(); ++m) {
+  for (Index m = 0; m < loads.cols(); ++m) {
     linear_response.col(m).real() = shapes.transpose() * loads.col(m).real();
     linear_response.col(m).imag() = shapes.transpose() * loads.col(m).imag();
   }
-  for (Eigen::Index m = 0; m < linear_response.cols(); ++m) {
+  for (Index m = 0; m < linear_response.cols(); ++m) {
     const double omega = double(m) * angular_frequency;
-    for (Eigen::Index k = 0; k < linear_response.rows(); ++k)
+    for (Index k = 0; k < linear_response.rows(); ++k)
       if (linear_response(k, m) != 0.0)
         linear_response(k, m) /= std::complex<double>(stiffness[k] - omega * omega, omega * damping[k]);
   }

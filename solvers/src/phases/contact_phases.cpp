@@ -7,6 +7,7 @@
 #include <string>
 
 #include "linalg/enum_table.hpp"
+#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "phases/phase_equations.hpp"
 
@@ -24,15 +25,15 @@ using detail::Influence, detail::Layout, detail::LegendreNodes, detail::PanelFor
     detail::PhaseModel, detail::PhaseNewtonResult;
 
 // At least so many instants at which the motion found is held against its phases.
-constexpr Eigen::Index least_samples = 256;
+constexpr Index least_samples = 256;
 
 // Slopes at times l / N of the cubic spline through periodic samples that central differences of fourth order
 // give, per period.
 Eigen::MatrixXd slopes_of(const Eigen::MatrixXd& samples) {
-  const Eigen::Index count = samples.cols();
+  const Index count = samples.cols();
   Eigen::MatrixXd slopes(samples.rows(), count);
-  const auto at = [&](Eigen::Index l) { return samples.col((l % count + count) % count); };
-  for (Eigen::Index l = 0; l < count; ++l)
+  const auto at = [&](Index l) { return samples.col((l % count + count) % count); };
+  for (Index l = 0; l < count; ++l)
     slopes.col(l) = double(count) / 12.0 * (8.0 * (at(l + 1) - at(l - 1)) - (at(l + 2) - at(l - 2)));
   return slopes;
 }
@@ -70,7 +71,7 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start) {
 // than.
 Eigen::VectorXd last_parts(const PanelForces& forces, const LegendreNodes& nodes) {
   const Eigen::MatrixXd& coefficients = forces.coefficients();
-  const Eigen::Index q = coefficients.rows();
+  const Index q = coefficients.rows();
   const Eigen::MatrixXd values = detail::legendre_values(nodes.points, q).rightCols(2);
   return (values * coefficients.bottomRows(2)).reshaped();
 }
@@ -94,7 +95,7 @@ bool divide(PhaseIterate& iterate, double share) {
   bool cut = false;
   for (std::size_t p = 0; p < iterate.forces.panels().size(); ++p) {
     const detail::Panel& panel = iterate.forces.panels()[p];
-    if (coefficients.col(static_cast<Eigen::Index>(p)).tail(2).cwiseAbs().maxCoeff() <= limit) continue;
+    if (coefficients.col(Index(p)).tail(2).cwiseAbs().maxCoeff() <= limit) continue;
     detail::Phase& phase = iterate.layout.phases[static_cast<std::size_t>(panel.phase)];
     const double begin = iterate.layout.begin(phase), length = iterate.layout.end(phase) - begin;
     const double from = (panel.begin - begin) / length, to = (panel.end - begin) / length, size = to - from;
@@ -122,7 +123,7 @@ struct Found {
 
 class Search {
  public:
-  Search(const PhaseModel& model, const ContactPhasesOptions& options, Eigen::Index samples)
+  Search(const PhaseModel& model, const ContactPhasesOptions& options, Index samples)
       : model_(model),
         options_(options),
         times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))) {}
@@ -149,7 +150,7 @@ class Search {
   // roughly resolve its force.
   Found at(const Influence& motion, PhaseMotion& result) {
     constexpr double rough = 0.03;
-    constexpr Eigen::Index many_nodes = 12;
+    constexpr Index many_nodes = 12;
     Layout layout = detail::layout_of(model_.laws, motion.displacement, motion.velocity);
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
@@ -177,8 +178,7 @@ class Search {
       if (result.estimated_error <= options_.tolerance) return;
       PhaseIterate finer = found.newton.iterate;
       if (nodes_.count() < options_.max_nodes)
-        nodes_ =
-            LegendreNodes(std::min<Eigen::Index>(options_.max_nodes, nodes_.count() + nodes_.count() / 2));
+        nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, nodes_.count() + nodes_.count() / 2));
       else if (static_cast<int>(finer.forces.panels().size()) > options_.max_panels ||
                !divide(finer, 0.1 * options_.tolerance))
         return;
@@ -249,8 +249,8 @@ Eigen::MatrixXd PhaseMotion::velocity(const Eigen::VectorXd& times) const {
 
 Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
   Eigen::MatrixXd forces(parts->model.response.contacts(), times.size());
-  for (Eigen::Index k = 0; k < times.size(); ++k)
-    for (Eigen::Index c = 0; c < forces.rows(); ++c)
+  for (Index k = 0; k < times.size(); ++k)
+    for (Index c = 0; c < forces.rows(); ++c)
       forces(c, k) = parts->iterate.forces.at(static_cast<int>(c), times[k]);
   return forces;
 }

@@ -2,10 +2,12 @@
 #include <Eigen/Core>
 #include <complex>
 
+#include "linalg/index.hpp"
+
 namespace wavebalance::solvers::detail {
 
 /// Legendre's polynomials P_0 to P_(count - 1) at points x in [-1, 1]: points x count. O(points count).
-Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Eigen::Index count);
+Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Index count);
 
 /// The integrals of exp(z (x - s)) P_k(s) over s from -1 to x, for k < count and points x in [-1, 1]: the
 /// solutions of y' = z y + P_k with y(-1) = 0, for Re z <= 0, to a few units of rounding of the largest.
@@ -16,7 +18,7 @@ Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Eigen::Index coun
 /// 1967].
 class ExponentialIntegrals {
  public:
-  ExponentialIntegrals(const Eigen::VectorXd& points, Eigen::Index count);
+  ExponentialIntegrals(const Eigen::VectorXd& points, Index count);
 
   /// For one z. O(points (count + |z|)).
   void compute(std::complex<double> z);
@@ -26,11 +28,11 @@ class ExponentialIntegrals {
   const Eigen::VectorXcd& decay() const { return decay_; }
 
  private:
-  void reserve(Eigen::Index last);
-  void solve_downwards(std::complex<double> z, Eigen::Index from, Eigen::Index last);
+  void reserve(Index last);
+  void solve_downwards(std::complex<double> z, Index from, Index last);
 
   Eigen::VectorXd points_;
-  Eigen::Index count_;
+  Index count_;
   Eigen::MatrixXd jumps_;  // points x K: P_(k+1) - P_(k-1) in column k
   Eigen::MatrixXcd y_;     // points x K
   Eigen::VectorXcd decay_, inverse_;
@@ -38,9 +40,9 @@ class ExponentialIntegrals {
 
 /// Gauss and Legendre's nodes on [-1, 1] and what leads from values there to Legendre coefficients.
 struct LegendreNodes {
-  explicit LegendreNodes(Eigen::Index count);
+  explicit LegendreNodes(Index count);
 
-  Eigen::Index count() const { return points.size(); }
+  Index count() const { return points.size(); }
   Eigen::VectorXd points;        ///< q, ascending
   Eigen::MatrixXd coefficients;  ///< q x q: of values at the nodes
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -16,23 +17,23 @@ constexpr double turn = 2.0 * std::numbers::pi;
 // Sums of harmonics at instants, each times (2 pi i n)^derivative.
 Eigen::VectorXd sum_of_harmonics(const Eigen::MatrixXcd& amplitudes, const std::vector<Instant>& instants,
                                  int derivative) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(instants.size()));
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(Index(instants.size()));
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const Complex step = std::polar(1.0, turn * instants[i].time);
     Complex wave = 1.0, sum = 0.0;
-    for (Eigen::Index n = 0; n < amplitudes.cols(); ++n, wave *= step)
+    for (Index n = 0; n < amplitudes.cols(); ++n, wave *= step)
       sum +=
           wave * amplitudes(instants[i].contact, n) * (derivative > 0 ? Complex(0.0, turn * double(n)) : 1.0);
-    values[static_cast<Eigen::Index>(i)] = sum.real();
+    values[Index(i)] = sum.real();
   }
   return values;
 }
 
 // The value of samples at times l / N of a cubic in between.
 double interpolated(const Eigen::MatrixXd& values, const Eigen::MatrixXd& slopes, const Instant& at) {
-  const Eigen::Index samples = values.cols();
+  const Index samples = values.cols();
   const double place = (at.time - std::floor(at.time)) * double(samples);
-  const auto l = std::min(static_cast<Eigen::Index>(place), samples - 1), next = (l + 1) % samples;
+  const auto l = std::min(Index(place), samples - 1), next = (l + 1) % samples;
   const double t = place - double(l), u0 = values(at.contact, l), u1 = values(at.contact, next),
                v0 = slopes(at.contact, l) / double(samples), v1 = slopes(at.contact, next) / double(samples);
   return u0 + t * (v0 + t * (3.0 * (u1 - u0) - 2.0 * v0 - v1 + t * (2.0 * (u0 - u1) + v0 + v1)));
@@ -53,7 +54,7 @@ struct Evaluation {
     return force.size() > 0 ? residual.head(force.size()).cwiseAbs().maxCoeff() / force_size : 0.0;
   }
   double error() const {
-    const Eigen::Index m = residual.size() - force.size();
+    const Index m = residual.size() - force.size();
     const double places = m > 0 ? residual.tail(m).cwiseAbs().maxCoeff() / displacement_size : 0.0;
     return std::max(force_error(), places);
   }
@@ -64,10 +65,9 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
   Evaluation result;
   result.panels = at.layout.panels();
   std::vector<Instant> instants = instants_of(result.panels, nodes);
-  const auto n = static_cast<Eigen::Index>(instants.size()),
-             m = static_cast<Eigen::Index>(at.layout.passages.size());
+  const auto n = Index(instants.size()), m = Index(at.layout.passages.size());
   result.force.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i)
+  for (Index i = 0; i < n; ++i)
     result.force[i] = at.forces.in_phase(result.panels[static_cast<std::size_t>(i / nodes.count())].phase,
                                          instants[static_cast<std::size_t>(i)].time);
   for (const Passage& passage : at.layout.passages) instants.push_back({passage.contact, passage.time});
@@ -80,7 +80,7 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
   result.damping.resize(n);
   result.slope.resize(n);
   const PanelForces forces(result.panels, nodes, result.force);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     const Panel& panel = result.panels[static_cast<std::size_t>(i / nodes.count())];
     const int piece = at.layout.phases[static_cast<std::size_t>(panel.phase)].piece;
     const ForceSlopes law =
@@ -91,7 +91,7 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
     result.slope[i] =
         forces.slope_in_phase(panel.phase, instants[static_cast<std::size_t>(i)].time) - law.tangent * v[i];
   }
-  for (Eigen::Index i = 0; i < m; ++i)
+  for (Index i = 0; i < m; ++i)
     result.residual[n + i] = u[n + i] - at.layout.passages[static_cast<std::size_t>(i)].breakpoint;
   result.force_size = std::max(tiny, n > 0 ? result.force.cwiseAbs().maxCoeff() : 0.0);
   result.displacement_size = std::max(tiny, u.size() > 0 ? u.cwiseAbs().maxCoeff() : 0.0);
@@ -106,7 +106,7 @@ Influence by_passages(const PhaseModel& model, const PhaseIterate& at, const Eva
   for (const Passage& passage : at.layout.passages) passages.push_back({passage.contact, passage.time});
   instants.insert(instants.end(), passages.begin(), passages.end());
   const PanelForces forces(now.panels, nodes, now.force);
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(passages.size()));
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(Index(passages.size()));
   for (std::size_t p = 0; p < at.layout.phases.size(); ++p) {
     const Phase& phase = at.layout.phases[p];
     if (phase.begin < 0) continue;
@@ -121,7 +121,7 @@ Influence by_passages(const PhaseModel& model, const PhaseIterate& at, const Eva
 
 // The nodes move with the ends of their panels, where the residual has a slope.
 void add_drift(Eigen::Ref<Eigen::MatrixXd> by_passages, const Evaluation& now, const LegendreNodes& nodes) {
-  for (Eigen::Index i = 0; i < now.force.size(); ++i) {
+  for (Index i = 0; i < now.force.size(); ++i) {
     const Panel& panel = now.panels[static_cast<std::size_t>(i / nodes.count())];
     const double share = 0.5 * (1.0 + nodes.points[i % nodes.count()]);
     const auto add = [&](const Drift& drift, double part) {
@@ -135,7 +135,7 @@ void add_drift(Eigen::Ref<Eigen::MatrixXd> by_passages, const Evaluation& now, c
 
 Eigen::MatrixXd jacobian(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
                          const LegendreNodes& nodes) {
-  const Eigen::Index n = now.force.size(), m = now.residual.size() - n;
+  const Index n = now.force.size(), m = now.residual.size() - n;
   const Influence passages = by_passages(model, at, now, nodes);
   Eigen::MatrixXd result(n + m, n + m);
   result.topLeftCorner(n, n) = now.tangent.asDiagonal() * now.influence.displacement.topRows(n);
@@ -154,7 +154,7 @@ Eigen::MatrixXd jacobian(const PhaseModel& model, const PhaseIterate& at, const 
 
 // By all unknowns, or by the first `count`. Not finite where the matrix is singular.
 Eigen::VectorXd newton_step(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
-                            const LegendreNodes& nodes, Eigen::Index count) {
+                            const LegendreNodes& nodes, Index count) {
   const Lu<double> factor(jacobian(model, at, now, nodes).topLeftCorner(count, count));
   return factor.solve(Eigen::VectorXd(-now.residual.head(count)));
 }
@@ -204,11 +204,10 @@ Eigen::VectorXd PhaseModel::free_velocity(const std::vector<Instant>& instants) 
 Influence PhaseModel::motion(const PanelForces& forces, const Eigen::VectorXd& times) const {
   Influence result = response.motion(forces.panels(), forces.coefficients(), times);
   Eigen::MatrixXcd waves(contact_free.cols(), times.size());
-  for (Eigen::Index l = 0; l < times.size(); ++l)
-    for (Eigen::Index n = 0; n < waves.rows(); ++n)
-      waves(n, l) = std::polar(1.0, turn * double(n) * times[l]);
+  for (Index l = 0; l < times.size(); ++l)
+    for (Index n = 0; n < waves.rows(); ++n) waves(n, l) = std::polar(1.0, turn * double(n) * times[l]);
   Eigen::MatrixXcd rates = contact_free;
-  for (Eigen::Index n = 0; n < rates.cols(); ++n) rates.col(n) *= Complex(0.0, turn * double(n));
+  for (Index n = 0; n < rates.cols(); ++n) rates.col(n) *= Complex(0.0, turn * double(n));
   result.displacement = (contact_free * waves).real() - result.displacement;
   result.velocity = (rates * waves).real() - result.velocity;
   return result;
@@ -225,15 +224,14 @@ PanelForces forces_along(const PhaseModel& model, const Layout& layout, const Le
                          const Influence& motion) {
   const std::vector<Panel> panels = layout.panels();
   const std::vector<Instant> instants = instants_of(panels, nodes);
-  Eigen::VectorXd values(static_cast<Eigen::Index>(instants.size()));
+  Eigen::VectorXd values(Index(instants.size()));
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(motion.velocity.rows(), motion.velocity.cols());
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const Panel& panel = panels[i / static_cast<std::size_t>(nodes.count())];
     const int piece = layout.phases[static_cast<std::size_t>(panel.phase)].piece;
     const double u = interpolated(motion.displacement, motion.velocity, instants[i]),
                  v = model.frequency * interpolated(motion.velocity, none, instants[i]);
-    values[static_cast<Eigen::Index>(i)] =
-        model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u, v).force;
+    values[Index(i)] = model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u, v).force;
   }
   return {panels, nodes, values};
 }
@@ -264,10 +262,10 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     if (result.iterations == max_iterations || !std::isfinite(result.residual)) return result;
     const Eigen::VectorXd step = newton_step(model, result.iterate, now, nodes, now.residual.size());
     if (!step.allFinite()) return result;
-    const Eigen::Index n = now.force.size(), m = step.size() - n;
+    const Index n = now.force.size(), m = step.size() - n;
     const double part = admissible_part(result.iterate.layout, step.tail(m));
     result.iterate.forces = PanelForces(now.panels, nodes, now.force + part * step.head(n));
-    for (Eigen::Index i = 0; i < m; ++i)
+    for (Index i = 0; i < m; ++i)
       result.iterate.layout.passages[static_cast<std::size_t>(i)].time += part * step[n + i];
     result.collapsed = has_collapsed(result.iterate.layout);
     if (result.collapsed) return result;

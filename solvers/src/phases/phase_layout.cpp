@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/index.hpp"
+
 namespace wavebalance::solvers::detail {
 namespace {
 
@@ -60,10 +62,10 @@ std::vector<Step> steps_of(const LawPieces& law, const Eigen::RowVectorXd& displ
                            const Eigen::RowVectorXd& velocity) {
   const int first = law.piece_at(displacement[0]);
   std::vector<Step> steps{{0.0, first, first}};
-  const Eigen::Index samples = displacement.size();
+  const Index samples = displacement.size();
   const double length = 1.0 / double(samples);
-  for (Eigen::Index l = 0; l < samples; ++l) {
-    const Eigen::Index next = (l + 1) % samples;
+  for (Index l = 0; l < samples; ++l) {
+    const Index next = (l + 1) % samples;
     const double start = length * double(l);
     const Cubic motion =
         Cubic::between(displacement[l], length * velocity[l], displacement[next], length * velocity[next]);
@@ -145,7 +147,7 @@ std::vector<Layout::Edge> Layout::edges_of(const Phase& phase) const {
 Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity) {
   Layout layout;
-  for (Eigen::Index c = 0; c < displacement.rows(); ++c) {
+  for (Index c = 0; c < displacement.rows(); ++c) {
     const LawPieces& law = laws[static_cast<std::size_t>(c)];
     append_phases(layout, static_cast<int>(c), law, steps_of(law, displacement.row(c), velocity.row(c)),
                   law.piece_at(displacement(c, 0)));
@@ -175,15 +177,14 @@ bool same_phases(const Layout& a, const Layout& b) {
 
 PanelForces::PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values)
     : panels_(std::move(panels)),
-      coefficients_(nodes.coefficients *
-                    values.reshaped(nodes.count(), static_cast<Eigen::Index>(panels_.size()))) {}
+      coefficients_(nodes.coefficients * values.reshaped(nodes.count(), Index(panels_.size()))) {}
 
 double PanelForces::value(std::size_t panel, double time) const {
   const Panel& at = panels_[panel];
   const double x = 2.0 * (time - at.begin) / at.length() - 1.0;
-  double before = 1.0, now = x, sum = coefficients_(0, static_cast<Eigen::Index>(panel));
-  for (Eigen::Index k = 1; k < coefficients_.rows(); ++k) {
-    sum += coefficients_(k, static_cast<Eigen::Index>(panel)) * now;
+  double before = 1.0, now = x, sum = coefficients_(0, Index(panel));
+  for (Index k = 1; k < coefficients_.rows(); ++k) {
+    sum += coefficients_(k, Index(panel)) * now;
     const double next = (double(2 * k + 1) * x * now - double(k) * before) / double(k + 1);
     before = now;
     now = next;
@@ -213,8 +214,8 @@ double PanelForces::slope_in_phase(int phase, double time) const {
   const Panel& at = panels_[panel];
   const double x = 2.0 * (time - at.begin) / at.length() - 1.0;
   double before = 1.0, now = x, slope = 1.0, sum = 0.0;
-  for (Eigen::Index k = 1; k < coefficients_.rows(); ++k) {
-    sum += coefficients_(k, static_cast<Eigen::Index>(panel)) * slope;
+  for (Index k = 1; k < coefficients_.rows(); ++k) {
+    sum += coefficients_(k, Index(panel)) * slope;
     slope = x * slope + double(k + 1) * now;
     const double next = (double(2 * k + 1) * x * now - double(k) * before) / double(k + 1);
     before = now;

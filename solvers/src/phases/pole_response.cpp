@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -26,7 +27,7 @@ void decay(Complex rate, const Eigen::VectorXd& times, Eigen::Ref<Eigen::VectorX
   constexpr double rounding = 1e-14;
   const double step = times.size() > 1 ? times[1] - times[0] : 0.0;
   const Complex factor = std::exp(rate * step);
-  for (Eigen::Index i = 0; i < times.size(); ++i) {
+  for (Index i = 0; i < times.size(); ++i) {
     const bool follows = i > 0 && std::abs(times[i] - times[i - 1] - step) < rounding;
     values[i] = follows ? values[i - 1] * factor : std::exp(rate * times[i]);
   }
@@ -38,9 +39,9 @@ void decay(Complex rate, const Eigen::VectorXd& times, Eigen::Ref<Eigen::VectorX
 struct PoleResponse::View {
   View(const Panel& panel, const std::vector<Instant>& instants);
 
-  Eigen::Index within() const { return static_cast<Eigen::Index>(inside.size()); }
+  Index within() const { return Index(inside.size()); }
 
-  std::vector<Eigen::Index> inside, outside;  // numbers of instants
+  std::vector<Index> inside, outside;  // numbers of instants
   std::vector<int> inside_contact, outside_contact;
   Eigen::VectorXd since_end;  // outside: periods
   Eigen::VectorXd points;     // inside, then 1: on [-1, 1]
@@ -52,7 +53,7 @@ PoleResponse::View::View(const Panel& panel, const std::vector<Instant>& instant
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const double after = time_after(panel.begin, instants[i].time);
     const bool in = after <= panel.length() * (1.0 + rounding);
-    (in ? inside : outside).push_back(static_cast<Eigen::Index>(i));
+    (in ? inside : outside).push_back(Index(i));
     (in ? inside_contact : outside_contact).push_back(instants[i].contact);
     if (in)
       reached.push_back(std::min(1.0, 2.0 * after / panel.length() - 1.0));
@@ -60,8 +61,8 @@ PoleResponse::View::View(const Panel& panel, const std::vector<Instant>& instant
       ends.push_back(after - panel.length());
   }
   reached.push_back(1.0);
-  points = Eigen::VectorXd::Map(reached.data(), static_cast<Eigen::Index>(reached.size()));
-  since_end = Eigen::VectorXd::Map(ends.data(), static_cast<Eigen::Index>(ends.size()));
+  points = Eigen::VectorXd::Map(reached.data(), Index(reached.size()));
+  since_end = Eigen::VectorXd::Map(ends.data(), Index(ends.size()));
 }
 
 // One panel's integrals for all poles, with the sum of what is local and the factors of what decays.
@@ -72,12 +73,12 @@ struct PoleResponse::Waves {
 };
 
 PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : constant_(dynamics.constant()) {
-  const Eigen::Index contacts = constant_.rows();
-  const auto poles = static_cast<Eigen::Index>(dynamics.poles().size());
+  const Index contacts = constant_.rows();
+  const auto poles = Index(dynamics.poles().size());
   exponents_.resize(poles);
   shapes_.resize(contacts, poles);
   left_.resize(contacts, poles);
-  for (Eigen::Index r = 0; r < poles; ++r) {
+  for (Index r = 0; r < poles; ++r) {
     const ContactPole& pole = dynamics.poles()[static_cast<std::size_t>(r)];
     const double weight = pole.exponent.imag() > 0.0 ? 2.0 : 1.0;
     exponents_[r] = period * pole.exponent;
@@ -87,9 +88,9 @@ PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : con
   jump_ = (shapes_ * left_.transpose()).real();
 }
 
-PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Eigen::Index count,
+PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Index count,
                                         bool velocity) const {
-  const Eigen::Index poles = exponents_.size(), within = view.within();
+  const Index poles = exponents_.size(), within = view.within();
   const double half = 0.5 * panel.length();
   Waves result;
   result.at_end.setZero(poles, count);
@@ -99,7 +100,7 @@ PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Ei
   result.local.setZero(within, count);
   if (velocity) result.rate.setZero(within, count);
   ExponentialIntegrals integrals(view.points, count);
-  for (Eigen::Index r = 0; r < poles; ++r) {
+  for (Index r = 0; r < poles; ++r) {
     const Complex rate = exponents_[r];
     const Complex source = half * left_(panel.contact, r);
     if (source == 0.0) continue;
@@ -108,9 +109,9 @@ PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Ei
     result.at_end.row(r) = (source / (1.0 - std::exp(rate))) * own.row(within);
     result.at_begin.row(r) = std::exp(rate * (1.0 - panel.length())) * result.at_end.row(r);
     decay(rate, view.since_end, result.outer.col(r));
-    for (Eigen::Index i = 0; i < result.outer.rows(); ++i)
+    for (Index i = 0; i < result.outer.rows(); ++i)
       result.outer(i, r) *= shapes_(view.outside_contact[static_cast<std::size_t>(i)], r);
-    for (Eigen::Index i = 0; i < within; ++i) {
+    for (Index i = 0; i < within; ++i) {
       const Complex shape = shapes_(view.inside_contact[static_cast<std::size_t>(i)], r);
       result.inner(i, r) = shape * integrals.decay()[i];
       result.local.row(i) += (shape * source) * own.row(i);
@@ -122,9 +123,9 @@ PoleResponse::Waves PoleResponse::waves(const Panel& panel, const View& view, Ei
 
 Influence PoleResponse::influence(const std::vector<Panel>& panels, const LegendreNodes& nodes,
                                   const std::vector<Instant>& instants, bool velocity) const {
-  const Eigen::Index count = nodes.count(), size = static_cast<Eigen::Index>(instants.size());
+  const Index count = nodes.count(), size = Index(instants.size());
   Influence result;
-  result.displacement.resize(size, count * static_cast<Eigen::Index>(panels.size()));
+  result.displacement.resize(size, count * Index(panels.size()));
   if (velocity) result.velocity.resizeLike(result.displacement);
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const View view(panels[p], instants);
@@ -133,10 +134,10 @@ Influence PoleResponse::influence(const std::vector<Panel>& panels, const Legend
     const auto fill = [&](Eigen::MatrixXd& matrix, const Waves& wave, const Eigen::MatrixXcd& local,
                           const Eigen::MatrixXd& at_once) {
       Eigen::MatrixXd inner = real_product(wave.inner, wave.at_begin) + local.real();
-      for (Eigen::Index i = 0; i < view.within(); ++i)
+      for (Index i = 0; i < view.within(); ++i)
         inner.row(i) +=
             at_once(view.inside_contact[static_cast<std::size_t>(i)], panels[p].contact) * values.row(i);
-      auto columns = matrix.middleCols(static_cast<Eigen::Index>(p) * count, count);
+      auto columns = matrix.middleCols(Index(p) * count, count);
       columns(view.inside, Eigen::all) = product(inner, nodes.coefficients);
       columns(view.outside, Eigen::all) = product(real_product(wave.outer, wave.at_end), nodes.coefficients);
     };
@@ -152,7 +153,7 @@ Influence PoleResponse::influence(const std::vector<Panel>& panels, const Legend
 
 Influence PoleResponse::motion(const std::vector<Panel>& panels, const Eigen::MatrixXd& coefficients,
                                const Eigen::VectorXd& times) const {
-  const Eigen::Index poles = exponents_.size();
+  const Index poles = exponents_.size();
   Eigen::MatrixXcd states = Eigen::MatrixXcd::Zero(times.size(), poles);
   Influence result{Eigen::MatrixXd::Zero(contacts(), times.size()),
                    Eigen::MatrixXd::Zero(contacts(), times.size())};
@@ -160,12 +161,12 @@ Influence PoleResponse::motion(const std::vector<Panel>& panels, const Eigen::Ma
   for (const double time : times) instants.push_back({0, time});
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Panel& panel = panels[p];
-    const Eigen::VectorXd force = coefficients.col(static_cast<Eigen::Index>(p));
+    const Eigen::VectorXd force = coefficients.col(Index(p));
     const View view(panel, instants);
-    const Eigen::Index within = view.within();
+    const Index within = view.within();
     ExponentialIntegrals integrals(view.points, force.size());
     Eigen::VectorXcd outer(view.since_end.size());
-    for (Eigen::Index r = 0; r < poles; ++r) {
+    for (Index r = 0; r < poles; ++r) {
       const Complex rate = exponents_[r], source = 0.5 * panel.length() * left_(panel.contact, r);
       integrals.compute(0.5 * panel.length() * rate);
       const Eigen::VectorXcd own = source * (integrals.values() * force);
@@ -187,14 +188,13 @@ Influence PoleResponse::motion(const std::vector<Panel>& panels, const Eigen::Ma
 
 Influence PoleResponse::impulses(const std::vector<Instant>& impulses, const std::vector<Instant>& instants,
                                  bool velocity) const {
-  const auto size = static_cast<Eigen::Index>(instants.size()),
-             count = static_cast<Eigen::Index>(impulses.size());
+  const auto size = Index(instants.size()), count = Index(impulses.size());
   Influence result;
   result.displacement.setZero(size, count);
   if (velocity) result.velocity.setZero(size, count);
   const Eigen::ArrayXcd periodic = 1.0 / (1.0 - exponents_.array().exp());
-  for (Eigen::Index j = 0; j < count; ++j)
-    for (Eigen::Index i = 0; i < size; ++i) {
+  for (Index j = 0; j < count; ++j)
+    for (Index i = 0; i < size; ++i) {
       const Instant &from = impulses[static_cast<std::size_t>(j)],
                     &to = instants[static_cast<std::size_t>(i)];
       const double after = time_after(from.time, to.time);

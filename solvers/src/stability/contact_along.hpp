@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "linalg/bracket.hpp"
+#include "linalg/index.hpp"
 #include "wavebalance/solvers/balance/contact_law.hpp"
 #include "wavebalance/solvers/time/time_basis.hpp"
 
@@ -21,7 +22,7 @@ class ContactCurve {
       : samples_(std::move(samples)), first_(first), smooth_(trial.pointwise_derivatives() >= 1) {
     if (!trial.band_limited()) return;
     harmonics_.resize(coefficients.size());
-    for (Eigen::Index n = 0; n < harmonics_.size(); ++n)
+    for (Index n = 0; n < harmonics_.size(); ++n)
       harmonics_[n] = (n == 0 ? 1.0 : 2.0) * trial.fourier_coefficient(int(n)) * coefficients[n];
   }
 
@@ -32,7 +33,7 @@ class ContactCurve {
     if (harmonics_.size() == 0) return ((*this)(time + step) - (*this)(time - step)) / (2.0 * step);
     const std::complex<double> turn = std::polar(1.0, 2.0 * std::numbers::pi * time);
     std::complex<double> sum = 0.0;
-    for (Eigen::Index n = harmonics_.size() - 1; n > 0; --n)
+    for (Index n = harmonics_.size() - 1; n > 0; --n)
       sum = (sum + std::complex<double>(0.0, 2.0 * std::numbers::pi * double(n)) * harmonics_[n]) * turn;
     return sum.real();
   }
@@ -43,7 +44,7 @@ class ContactCurve {
     if (harmonics_.size() == 0) return interpolated(time);
     const std::complex<double> turn = std::polar(1.0, 2.0 * std::numbers::pi * time);
     double re = 0.0, im = 0.0;  // Horner's scheme
-    for (Eigen::Index n = harmonics_.size() - 1; n >= 0; --n) {
+    for (Index n = harmonics_.size() - 1; n >= 0; --n) {
       const double next = re * turn.real() - im * turn.imag() + harmonics_[n].real();
       im = re * turn.imag() + im * turn.real() + harmonics_[n].imag();
       re = next;
@@ -53,12 +54,12 @@ class ContactCurve {
 
  private:
   double interpolated(double time) const {
-    const Eigen::Index count = samples_.size();
+    const Index count = samples_.size();
     const double since = time - first_;
     const double position = (since - std::floor(since)) * double(count);
-    const auto left = static_cast<Eigen::Index>(position);
+    const auto left = Index(position);
     const double x = position - double(left);
-    const auto at = [&](Eigen::Index offset) { return samples_[(left + offset + count) % count]; };
+    const auto at = [&](Index offset) { return samples_[(left + offset + count) % count]; };
     if (!smooth_) return (1.0 - x) * at(0) + x * at(1);
     return at(0) * (1.0 - x * x) * (2.0 - x) / 2.0 + at(1) * x * (1.0 + x) * (2.0 - x) / 2.0 -
            (at(-1) * (2.0 - x) + at(2) * (1.0 + x)) * x * (1.0 - x) / 6.0;
@@ -108,7 +109,7 @@ struct ContactAlong {
 };
 
 /// The time between samples l and l + 1 at which the curve crosses the level.
-inline double crossing(const ContactCurve& curve, double level, Eigen::Index l) {
+inline double crossing(const ContactCurve& curve, double level, Index l) {
   const Eigen::VectorXd& samples = curve.samples();
   Bracket bracket{curve.time_of(double(l)), curve.time_of(double(l + 1)), samples[l] - level,
                   samples[(l + 1) % samples.size()] - level};

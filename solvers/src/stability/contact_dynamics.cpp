@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/contact_dynamics_reduced.hpp"
 #include "structure/modal_form.hpp"
@@ -50,7 +51,7 @@ struct FirstOrderForm {
 // where it is regular.
 FirstOrderForm first_order_form(const LinearStructure& structure) {
   const Eigen::MatrixXd mass(structure.mass), damping(structure.damping), stiffness(structure.stiffness);
-  const Eigen::Index n = mass.rows();
+  const Index n = mass.rows();
   const bool inverse = structure.symmetric() ? detail::cholesky(stiffness).has_value()
                                              : !detail::Lu<double>(stiffness).is_singular(1e-12);
   FirstOrderForm form{Eigen::MatrixXd::Zero(2 * n, 2 * n), inverse,
@@ -73,7 +74,7 @@ FirstOrderForm first_order_form(const LinearStructure& structure) {
 // The columns y, by the rows w of the inverse of all eigenvectors: y^T is the part of w^T that belongs to the
 // accelerations times M^-1 or, of the inverse form, that of the first rows times -K^-1.
 Eigen::MatrixXcd left_modes(const FirstOrderForm& form, const Eigen::MatrixXcd& vectors) {
-  const Eigen::Index n = vectors.rows() / 2;
+  const Index n = vectors.rows() / 2;
   const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(2 * n, 2 * n);
   const Eigen::MatrixXcd rows = detail::Lu<Complex>(vectors).solve(identity).transpose();
   const Eigen::MatrixXcd part = form.inverse ? rows.topRows(n) : rows.bottomRows(n);
@@ -83,7 +84,7 @@ Eigen::MatrixXcd left_modes(const FirstOrderForm& form, const Eigen::MatrixXcd& 
 }
 
 ComplexModes complex_modes(const LinearStructure& structure) {
-  const Eigen::Index n = structure.size();
+  const Index n = structure.size();
   const FirstOrderForm form = first_order_form(structure);
   const auto eigen = detail::general_eigen(form.matrix);
   if (!eigen) throw std::invalid_argument("ContactDynamics: no modes found; matrices must be finite");
@@ -94,9 +95,9 @@ ComplexModes complex_modes(const LinearStructure& structure) {
     if (form.inverse) modes.shapes = eigen->vectors.bottomRows(n);
     modes.left = left_modes(form, eigen->vectors);
   }
-  Eigen::Index count = 0;
+  Index count = 0;
   const double largest = eigen->values.cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+  for (Index i = 0; i < 2 * n; ++i) {
     const Complex value = eigen->values[i];
     if (value.imag() < 0.0 || (form.inverse && std::abs(value) <= 1e-13 * largest)) continue;
     const Complex exponent = form.inverse ? 1.0 / value : value;
@@ -107,7 +108,7 @@ ComplexModes complex_modes(const LinearStructure& structure) {
   modes.exponents.conservativeResize(count);
   modes.shapes.conservativeResize(Eigen::NoChange, count);
   // 1 / value of the upper half plane lies in the lower one.
-  for (Eigen::Index i = 0; i < count; ++i)
+  for (Index i = 0; i < count; ++i)
     if (modes.exponents[i].imag() < 0.0) {
       modes.exponents[i] = std::conj(modes.exponents[i]);
       modes.shapes.col(i) = modes.shapes.col(i).conjugate().eval();
@@ -144,7 +145,7 @@ Parts decoupled_parts(const LinearStructure& structure, const ModalForm& modes) 
   const Eigen::VectorXd mass = without_rounding(modes.mass), damping = without_rounding(modes.damping),
                         stiffness = without_rounding(modes.stiffness);
   Parts parts{Eigen::MatrixXd::Zero(contacts.rows(), contacts.rows()), {}, {}};
-  for (Eigen::Index j = 0; j < mass.size(); ++j) {
+  for (Index j = 0; j < mass.size(); ++j) {
     const Eigen::VectorXd shape = contacts.col(j);
     if (mass[j] == 0.0 && damping[j] == 0.0) {
       parts.constant += shape * shape.transpose() / stiffness[j];
@@ -162,7 +163,7 @@ Parts complex_parts(const LinearStructure& structure) {
   const LinearStructure& own = condensed.structure;
   const ComplexModes modes = complex_modes(own);
   Parts parts{std::move(condensed.compliance), {}, {}};
-  for (Eigen::Index j = 0; j < modes.exponents.size(); ++j) {
+  for (Index j = 0; j < modes.exponents.size(); ++j) {
     const Complex exponent = modes.exponents[j];
     const Eigen::VectorXcd mode = modes.shapes.col(j), shape = own.contact_directions * mode;
     Eigen::VectorXcd left = shape;
@@ -197,7 +198,7 @@ double square_of_springs(const LinearStructure& structure, bool small) {
   if (!small) return 1e-8 * largest;
   const auto modes =
       detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
-  const Eigen::Index rigid = structure.rigid_modes.cols();
+  const Index rigid = structure.rigid_modes.cols();
   return modes && rigid < modes->values.size() ? 1e-2 * modes->values[rigid] : 1e-8 * largest;
 }
 
@@ -237,20 +238,20 @@ ContactDynamics::ContactDynamics(const LinearStructure& structure, const Contact
 }
 
 ContactDynamics ContactDynamics::undamped(const Eigen::VectorXd& omega_squared, const Eigen::MatrixXd& shapes,
-                                          Eigen::Index dynamic) {
-  const Eigen::Index modes = omega_squared.size();
+                                          Index dynamic) {
+  const Index modes = omega_squared.size();
   if (shapes.cols() != modes || dynamic < 0 || dynamic > modes || !(omega_squared.array() > 0.0).all())
     throw std::invalid_argument(
         "ContactDynamics::undamped: there are " + std::to_string(modes) + " omega_squared, " +
         std::to_string(shapes.cols()) + " shapes and " + std::to_string(dynamic) +
         " dynamic modes; omega_squared must be positive, with one shape each and no more dynamic modes");
   ContactDynamics result;
-  const Eigen::Index springs = modes - dynamic;
+  const Index springs = modes - dynamic;
   const Eigen::MatrixXd held =
       shapes.rightCols(springs) * omega_squared.tail(springs).cwiseSqrt().cwiseInverse().asDiagonal();
   result.constant_ = detail::product_transposed(held, held);
   std::vector<Section> sections;
-  for (Eigen::Index j = 0; j < dynamic; ++j) {
+  for (Index j = 0; j < dynamic; ++j) {
     const Eigen::VectorXd shape = shapes.col(j);
     sections.push_back({{1.0, 0.0, omega_squared[j]}, shape * shape.transpose(), {}});
     add_poles(1.0, 0.0, omega_squared[j], shape, result.poles_);
@@ -261,11 +262,11 @@ ContactDynamics ContactDynamics::undamped(const Eigen::VectorXd& omega_squared, 
 
 // Those that no contact excites are left out.
 void ContactDynamics::set_sections(const std::vector<Section>& sections) {
-  const auto count = static_cast<Eigen::Index>(sections.size());
+  const auto count = Index(sections.size());
   denominator_.resize(count, 3);
   constant_numerator_.resize(count, constant_.size());
   linear_numerator_.setZero(count, constant_.size());
-  Eigen::Index used = 0;
+  Index used = 0;
   for (const Section& section : sections) {
     if (section.constant.isZero(0.0) && section.linear.isZero(0.0)) continue;
     denominator_.row(used) = section.denominator.transpose();
@@ -281,16 +282,16 @@ void ContactDynamics::set_sections(const std::vector<Section>& sections) {
 
 ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::VectorXd& imaginary,
                                                     bool with_slope) const {
-  const Eigen::Index points = imaginary.size(), sections = denominator_.rows();
+  const Index points = imaginary.size(), sections = denominator_.rows();
   const Eigen::ArrayXd y = imaginary.array();
   // Real and imaginary parts of 1 / d(s) below each other, and of its derivative by s.
   Eigen::MatrixXd weight(2 * points, sections), slope(2 * points, sections);
-  for (Eigen::Index j = 0; j < sections; ++j) {
+  for (Index j = 0; j < sections; ++j) {
     const double a2 = denominator_(j, 0), a1 = denominator_(j, 1), a0 = denominator_(j, 2);
     const double rise = 2.0 * a2 * real + a1, static_part = (a2 * real + a1) * real + a0;
     const double* at = y.data();
     double *wr = &weight(0, j), *wi = wr + points, *sr = &slope(0, j), *si = sr + points;
-    for (Eigen::Index k = 0; k < points; ++k) {
+    for (Index k = 0; k < points; ++k) {
       const double re = static_part - a2 * at[k] * at[k], im = rise * at[k];
       const double scale = 1.0 / (re * re + im * im), vr = re * scale, vi = -im * scale;
       const double square_re = vr * vr - vi * vi, square_im = 2.0 * vr * vi;

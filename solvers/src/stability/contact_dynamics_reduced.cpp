@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 // Appends what `block` adds to the K-orthonormal columns of `basis`, orthogonalised twice, up to the columns
 // of `basis` in all; returns how many columns there are then.
-Eigen::Index append_orthonormal(const Eigen::SparseMatrix<double>& stiffness, const Eigen::MatrixXd& block,
-                                Eigen::MatrixXd& basis, Eigen::Index count) {
-  for (Eigen::Index column = 0; column < block.cols() && count < basis.cols(); ++column) {
+Index append_orthonormal(const Eigen::SparseMatrix<double>& stiffness, const Eigen::MatrixXd& block,
+                         Eigen::MatrixXd& basis, Index count) {
+  for (Index column = 0; column < block.cols() && count < basis.cols(); ++column) {
     Eigen::VectorXd vector = block.col(column);
     const double before = std::sqrt(vector.dot(stiffness * vector));
     for (int pass = 0; pass < 2; ++pass) {
@@ -51,11 +52,11 @@ LinearStructure unsymmetric_reduction(const LinearStructure& structure,
                                       const Eigen::SparseMatrix<double>& metric, int vectors) {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factor;
   factor.compute(structure.stiffness);  // not singular, since its symmetric part is definite
-  Eigen::MatrixXd basis(structure.size(), std::min<Eigen::Index>(vectors, structure.size()));
+  Eigen::MatrixXd basis(structure.size(), std::min<Index>(vectors, structure.size()));
   const Eigen::MatrixXd forces = structure.contact_directions.transpose();
   Eigen::MatrixXd block(structure.size(), 2 * forces.cols());
   block << factor.solve(forces), factor.transpose().solve(forces);
-  Eigen::Index count = append_orthonormal(metric, block, basis, 0), start = 0;
+  Index count = append_orthonormal(metric, block, basis, 0), start = 0;
   while (count < basis.cols() && count > start) {
     const auto last = basis.middleCols(start, count - start);
     block.resize(structure.size(), 2 * last.cols());
@@ -79,9 +80,9 @@ LinearStructure krylov_reduction(const LinearStructure& structure, int vectors) 
                                 " degrees of freedom) is not positive definite; a structure that is reduced "
                                 "must be held, or max_size must be at least its size");
   if (!symmetric) return unsymmetric_reduction(structure, metric, vectors);
-  Eigen::MatrixXd basis(structure.size(), std::min<Eigen::Index>(vectors, structure.size()));
+  Eigen::MatrixXd basis(structure.size(), std::min<Index>(vectors, structure.size()));
   Eigen::MatrixXd block = factor.solve(Eigen::MatrixXd(structure.contact_directions.transpose()));
-  Eigen::Index count = append_orthonormal(structure.stiffness, block, basis, 0), start = 0;
+  Index count = append_orthonormal(structure.stiffness, block, basis, 0), start = 0;
   while (count < basis.cols() && count > start) {
     block = factor.solve(structure.mass * basis.middleCols(start, count - start));
     start = count;

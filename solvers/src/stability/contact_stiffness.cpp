@@ -8,6 +8,7 @@
 #include <string>
 
 #include "linalg/enum_table.hpp"
+#include "linalg/index.hpp"
 #include "stability/contact_along.hpp"
 #include "stability/stiffness_cuts.hpp"
 
@@ -20,9 +21,9 @@ using detail::crossing;
 
 // Whether the curve rises above the level between samples about l that are all below it: the vertex of the
 // parabola through three samples says whether to look, the curve itself decides.
-bool passes_between_samples(const ContactCurve& curve, double level, Eigen::Index l) {
+bool passes_between_samples(const ContactCurve& curve, double level, Index l) {
   const Eigen::VectorXd& samples = curve.samples();
-  const Eigen::Index count = samples.size();
+  const Index count = samples.size();
   const double before = samples[(l + count - 1) % count], at = samples[l], after = samples[(l + 1) % count];
   if (at < before || at < after) return false;
   const double bend = 2.0 * at - before - after, slope = 0.5 * (after - before);
@@ -49,9 +50,9 @@ void add_intervals(int contact, const std::vector<double>& begins, const std::ve
 std::optional<Intervals> intervals_beyond_gap(const ContactAlong& along, int contact) {
   const double gap = along.law.gap();
   const Eigen::VectorXd& samples = along.curve.samples();
-  const Eigen::Index count = samples.size();
+  const Index count = samples.size();
   std::vector<double> openings, closings;
-  for (Eigen::Index l = 0; l < count; ++l) {
+  for (Index l = 0; l < count; ++l) {
     const bool above = samples[l] > gap, next = samples[(l + 1) % count] > gap;
     if (above != next) (next ? closings : openings).push_back(crossing(along.curve, gap, l));
     if (!above && passes_between_samples(along.curve, gap, l) && !(samples[(l + count - 1) % count] > gap) &&
@@ -78,11 +79,11 @@ bool has_slope(const ContactAlong& along, const ContactInterval& interval) {
 // The intervals between the kinks of a law that acts on both sides of its gap, less those without slope.
 Intervals intervals_between_kinks(const ContactAlong& along, int contact) {
   const Eigen::VectorXd& samples = along.curve.samples();
-  const Eigen::Index count = samples.size();
+  const Index count = samples.size();
   std::vector<double> times;
   for (const double kink : along.law.kinks()) {
     const double level = along.flexibility > 0.0 ? kink + along.flexibility * along.law.force(kink) : kink;
-    for (Eigen::Index l = 0; l < count; ++l)
+    for (Index l = 0; l < count; ++l)
       if ((samples[l] > level) != (samples[(l + 1) % count] > level))
         times.push_back(crossing(along.curve, level, l));
   }
@@ -98,7 +99,7 @@ Intervals intervals_between_kinks(const ContactAlong& along, int contact) {
 }
 
 // The time between samples l and l + 1 at which a law begins or ceases to act.
-double change_of_action(const ContactAlong& along, Eigen::Index l) {
+double change_of_action(const ContactAlong& along, Index l) {
   double low = along.curve.time_of(double(l)), high = along.curve.time_of(double(l + 1));
   const bool before = along.acts(low);
   while (high - low > 1e-15) {
@@ -111,12 +112,12 @@ double change_of_action(const ContactAlong& along, Eigen::Index l) {
 
 // The intervals in which a law that depends on the velocity acts; nothing where one of them holds no sample.
 std::optional<Intervals> intervals_of_action(const ContactAlong& along, int contact) {
-  const Eigen::Index count = along.curve.samples().size();
+  const Index count = along.curve.samples().size();
   std::vector<bool> acts(static_cast<std::size_t>(count));
-  for (Eigen::Index l = 0; l < count; ++l)
+  for (Index l = 0; l < count; ++l)
     acts[static_cast<std::size_t>(l)] = along.acts(along.curve.time_of(double(l)));
   std::vector<double> openings, closings;
-  for (Eigen::Index l = 0; l < count; ++l) {
+  for (Index l = 0; l < count; ++l) {
     const bool here = acts[static_cast<std::size_t>(l)],
                next = acts[static_cast<std::size_t>((l + 1) % count)];
     if (here != next) (next ? closings : openings).push_back(change_of_action(along, l));

@@ -7,6 +7,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/gauss_rule.hpp"
+#include "linalg/index.hpp"
 #include "stability/smooth_pieces.hpp"
 
 namespace wavebalance::solvers {
@@ -61,12 +62,12 @@ FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const Pe
     place_nodes(stiffness, *pieces);
   else
     resolved_ = false;
-  const Eigen::Index count = harmonics_ + 2;
+  const Index count = harmonics_ + 2;
   waves_.resize(nodes(), 2 * count);
-  for (Eigen::Index i = 0; i < waves_.rows(); ++i) {
+  for (Index i = 0; i < waves_.rows(); ++i) {
     const Complex turn = std::polar(1.0, two_pi * time_[i]);
     Complex phase = 1.0;
-    for (Eigen::Index n = 0; n < count; ++n, phase *= turn) {
+    for (Index n = 0; n < count; ++n, phase *= turn) {
       waves_(i, n) = phase.real();
       waves_(i, count + n) = phase.imag();
     }
@@ -78,20 +79,20 @@ void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness,
   std::vector<double> times, weights;
   for (const ContactInterval& interval : pieces) {
     const QuadratureRule rule = rule_for(interval, harmonics_);
-    const auto begin = static_cast<Eigen::Index>(times.size());
+    const auto begin = Index(times.size());
     if (ranges_.empty() || ranges_.back().contact != interval.contact)
       ranges_.push_back({interval.contact, begin, 0});
     ranges_.back().count += rule.points.size();
     const double yielding =
         dynamics_.constant()(interval.contact, interval.contact) + at_once_[interval.contact];
-    for (Eigen::Index i = 0; i < rule.points.size(); ++i) {
+    for (Index i = 0; i < rule.points.size(); ++i) {
       const double time = interval.begin + interval.length() * rule.points[i];
       const double tangent = stiffness.tangent(interval.contact, time);
       times.push_back(time);
       weights.push_back(interval.length() * rule.weights[i] * tangent / (1.0 + yielding * tangent));
     }
   }
-  const auto count = static_cast<Eigen::Index>(times.size());
+  const auto count = Index(times.size());
   time_ = Eigen::Map<const Eigen::VectorXd>(times.data(), count);
   weighted_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
 }
@@ -121,7 +122,7 @@ Eigen::MatrixXcd FloquetDeterminant::decaying(Eigen::MatrixXcd compliance) const
 
 // nodes x (2H + 2), exp(2 pi i n t), n = -H - 1..H.
 Eigen::MatrixXcd FloquetDeterminant::phases() const {
-  const Eigen::Index count = harmonics_ + 2;
+  const Index count = harmonics_ + 2;
   const Eigen::MatrixXcd upper = waves_.leftCols(count) + Complex(0.0, 1.0) * waves_.rightCols(count);
   Eigen::MatrixXcd all(nodes(), 2 * harmonics_ + 2);
   all << upper.rightCols(count - 1).conjugate().rowwise().reverse(), upper.leftCols(count - 1);
@@ -132,23 +133,23 @@ Eigen::MatrixXcd FloquetDeterminant::phases() const {
 // q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), one real product per contact j.
 std::vector<Eigen::MatrixXcd> FloquetDeterminant::kernels(
     const std::vector<const Eigen::MatrixXcd*>& compliances) const {
-  const Eigen::Index size = nodes(), parts = 2 * size;
+  const Index size = nodes(), parts = 2 * size;
   const Eigen::MatrixXd waves = waves_.transpose();
   std::vector<Eigen::MatrixXcd> results(compliances.size(), Eigen::MatrixXcd(size, size));
-  Eigen::MatrixXd left(waves.rows(), parts * Eigen::Index(compliances.size()));
+  Eigen::MatrixXd left(waves.rows(), parts * Index(compliances.size()));
   for (const Range& column : ranges_) {
     for (std::size_t k = 0; k < compliances.size(); ++k)
       for (const Range& row : ranges_)
         set_weighted_waves(waves, row, compliances[k]->col(pair(row, column)),
-                           left.middleCols(parts * Eigen::Index(k) + 2 * row.begin, 2 * row.count));
+                           left.middleCols(parts * Index(k) + 2 * row.begin, 2 * row.count));
     const Eigen::MatrixXd products =
         detail::transposed_product(left, waves.middleCols(column.begin, column.count));
     for (std::size_t k = 0; k < compliances.size(); ++k)
-      for (Eigen::Index j = 0; j < column.count; ++j) {
-        const double* from = &products(parts * Eigen::Index(k), j);
+      for (Index j = 0; j < column.count; ++j) {
+        const double* from = &products(parts * Index(k), j);
         Complex* to = &results[k](0, column.begin + j);
         const double weight = weighted_[column.begin + j];
-        for (Eigen::Index i = 0; i < size; ++i) to[i] = {weight * from[2 * i], weight * from[2 * i + 1]};
+        for (Index i = 0; i < size; ++i) to[i] = {weight * from[2 * i], weight * from[2 * i + 1]};
       }
   }
   return results;
@@ -158,13 +159,13 @@ std::vector<Eigen::MatrixXcd> FloquetDeterminant::kernels(
 void FloquetDeterminant::set_weighted_waves(const Eigen::MatrixXd& waves, const Range& row,
                                             const Eigen::Ref<const Eigen::VectorXcd>& g,
                                             Eigen::Ref<Eigen::MatrixXd> columns) const {
-  const Eigen::Index count = harmonics_ + 2;
+  const Index count = harmonics_ + 2;
   Eigen::ArrayXcd p(count), q(count);
   p << g[harmonics_ + 1], g.tail(harmonics_) + g.segment(1, harmonics_).reverse(), g[0];
   q << 0.0, Complex(0.0, 1.0) * (g.tail(harmonics_) - g.segment(1, harmonics_).reverse()),
       Complex(0.0, -1.0) * g[0];
   const Eigen::ArrayXd p_re = p.real(), p_im = p.imag(), q_re = q.real(), q_im = q.imag();
-  for (Eigen::Index i = 0; i < row.count; ++i) {
+  for (Index i = 0; i < row.count; ++i) {
     const auto cosines = waves.col(row.begin + i).array().head(count);
     const auto sines = waves.col(row.begin + i).array().tail(count);
     columns.col(2 * i).array().head(count) = cosines * p_re + sines * q_re;
@@ -212,12 +213,12 @@ Complex FloquetDeterminant::log_of(const ContactDynamics::Values& values) {
 int FloquetDeterminant::real_sign(double shift, int first) {
   ++evaluations_;
   if (nodes() == 0) return 1;
-  const Eigen::Index count = harmonics_ + 1;
+  const Index count = harmonics_ + 1;
   const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(count, shift, harmonics_ + shift);
   Eigen::MatrixXcd compliance = 2.0 * decaying(dynamics_.compliance(0.0, omega_ * orders).compliance);
   if (first == 0) compliance.row(0) *= 0.5;
   Eigen::MatrixXcd turned = phases().rightCols(count);
-  for (Eigen::Index i = 0; i < turned.rows() && shift != 0.0; ++i)
+  for (Index i = 0; i < turned.rows() && shift != 0.0; ++i)
     turned.row(i) *= std::polar(1.0, two_pi * shift * time_[i]);
   Eigen::MatrixXd result(nodes(), nodes()), left, right;
   for (const Range& column : ranges_) {
@@ -242,7 +243,7 @@ int FloquetDeterminant::sign_at_zero() { return real_sign(0.0, 0); }
 int FloquetDeterminant::sign_at_half() { return real_sign(0.5, 1); }
 
 FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
-  const Eigen::Index count = 2 * harmonics_ + 1;
+  const Index count = 2 * harmonics_ + 1;
   Mode mode{Eigen::MatrixXcd::Zero(dynamics_.contacts(), count), {}};
   mode.force = mode.displacement;
   if (nodes() == 0) return mode;
@@ -270,7 +271,7 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
           responses.col(c + dynamics_.contacts() * d).transpose().cwiseProduct(mode.force.row(d)) +
           dynamics_.constant()(c, d) * mode.force.row(d);
   mode.displacement -= at_once_.asDiagonal() * mode.force;
-  Eigen::Index row = 0, column = 0;
+  Index row = 0, column = 0;
   const double largest = mode.displacement.cwiseAbs().maxCoeff(&row, &column);
   if (!(largest > 0.0)) return mode;
   const Complex scale = 1.0 / mode.displacement(row, column);
@@ -313,9 +314,9 @@ double median(Eigen::VectorXd values) {
 // harmonics; it is reduced to n = H as for a mass, but not where high modes yield like springs.
 double omitted(const Contacts& contacts, const Eigen::MatrixXcd& beyond, const Eigen::VectorXd& at_once,
                const Eigen::VectorXd& constant, int harmonics) {
-  const Eigen::Index count = contacts.stiffness.size();
+  const Index count = contacts.stiffness.size();
   double worst = 0.0;
-  for (Eigen::Index c = 0; c < count; ++c) {
+  for (Index c = 0; c < count; ++c) {
     const double typical = median((beyond.col(c * (count + 1)).array() - at_once[c]).abs().matrix());
     const double yielding = 1.0 + contacts.stiffness[c] * (constant[c] + at_once[c]);
     const double relative = (at_once.isZero(0.0) ? 2.25 : 1.0) * typical * contacts.stiffness[c] / yielding;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "stability/stability_checks.hpp"
@@ -106,10 +107,10 @@ Eigen::VectorXd polynomial(const CharacteristicPolynomial& characteristic, int c
 }
 
 // How many coefficients exceed the noise of the truncated harmonics, that of the upper half of them.
-Eigen::Index significant(const Eigen::VectorXd& coefficients) {
+Index significant(const Eigen::VectorXd& coefficients) {
   const Eigen::VectorXd sizes = coefficients.cwiseAbs();
   const double noise = 4.0 * sizes.tail(sizes.size() / 2).maxCoeff();
-  Eigen::Index count = sizes.size();
+  Index count = sizes.size();
   while (count > 1 && sizes[count - 1] <= std::max(noise, 1e-13 * sizes.maxCoeff())) --count;
   return count;
 }
@@ -118,7 +119,7 @@ Eigen::Index significant(const Eigen::VectorXd& coefficients) {
 // pair the upper one.
 std::vector<Complex> approximate_multipliers(const CharacteristicPolynomial& characteristic, double least) {
   Eigen::VectorXd coefficients;
-  Eigen::Index count = 0;
+  Index count = 0;
   for (int points = characteristic.points(); points <= max_points; points *= 2) {
     coefficients = polynomial(characteristic, points);
     count = significant(coefficients);

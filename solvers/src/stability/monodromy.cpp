@@ -9,6 +9,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/gauss_rule.hpp"
+#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/monodromy_pieces.hpp"
@@ -23,9 +24,9 @@ using Complex = std::complex<double>;
 // Row i: the values at points[i] of the polynomials that are 1 at one of the nodes and 0 at the others.
 Eigen::MatrixXd lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points) {
   Eigen::MatrixXd values = Eigen::MatrixXd::Ones(points.size(), nodes.size());
-  for (Eigen::Index i = 0; i < points.size(); ++i)
-    for (Eigen::Index k = 0; k < nodes.size(); ++k)
-      for (Eigen::Index j = 0; j < nodes.size(); ++j)
+  for (Index i = 0; i < points.size(); ++i)
+    for (Index k = 0; k < nodes.size(); ++k)
+      for (Index j = 0; j < nodes.size(); ++j)
         if (j != k) values(i, k) *= (points[i] - nodes[j]) / (nodes[k] - nodes[j]);
   return values;
 }
@@ -40,7 +41,7 @@ class Propagator {
         period_(period),
         rule_(gauss_rule(nodes)) {
     // Integrals up to node i of the polynomials of the nodes, by Gauss nodes below it.
-    for (Eigen::Index i = 0; i < rule_.points.size(); ++i)
+    for (Index i = 0; i < rule_.points.size(); ++i)
       below_.push_back(lagrange(rule_.points, rule_.points[i] * rule_.points));
   }
 
@@ -81,14 +82,14 @@ class Propagator {
   }
 
   PartMaps maps_of(const std::vector<int>& contacts, double length) const {
-    const auto closed = static_cast<Eigen::Index>(contacts.size());
-    const Eigen::Index nodes = rule_.points.size(), size = nodes * closed;
+    const auto closed = Index(contacts.size());
+    const Index nodes = rule_.points.size(), size = nodes * closed;
     PartMaps maps{Eigen::MatrixXd::Zero(size, size),
                   Eigen::MatrixXd(size, states_.size()),
                   Eigen::MatrixXd(states_.size(), size),
                   {},
                   {}};
-    for (Eigen::Index i = 0; i < nodes; ++i) {
+    for (Index i = 0; i < nodes; ++i) {
       const double point = rule_.points[i];
       maps.free.middleRows(i * closed, closed) = states_.free_motion(length * point)(contacts, Eigen::all);
       maps.impulses.middleCols(i * closed, closed) =
@@ -103,13 +104,13 @@ class Propagator {
 
   // The displacements after an impulse rise from h(0), so that the velocities under a force f have h(0) f.
   void add_rates(const std::vector<int>& contacts, double length, PartMaps& maps) const {
-    const auto closed = static_cast<Eigen::Index>(contacts.size());
-    const Eigen::Index nodes = rule_.points.size(), size = nodes * closed;
+    const auto closed = Index(contacts.size());
+    const Index nodes = rule_.points.size(), size = nodes * closed;
     maps.memory_rate.setZero(size, size);
     maps.free_rate.resize(size, states_.size());
     const Eigen::MatrixXd at_once = detail::product(states_.free_motion(0.0)(contacts, Eigen::all),
                                                     states_.after_impulse(0.0)(Eigen::all, contacts));
-    for (Eigen::Index i = 0; i < nodes; ++i) {
+    for (Index i = 0; i < nodes; ++i) {
       maps.free_rate.middleRows(i * closed, closed) =
           states_.free_velocity(length * rule_.points[i])(contacts, Eigen::all);
       maps.memory_rate.block(i * closed, i * closed, closed, closed) = at_once;
@@ -121,7 +122,7 @@ class Propagator {
   Eigen::MatrixXd damped_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
                                 const Eigen::VectorXd& tangent, const Eigen::MatrixXd& states) const {
     Eigen::VectorXd damping(tangent.size());
-    Eigen::Index row = 0;
+    Index row = 0;
     for (const double point : rule_.points)
       for (const int contact : piece.closed)
         damping[row++] = stiffness_.damping(contact, begin + length * point);
@@ -137,7 +138,7 @@ class Propagator {
   Eigen::MatrixXd contact_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
                                  const Eigen::MatrixXd& states) const {
     Eigen::VectorXd tangent(maps.memory.rows());
-    Eigen::Index row = 0;
+    Index row = 0;
     for (const double point : rule_.points)
       for (const int contact : piece.closed)
         tangent[row++] = stiffness_.tangent(contact, begin + length * point);
@@ -153,7 +154,7 @@ class Propagator {
   // motion.
   static Eigen::MatrixXd forces_of_rigid(const Eigen::VectorXd& tangent, Eigen::MatrixXd matrix,
                                          Eigen::MatrixXd free) {
-    for (Eigen::Index row = 0; row < tangent.size(); ++row) {
+    for (Index row = 0; row < tangent.size(); ++row) {
       if (std::isinf(tangent[row])) continue;
       matrix.row(row) *= tangent[row];
       matrix(row, row) += 1.0;
@@ -164,17 +165,17 @@ class Propagator {
 
   // integral up to node i of h(t_i - s) times the polynomials of the nodes; `motion` are the displacements of
   // all contacts in the states, or their velocities for h'.
-  void add_memory(const std::vector<int>& contacts, double length, Eigen::Index i,
-                  const Eigen::MatrixXd& motion, Eigen::MatrixXd& matrix) const {
-    const auto closed = static_cast<Eigen::Index>(contacts.size());
+  void add_memory(const std::vector<int>& contacts, double length, Index i, const Eigen::MatrixXd& motion,
+                  Eigen::MatrixXd& matrix) const {
+    const auto closed = Index(contacts.size());
     const double reach = length * rule_.points[i];
     const Eigen::MatrixXd& polynomials = below_[static_cast<std::size_t>(i)];
     const Eigen::MatrixXd displaced = motion(contacts, Eigen::all);
-    for (Eigen::Index q = 0; q < rule_.points.size(); ++q) {
+    for (Index q = 0; q < rule_.points.size(); ++q) {
       const Eigen::MatrixXd impulse =
           states_.after_impulse(reach * (1.0 - rule_.points[q]))(Eigen::all, contacts);
       const Eigen::MatrixXd memory = reach * period_ * rule_.weights[q] * detail::product(displaced, impulse);
-      for (Eigen::Index k = 0; k < rule_.points.size(); ++k)
+      for (Index k = 0; k < rule_.points.size(); ++k)
         matrix.block(i * closed, k * closed, closed, closed) += polynomials(q, k) * memory;
     }
   }
@@ -188,9 +189,9 @@ class Propagator {
 };
 
 // The generator Lambda of free motion, a' = Lambda a, block diagonal.
-Eigen::MatrixXd generator(const ContactDynamics& dynamics, Eigen::Index size) {
+Eigen::MatrixXd generator(const ContactDynamics& dynamics, Index size) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-  Eigen::Index i = 0;
+  Index i = 0;
   for (const ContactPole& pole : dynamics.poles()) {
     const double re = pole.exponent.real(), im = pole.exponent.imag();
     matrix(i, i) = re;
@@ -289,7 +290,7 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
                               double frequency, const MonodromyOptions& options) {
   const PeriodicStiffness stiffness = checked_stiffness(dynamics, of_contacts, frequency, options);
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
-  const Eigen::Index size = propagator.states().size();
+  const Index size = propagator.states().size();
   const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
   if (!resolving) return Eigen::MatrixXd::Constant(size, size, std::nan(""));
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
@@ -318,7 +319,7 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
                            double frequency, const MonodromyOptions& options) {
   const PeriodicStiffness stiffness = checked_stiffness(dynamics, of_contacts, frequency, options);
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
-  const Eigen::Index size = propagator.states().size();
+  const Index size = propagator.states().size();
   auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
   if (!resolving) return Eigen::VectorXcd::Constant(size, std::nan(""));
   const auto left = propagator.states().left_after(begin_with_free_flight(*resolving));
@@ -326,7 +327,7 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
   for (const Piece& piece : *resolving) propagator.pass(piece, states);
   if (!states.allFinite()) return Eigen::VectorXcd::Constant(size, std::nan(""));
   Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(size);
-  multipliers.head(static_cast<Eigen::Index>(left.size())) = by_falling_modulus(states(left, Eigen::all));
+  multipliers.head(Index(left.size())) = by_falling_modulus(states(left, Eigen::all));
   return multipliers;
 }
 

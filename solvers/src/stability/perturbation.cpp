@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "balance/unknown_in_form.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -15,14 +16,13 @@ using Complex = std::complex<double>;
 // contact-major.
 Eigen::VectorXcd samples(const Eigen::MatrixXcd& harmonics, double angle, int periods, const TimePair& pair) {
   const int points = pair.points();
-  const Eigen::Index highest = harmonics.cols() / 2;
+  const Index highest = harmonics.cols() / 2;
   Eigen::VectorXcd values = Eigen::VectorXcd::Zero(harmonics.rows() * points);
   for (int l = 0; l < points; ++l) {
     const double time = double(periods) * (double(l) / points + pair.first_sample());
-    for (Eigen::Index n = -highest; n <= highest; ++n) {
+    for (Index n = -highest; n <= highest; ++n) {
       const Complex wave = std::polar(1.0, angle * time + 2.0 * std::numbers::pi * double(n) * time);
-      for (Eigen::Index c = 0; c < harmonics.rows(); ++c)
-        values[c * points + l] += harmonics(c, n + highest) * wave;
+      for (Index c = 0; c < harmonics.rows(); ++c) values[c * points + l] += harmonics(c, n + highest) * wave;
     }
   }
   return values;

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "linalg/index.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers {
@@ -13,9 +14,9 @@ class PoleStates {
   /// `period` in s. `dynamics` must outlive it.
   PoleStates(const ContactDynamics& dynamics, double period);
 
-  Eigen::Index size() const { return size_; }
+  Index size() const { return size_; }
   /// Those of which a free flight of `time` leaves more than rounding.
-  std::vector<Eigen::Index> left_after(double time) const;
+  std::vector<Index> left_after(double time) const;
 
   /// C x n: displacements of the contacts (m), and their velocities (m/s), a time after the states.
   Eigen::MatrixXd free_motion(double time) const;
@@ -31,8 +32,8 @@ class PoleStates {
 
   const ContactDynamics& dynamics_;
   double period_;
-  Eigen::Index size_ = 0;
-  std::vector<Eigen::Index> begins_;
+  Index size_ = 0;
+  std::vector<Index> begins_;
 };
 
 }  // namespace wavebalance::solvers

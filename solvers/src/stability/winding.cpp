@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "linalg/index.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -134,7 +136,7 @@ class MultiplierPolynomial {
   FloquetDeterminant::Value operator()(double nu) {
     const Complex x = std::polar(1.0, -nu * period_);
     Complex value = 0.0, slope = 0.0;
-    for (Eigen::Index m = degrees() - 1; m >= -negative(); --m) {
+    for (Index m = degrees() - 1; m >= -negative(); --m) {
       slope = slope * x + value;
       value = value * x + coefficients_[m >= 0 ? m : m + coefficients_.size()];
     }
@@ -148,8 +150,8 @@ class MultiplierPolynomial {
 
  private:
   // Powers 0..degrees() - 1 are taken, and -negative()..-1: the truncated harmonics leave some of these.
-  Eigen::Index degrees() const { return coefficients_.size() / 2; }
-  Eigen::Index negative() const { return coefficients_.size() / 8; }
+  Index degrees() const { return coefficients_.size() / 2; }
+  Index negative() const { return coefficients_.size() / 8; }
 
   Complex log_at(double share) {
     const double nu = 0.5 * share * determinant_.angular_frequency();

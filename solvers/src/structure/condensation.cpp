@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "linalg/index.hpp"
 #include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
 #include "structure/largest_entry.hpp"
@@ -103,11 +104,10 @@ MethodPointer make_method(const LinearStructure& structure, CondensationMethod& 
 
 // The column of contact c in the sum of all loads with their amplitudes (K x L), or with 1 if there are none.
 template <class Matrix, class Amplitudes>
-auto sum_of_loads(const Matrix& responses, Eigen::Index c, Eigen::Index contacts,
-                  const Amplitudes& amplitudes) {
+auto sum_of_loads(const Matrix& responses, Index c, Index contacts, const Amplitudes& amplitudes) {
   using Column = Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, 1>;
   Column sum = Column::Zero(responses.rows());
-  for (Eigen::Index l = 0; l * contacts < responses.cols(); ++l)
+  for (Index l = 0; l * contacts < responses.cols(); ++l)
     if (amplitudes.size() == 0)
       sum += responses.col(c + contacts * l);
     else
@@ -117,11 +117,11 @@ auto sum_of_loads(const Matrix& responses, Eigen::Index c, Eigen::Index contacts
 
 // NaN where squares leave the range of numbers.
 RoundingErrors relative_errors(const CondensedSpectrum& spectrum, const Eigen::MatrixXcd& load) {
-  const Eigen::Index contacts = spectrum.compliance_error.cols();
+  const Index contacts = spectrum.compliance_error.cols();
   const bool one_load = spectrum.load_response.cols() == contacts;
   const Eigen::MatrixXd load_sizes = load.cwiseAbs();
   double largest = 0.0, response = 0.0, error = 0.0;  // squares
-  for (Eigen::Index c = 0; c < contacts; ++c) {
+  for (Index c = 0; c < contacts; ++c) {
     largest = std::max(largest, spectrum.compliance.col(c * (contacts + 1)).cwiseAbs2().maxCoeff());
     if (!one_load) {
       response += sum_of_loads(spectrum.load_response, c, contacts, load).squaredNorm();
@@ -210,7 +210,7 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
 
 void Condensation::condense_by_method(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                                       CondensedSpectrum& result, const Eigen::MatrixXcd& load) {
-  const Eigen::Index size = factors[0].size(), count = contacts();
+  const Index size = factors[0].size(), count = contacts();
   for (auto* matrix : {&result.compliance, &result.compliance_slope}) matrix->resize(size, count * count);
   for (auto* matrix : {&result.load_response, &result.load_response_slope})
     matrix->resize(size, count * loads_);
@@ -224,10 +224,10 @@ void Condensation::condense_by_method(const StiffnessSpectrum& factors, const St
 
 void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                                     CondensedSpectrum& result) {
-  const Eigen::Index points = factors[0].size();
+  const Index points = factors[0].size();
   make_twins(points);
-  const int workers = static_cast<int>(std::min<Eigen::Index>(threads_, Eigen::Index(twins_.size()) + 1));
-  parallel_for(workers, points, [&](int worker, Eigen::Index k) {
+  const int workers = static_cast<int>(std::min<Index>(threads_, Index(twins_.size()) + 1));
+  parallel_for(workers, points, [&](int worker, Index k) {
     Method& method = worker == 0 ? *this : *twins_[static_cast<std::size_t>(worker) - 1];
     const CondensedPoint point =
         method.dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
@@ -245,8 +245,8 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
   }
 }
 
-void Condensation::Method::make_twins(Eigen::Index points) {
-  while (static_cast<Eigen::Index>(twins_.size()) + 1 < std::min<Eigen::Index>(threads_, points)) {
+void Condensation::Method::make_twins(Index points) {
+  while (Index(twins_.size()) + 1 < std::min<Index>(threads_, points)) {
     std::unique_ptr<Method> other = twin();
     if (!other) return;
     twins_.push_back(std::move(other));

@@ -1,5 +1,6 @@
 #include "structure/condensation_direct.hpp"
 
+#include "linalg/index.hpp"
 #include "linalg/safe_norm.hpp"
 
 namespace wavebalance::solvers {
@@ -8,7 +9,7 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
                                                 const ImpedanceCoefficients& derivatives) {
   factorize(factors);
   const int count = contacts();
-  const Eigen::Index loads = loads_.cols();
+  const Index loads = loads_.cols();
   Eigen::MatrixXcd right(size(), count + loads);
   right.leftCols(count) =
       Eigen::MatrixXd(structure_.contact_directions.transpose()).cast<std::complex<double>>();
@@ -37,10 +38,10 @@ void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen:
   const Eigen::MatrixXd squares = response.cwiseAbs2(), moduli = squares.cwiseSqrt();
   const Eigen::MatrixXd left_squares = left.cwiseAbs2(), left_moduli = left_squares.cwiseSqrt();
   point.load_response_error.resize(count * loads_.cols());
-  for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
+  for (Index l = 0; l < loads_.cols(); ++l) {
     const auto loaded = moduli.col(count + l);
     Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
-    for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Eigen::Index(d)] * loaded);
+    for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Index(d)] * loaded);
     point.load_response_error.segment(count * l, count) =
         rounding_unit * (left_moduli.transpose() * perturbed);
   }

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 #include "structure/condensation_method.hpp"
 #include "structure/modal_form.hpp"
 
@@ -13,7 +14,7 @@ using Complex = std::complex<double>;
 Eigen::MatrixXd modal_loads(const LinearStructure& structure, const Eigen::MatrixXd& shapes) {
   const Eigen::MatrixXd loads = structure.load_shapes();
   Eigen::MatrixXd modal(shapes.cols(), loads.cols());
-  for (Eigen::Index l = 0; l < loads.cols(); ++l) modal.col(l) = shapes.transpose() * loads.col(l);
+  for (Index l = 0; l < loads.cols(); ++l) modal.col(l) = shapes.transpose() * loads.col(l);
   return modal;
 }
 
@@ -32,9 +33,9 @@ class ModalMethod final : public Condensation::Method {
     // Before the terms of S shapes cancel: bodies that move in unison hardly move against each other.
     const ContactDirections magnitudes = structure.contact_directions.cwiseAbs();
     const Eigen::MatrixXd summed = magnitudes * modes_.shapes.cwiseAbs();
-    const Eigen::Index count = contacts_.rows();
+    const Index count = contacts_.rows();
     terms_.topRows(count) = contacts_.cwiseAbs().cwiseProduct(summed);
-    for (Eigen::Index l = 0; l < loads_.cols(); ++l)
+    for (Index l = 0; l < loads_.cols(); ++l)
       terms_.middleRows(count * (1 + l), count) = summed * loads_.col(l).cwiseAbs().asDiagonal();
     terms_ *= rounding_unit;
   }
@@ -48,7 +49,7 @@ class ModalMethod final : public Condensation::Method {
     moduli_.col(0) = compliance.abs2();
     record(scale_.require_regular(factors, std::sqrt(moduli_.col(0).dot(size_squares_)), 1.0));
     const Eigen::ArrayXcd slope = -compliance.square() * combine(derivatives);
-    const Eigen::Index count = contacts_.rows();
+    const Index count = contacts_.rows();
     // One real product computes the real and imaginary parts of both.
     Eigen::MatrixXd weighted(4 * count, contacts_.cols());
     weighted << contacts_ * compliance.real().matrix().asDiagonal(),
@@ -60,7 +61,7 @@ class ModalMethod final : public Condensation::Method {
     point.compliance_slope = joined(parts.bottomRows(2 * count));
     point.load_response.resize(count * loads_.cols());
     point.load_response_slope.resize(count * loads_.cols());
-    for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
+    for (Index l = 0; l < loads_.cols(); ++l) {
       const Eigen::VectorXd loaded = weighted * loads_.col(l);
       point.load_response.segment(count * l, count) = joined(loaded.head(2 * count));
       point.load_response_slope.segment(count * l, count) = joined(loaded.tail(2 * count));
@@ -77,7 +78,7 @@ class ModalMethod final : public Condensation::Method {
 
  private:
   static Eigen::MatrixXcd joined(const Eigen::MatrixXd& parts) {
-    const Eigen::Index count = parts.rows() / 2;
+    const Index count = parts.rows() / 2;
     return parts.topRows(count) + Complex(0.0, 1.0) * parts.bottomRows(count);
   }
 
@@ -96,7 +97,7 @@ class ModalMethod final : public Condensation::Method {
   // Rounding of the sums, eps sum_j |s_j w_j l_j|, of s_j itself, and of the modes: with E the errors of
   // their diagonal form, s^T W E W l with W = diag(w), at most ||W s|| ||E|| ||W l||.
   void set_errors(const ImpedanceCoefficients& factors, CondensedPoint& point) {
-    const Eigen::Index count = contacts_.rows();
+    const Index count = contacts_.rows();
     const double error = std::abs(factors[0]) * modes_.errors[0] + std::abs(factors[1]) * modes_.errors[1] +
                          std::abs(factors[2]) * modes_.errors[2];
     moduli_.col(1) = moduli_.col(0).cwiseSqrt();
@@ -104,7 +105,7 @@ class ModalMethod final : public Condensation::Method {
     rounding_.noalias() = terms_ * moduli_.col(1);
     point.compliance_error = rounding_.head(count) + error * norms_.head(count);
     point.load_response_error.resize(count * loads_.cols());
-    for (Eigen::Index l = 0; l < loads_.cols(); ++l)
+    for (Index l = 0; l < loads_.cols(); ++l)
       point.load_response_error.segment(count * l, count) =
           rounding_.segment(count * (1 + l), count) +
           error * (norms_.head(count) * norms_[count + l]).cwiseSqrt();

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <vector>
 
+#include "linalg/index.hpp"
 #include "linalg/safe_norm.hpp"
 #include "structure/condensation_method.hpp"
 #include "structure/pivot_recursion.hpp"
@@ -26,7 +27,7 @@ struct Bands {
 
   explicit Bands(const Eigen::SparseMatrix<double>& matrix)
       : diagonal(matrix.diagonal()), off(matrix.rows() - 1) {
-    for (Eigen::Index i = 0; i + 1 < matrix.rows(); ++i) off[i] = matrix.coeff(i + 1, i);
+    for (Index i = 0; i + 1 < matrix.rows(); ++i) off[i] = matrix.coeff(i + 1, i);
   }
 };
 
@@ -70,11 +71,11 @@ class TridiagonalMethod final : public Condensation::Method {
       point.load_response_error = tip.cwiseAbs() * point.compliance_error[0];
       return point;
     }
-    const Eigen::Index count = contacts() * loads_.cols();
+    const Index count = contacts() * loads_.cols();
     point.load_response.resize(count);
     point.load_response_slope.resize(count);
     point.load_response_error.resize(count);
-    for (Eigen::Index l = 0; l < loads_.cols(); ++l) set_load(l, derivatives, point);
+    for (Index l = 0; l < loads_.cols(); ++l) set_load(l, derivatives, point);
     return point;
   }
 
@@ -85,7 +86,7 @@ class TridiagonalMethod final : public Condensation::Method {
     for (int i = 0; i < size(); ++i) recursion.eliminate(row(i));
     if (recursion.weak()) return Method::condense(factors, derivatives, result);
     recursion.last(result.compliance.col(0), result.compliance_slope.col(0), result.compliance_error.col(0));
-    for (Eigen::Index l = 0; l < loads_.cols(); ++l) {
+    for (Index l = 0; l < loads_.cols(); ++l) {
       const double load = loads_(single_, l);
       result.load_response.col(l) = load * result.compliance.col(0);
       result.load_response_slope.col(l) = load * result.compliance_slope.col(0);
@@ -148,7 +149,7 @@ class TridiagonalMethod final : public Condensation::Method {
 
   // |y|^T A |x| with the bands of A in diagonal_error_ and off_error_, as in DirectMethod.
   double perturbation(const Eigen::VectorXd& y, const Eigen::VectorXd& x) const {
-    const Eigen::Index last = y.size() - 1;
+    const Index last = y.size() - 1;
     return diagonal_error_.cwiseProduct(y).dot(x) +
            off_error_.head(last).cwiseProduct(y.head(last)).dot(x.tail(last)) +
            off_error_.head(last).cwiseProduct(y.tail(last)).dot(x.head(last));
@@ -157,20 +158,20 @@ class TridiagonalMethod final : public Condensation::Method {
   static Eigen::VectorXd magnitudes(const Eigen::VectorXcd& values) { return values.cwiseAbs2().cwiseSqrt(); }
 
   // Response to load l, with its slope and error; units_ and the factors are those of the point.
-  void set_load(Eigen::Index l, const ImpedanceCoefficients& derivatives, CondensedPoint& point) {
+  void set_load(Index l, const ImpedanceCoefficients& derivatives, CondensedPoint& point) {
     loaded_ = loads_.col(l).cast<Complex>();
     solve(loaded_);
     const Eigen::VectorXd sizes = magnitudes(loaded_);
     point.load_response.segment(l * contacts(), contacts()) = directions_ * loaded_;
     for (std::size_t c = 0; c < units_.size(); ++c) {
-      const Eigen::Index entry = Eigen::Index(c) + l * contacts();
+      const Index entry = Index(c) + l * contacts();
       point.load_response_slope[entry] = -product(units_[c], derivatives, loaded_);
       point.load_response_error[entry] = rounding_unit * perturbation(magnitudes(units_[c]), sizes);
     }
   }
 
   // The part of x along a contact direction.
-  Complex along(Eigen::Index contact, const Eigen::VectorXcd& x) const {
+  Complex along(Index contact, const Eigen::VectorXcd& x) const {
     Complex sum = 0.0;
     for (ContactDirections::InnerIterator entry(directions_, contact); entry; ++entry)
       sum += entry.value() * x[entry.col()];
@@ -184,7 +185,7 @@ class TridiagonalMethod final : public Condensation::Method {
     point.compliance_slope.resize(contacts(), contacts());
     point.compliance_error.resize(contacts());
     for (std::size_t c = 0; c < units_.size(); ++c) {
-      const auto column = Eigen::Index(c);
+      const auto column = Index(c);
       units_[c].setZero();
       for (ContactDirections::InnerIterator entry(directions_, column); entry; ++entry)
         units_[c][entry.col()] += entry.value();
@@ -193,7 +194,7 @@ class TridiagonalMethod final : public Condensation::Method {
       const Eigen::VectorXd unit = magnitudes(units_[c]);
       point.compliance_error[column] = rounding_unit * perturbation(unit, unit);
       for (std::size_t d = 0; d <= c; ++d) {
-        const auto row = Eigen::Index(d);
+        const auto row = Index(d);
         point.compliance(row, column) = point.compliance(column, row) = along(row, units_[c]);
         point.compliance_slope(row, column) = point.compliance_slope(column, row) =
             -product(units_[d], derivatives, units_[c]);

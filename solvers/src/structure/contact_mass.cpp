@@ -3,6 +3,7 @@
 #include <map>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -19,21 +20,20 @@ TouchedPart touched_part(const LinearStructure& structure, const std::vector<int
   std::map<int, Eigen::VectorXd> columns;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (ContactDirections::InnerIterator entry(structure.contact_directions, contacts[i]); entry; ++entry) {
-      const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
-      columns.try_emplace(static_cast<int>(entry.col()), zero).first->second[Eigen::Index(i)] = entry.value();
+      const Eigen::VectorXd zero = Eigen::VectorXd::Zero(Index(contacts.size()));
+      columns.try_emplace(static_cast<int>(entry.col()), zero).first->second[Index(i)] = entry.value();
     }
   TouchedPart part;
-  part.directions.resize(static_cast<Eigen::Index>(contacts.size()),
-                         static_cast<Eigen::Index>(columns.size()));
+  part.directions.resize(Index(contacts.size()), Index(columns.size()));
   for (const auto& [column, values] : columns) {
-    part.directions.col(static_cast<Eigen::Index>(part.columns.size())) = values;
+    part.directions.col(Index(part.columns.size())) = values;
     part.columns.push_back(column);
   }
   return part;
 }
 
 // The rank of `rows`, whose entries are small beside `size` where they are rounding.
-Eigen::Index rank_of(const Eigen::MatrixXd& rows, double size) {
+Index rank_of(const Eigen::MatrixXd& rows, double size) {
   constexpr double negligible = 1e-12;
   const auto gram = detail::symmetric_eigen(detail::product_transposed(rows, rows));
   return gram ? (gram->values.array() > negligible * size).count() : 0;
@@ -47,7 +47,7 @@ bool has_mass(const Sparse& mass, int column) {
 
 // Columns that the mass maps to zero; none of a matrix too large for its eigenvectors.
 Eigen::MatrixXd null_vectors(const Sparse& mass) {
-  constexpr Eigen::Index most = 400;
+  constexpr Index most = 400;
   constexpr double negligible = 1e-12;
   if (mass.rows() > most) return Eigen::MatrixXd(mass.rows(), 0);
   const auto eigen = detail::symmetric_eigen(Eigen::MatrixXd(mass));
@@ -62,10 +62,10 @@ bool contacts_are_massless(const LinearStructure& structure, const std::vector<i
   if (contacts.empty()) return true;
   const TouchedPart part = touched_part(structure, contacts);
   const double size = part.directions.squaredNorm();
-  const Eigen::Index rank = rank_of(part.directions, size);
+  const Index rank = rank_of(part.directions, size);
   Eigen::MatrixXd without_mass = part.directions;
   for (std::size_t i = 0; i < part.columns.size(); ++i)
-    if (has_mass(structure.mass, part.columns[i])) without_mass.col(static_cast<Eigen::Index>(i)).setZero();
+    if (has_mass(structure.mass, part.columns[i])) without_mass.col(Index(i)).setZero();
   if (rank_of(without_mass, size) == rank) return true;
   const Eigen::MatrixXd moved = null_vectors(structure.mass)(part.columns, Eigen::all);
   return rank_of(detail::product(part.directions, moved), size) == rank;

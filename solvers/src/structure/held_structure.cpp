@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "linalg/dense.hpp"
+#include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 // As many rows as R has columns, each the largest of what those before it leave of R.
-std::vector<Eigen::Index> pivot_rows(Eigen::MatrixXd rest) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < rest.cols(); ++i) {
-    Eigen::Index row = 0;
+std::vector<Index> pivot_rows(Eigen::MatrixXd rest) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < rest.cols(); ++i) {
+    Index row = 0;
     rest.rowwise().squaredNorm().maxCoeff(&row);
     const Eigen::RowVectorXd direction = rest.row(row).normalized();
     rest -= (rest * direction.transpose()) * direction;
@@ -37,11 +38,10 @@ HeldStructure hold(const LinearStructure& structure) {
   HeldStructure held{structure, {}, size_of_springs(structure), {}};
   held.structure.rigid_modes.resize(rigid.rows(), 0);
   const double largest = modes ? modes->values.tail(1)[0] : 0.0;
-  const Eigen::Index drifting =
-      largest > 0.0 ? (modes->values.array() <= least * largest).count() : rigid.cols();
-  const Eigen::Index resisted = rigid.cols() - drifting;
+  const Index drifting = largest > 0.0 ? (modes->values.array() <= least * largest).count() : rigid.cols();
+  const Index resisted = rigid.cols() - drifting;
   held.directions.resize(moved.rows(), resisted);
-  for (Eigen::Index i = 0; i < resisted; ++i)
+  for (Index i = 0; i < resisted; ++i)
     held.directions.col(i) =
         moved * modes->vectors.col(drifting + i) / std::sqrt(modes->values[drifting + i]);
   held.drifting = modes ? Eigen::MatrixXd(rigid * modes->vectors.leftCols(drifting)) : rigid;
@@ -49,7 +49,7 @@ HeldStructure hold(const LinearStructure& structure) {
       Eigen::MatrixXd(structure.contact_directions.transpose() * held.directions)
           .sparseView();  // S^T Q, n x q
   held.structure.stiffness += held.stiffness * Eigen::SparseMatrix<double>(springs * springs.transpose());
-  for (const Eigen::Index row : pivot_rows(held.drifting))
+  for (const Index row : pivot_rows(held.drifting))
     held.structure.stiffness.coeffRef(row, row) += held.stiffness;
   return held;
 }

@@ -5,12 +5,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "linalg/index.hpp"
 #include "structure/largest_entry.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-void require_square(const Eigen::SparseMatrix<double>& matrix, Eigen::Index size, const char* name) {
+void require_square(const Eigen::SparseMatrix<double>& matrix, Index size, const char* name) {
   if (matrix.rows() == size && matrix.cols() == size) return;
   throw std::invalid_argument("LinearStructure: " + std::string(name) + " is " +
                               std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
@@ -18,7 +19,7 @@ void require_square(const Eigen::SparseMatrix<double>& matrix, Eigen::Index size
                               " entries, so it must be square of that size");
 }
 
-void require_directions(const ContactDirections& directions, Eigen::Index size) {
+void require_directions(const ContactDirections& directions, Index size) {
   const std::string name = "LinearStructure: contact_directions";
   if (directions.rows() < 1 || directions.cols() != size)
     throw std::invalid_argument(name + " is " + std::to_string(directions.rows()) + " x " +
@@ -39,7 +40,7 @@ void require_directions(const ContactDirections& directions, Eigen::Index size) 
   }
 }
 
-void require_force(const PeriodicForce& force, std::size_t index, Eigen::Index size) {
+void require_force(const PeriodicForce& force, std::size_t index, Index size) {
   const std::string name = "LinearStructure: forces[" + std::to_string(index) + "]";
   if (force.shape.size() != size)
     throw std::invalid_argument(name + " has a shape of " + std::to_string(force.shape.size()) +
@@ -87,7 +88,7 @@ void LinearStructure::validate() const {
 Eigen::MatrixXd LinearStructure::load_shapes() const {
   Eigen::MatrixXd shapes(load.size(), load_count());
   shapes.col(0) = load;
-  for (std::size_t l = 0; l < forces.size(); ++l) shapes.col(Eigen::Index(l) + 1) = forces[l].shape;
+  for (std::size_t l = 0; l < forces.size(); ++l) shapes.col(Index(l) + 1) = forces[l].shape;
   return shapes;
 }
 
@@ -97,7 +98,7 @@ void LinearStructure::transform_loads(const Eigen::MatrixXd& transformation) {
 }
 
 Eigen::MatrixXcd LinearStructure::load_amplitudes(double frequency) const {
-  Eigen::Index count = 2;
+  Index count = 2;
   for (const PeriodicForce& force : forces) count = std::max(count, force.harmonics.size());
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(load.size(), count);
   result.col(1) = load;
@@ -134,7 +135,7 @@ void LinearStructure::require_single_contact(const char* caller) const {
 
 ContactDirections contact_rows(const std::vector<int>& dofs, int size) {
   std::vector<bool> taken(static_cast<std::size_t>(std::max(size, 0)), false);
-  ContactDirections directions(static_cast<Eigen::Index>(dofs.size()), size);
+  ContactDirections directions(Index(dofs.size()), size);
   for (std::size_t c = 0; c < dofs.size(); ++c) {
     const std::string name = "contact_rows: dofs[" + std::to_string(c) + "] is " + std::to_string(dofs[c]);
     if (dofs[c] < 0 || dofs[c] >= size)
@@ -142,7 +143,7 @@ ContactDirections contact_rows(const std::vector<int>& dofs, int size) {
     if (taken[static_cast<std::size_t>(dofs[c])])
       throw std::invalid_argument(name + " again; each contact must be another degree of freedom");
     taken[static_cast<std::size_t>(dofs[c])] = true;
-    directions.insert(static_cast<Eigen::Index>(c), dofs[c]) = 1.0;
+    directions.insert(Index(c), dofs[c]) = 1.0;
   }
   directions.makeCompressed();
   return directions;

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/index.hpp"
 #include "structure/condensation_method.hpp"
 
 namespace wavebalance::solvers {
 
 PivotRecursion::PivotRecursion(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives)
     : chunks_(static_cast<std::size_t>((factors[0].size() + block_size - 1) / block_size)) {
-  const Eigen::Index last = factors[0].size() - 1;
+  const Index last = factors[0].size() - 1;
   for (std::size_t c = 0; c < chunks_.size(); ++c)
     for (std::size_t d = 0; d < 3; ++d) {
       Chunk& chunk = chunks_[c];
-      for (Eigen::Index i = 0; i < block_size; ++i) {
-        const Eigen::Index k = std::min(static_cast<Eigen::Index>(c) * block_size + i, last);
+      for (Index i = 0; i < block_size; ++i) {
+        const Index k = std::min(Index(c) * block_size + i, last);
         chunk.factors[d].re[i] = factors[d][k].real();
         chunk.factors[d].im[i] = factors[d][k].imag();
         chunk.derivatives[d].re[i] = derivatives[d][k].real();
@@ -70,9 +71,9 @@ void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
 
 void PivotRecursion::last(Eigen::Ref<Eigen::VectorXcd> inverse, Eigen::Ref<Eigen::VectorXcd> slope,
                           Eigen::Ref<Eigen::VectorXd> error) const {
-  for (Eigen::Index k = 0; k < inverse.size(); ++k) {
+  for (Index k = 0; k < inverse.size(); ++k) {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(k / block_size)];
-    const Eigen::Index i = k % block_size;
+    const Index i = k % block_size;
     inverse[k] = {chunk.inverse.re[i], chunk.inverse.im[i]};
     slope[k] = {chunk.slope.re[i], chunk.slope.im[i]};
     error[k] = (rounding_unit / weak_pivot) * chunk.error[i] * std::norm(inverse[k]);
