@@ -13,8 +13,6 @@
 namespace wavebalance::bench {
 namespace {
 
-constexpr double unknown = Point::unknown;
-
 Point named(const std::string& method, double tolerance) {
   Point point;
   point.method = method;
@@ -27,7 +25,7 @@ double error_of(const Study& study, const Eigen::VectorXd& displacement) {
 }
 
 Point dense_point(const Study& study, int functions, double max_seconds) {
-  Point point = named("dense", unknown);
+  Point point = named("dense", solvers::missing);
   point.pair = {"fourier", "fourier"};
   point.inner_products = "quadrature";
   point.functions = functions;

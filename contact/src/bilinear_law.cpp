@@ -34,8 +34,8 @@ ForceAndTangent BilinearLaw::resolvent(double v, double flexibility) const {
   if (beyond != 0.0 && past / beyond >= 0.0)
     // One division of the whole, since at_kink and the rest cancel where the flexibility is large.
     return {detail::saturate_both((at_kink + beyond_ * (v - kink_)) / beyond), beyond_ / beyond};
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {none, none};
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  return {missing, missing};
 }
 
 LawDescription BilinearLaw::description() {

@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
-#include <limits>
 #include <stdexcept>
 
 #include "arrays.hpp"
@@ -32,7 +31,7 @@ solvers::PeriodicResponse singular_response(int samples, double frequency) {
   solvers::PeriodicResponse response;
   response.status = solvers::SolveStatus::singular;
   response.frequency = frequency;
-  response.residual = std::numeric_limits<double>::quiet_NaN();
+  response.residual = solvers::missing;
   response.displacement = Eigen::VectorXd::Constant(samples, response.residual);
   response.contact_force = response.displacement;
   response.held_force = response.displacement;
@@ -95,8 +94,7 @@ solvers::Motion contact_motion(const Response& response, int points) {
 solvers::Motion structure_motion(const Response& response, int points) {
   return unlocked([&](const solvers::Observer&) {
     const std::lock_guard alone(response.problem->alone);
-    solvers::Motion motion =
-        response.problem->with(response.laws).structure_motion(response.found, points);
+    solvers::Motion motion = response.problem->with(response.laws).structure_motion(response.found, points);
     motion.displacement = response.problem->recovered(motion.displacement);
     motion.velocity = response.problem->recovered(motion.velocity);
     return motion;
@@ -126,8 +124,7 @@ void add_motion(py::module_& module) {
 void add_response(py::module_& module) {
   add_motion(module);
   py::class_<Response>(module, "Response")
-      .def_property_readonly(
-          "converged", [](const Response& one) { return one.found.converged(); })
+      .def_property_readonly("converged", [](const Response& one) { return one.found.converged(); })
       .def_property_readonly("status", [](const Response& one) { return to_string(one.found.status); })
       .def_property_readonly("frequency", [](const Response& one) { return one.found.frequency; })
       .def_property_readonly("residual", [](const Response& one) { return one.found.residual; })

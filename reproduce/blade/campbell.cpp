@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "figures.hpp"
@@ -20,7 +19,6 @@ constexpr double largest_rpm = 12000.0;
 constexpr int speeds = 11;
 constexpr double lowest = 500.0, highest = 900.0;  // Hz, of the picture
 constexpr int claimed_order = 5;
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 double rad_per_s(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 
@@ -61,7 +59,7 @@ Diagram campbell(const RotatingBlade& blade, const app::Scene& scene) {
                                     curve.early_end.empty() && !curve.interruptions.empty()
                                         ? reason(curve.interruptions.back())
                                         : curve.status());
-      row.emplace_back(point.accepted() ? point.omega / (2.0 * std::numbers::pi) : missing);
+      row.emplace_back(point.accepted() ? point.omega / (2.0 * std::numbers::pi) : solvers::missing);
     }
     table.append_row(row);
   }
@@ -116,7 +114,7 @@ double crossing(const app::Table& table, double energy, int order) {
     const double before = hz[i - 1] - order * rpm[i - 1] / 60.0, after = hz[i] - order * rpm[i] / 60.0;
     if (before >= 0.0 && after <= 0.0) return rpm[i - 1] + (rpm[i] - rpm[i - 1]) * before / (before - after);
   }
-  return missing;
+  return solvers::missing;
 }
 
 void claims(report::Artefact& artefact, const app::Table& table) {

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace wavebalance::cases {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+using solvers::missing;
 
 std::string kind(solvers::SpecialPointType type) {
   std::string name(to_string(type));

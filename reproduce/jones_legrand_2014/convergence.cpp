@@ -14,13 +14,11 @@
 namespace wavebalance::jl14 {
 namespace {
 
-constexpr double not_found = std::numeric_limits<double>::quiet_NaN();
-
 std::string case_file(int case_number) { return "case" + std::to_string(case_number) + ".toml"; }
 
 Measures measures_of(const Case& study, const app::Response& response, int functions, bool energies) {
-  Measures m{not_found, not_found, not_found, not_found,         not_found,
-             not_found, not_found, not_found, response.converged};
+  Measures m{solvers::missing, solvers::missing, solvers::missing, solvers::missing,  solvers::missing,
+             solvers::missing, solvers::missing, solvers::missing, response.converged};
   if (!response.converged) return m;
   const Eigen::VectorXd u = response.displacement(), exact = study.reference().displacement();
   const Eigen::VectorXd middle = cell_midpoints(u, functions),
@@ -109,7 +107,7 @@ std::vector<double> Convergence::largest(Measure measure, int case_number,
   for (std::size_t i = 0; i < functions.size(); ++i)
     for (const auto& name : names) {
       const double value = at(measure, case_number, name, functions[i]);
-      values[i] = std::isnan(value) || std::isnan(values[i]) ? not_found : std::max(values[i], value);
+      values[i] = std::isnan(value) || std::isnan(values[i]) ? solvers::missing : std::max(values[i], value);
     }
   return values;
 }
@@ -121,7 +119,7 @@ std::vector<double> Convergence::smallest(Measure measure, int case_number,
   for (std::size_t i = 0; i < functions.size(); ++i)
     for (const auto& name : names) {
       const double value = at(measure, case_number, name, functions[i]);
-      values[i] = std::isnan(value) || std::isnan(values[i]) ? not_found : std::min(values[i], value);
+      values[i] = std::isnan(value) || std::isnan(values[i]) ? solvers::missing : std::min(values[i], value);
     }
   return values;
 }
@@ -141,7 +139,7 @@ double Convergence::order(Measure measure, int case_number, const std::string& p
   std::vector<double> numbers, values = of(measure, case_number, pair_name);
   for (const int functions : sizes()) numbers.push_back(functions);
   const bool known = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-  return known ? app::observed_order(numbers, values) : not_found;
+  return known ? app::observed_order(numbers, values) : solvers::missing;
 }
 
 Table Convergence::table(Measure measure, const std::string& column) const {

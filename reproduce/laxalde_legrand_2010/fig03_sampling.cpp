@@ -20,12 +20,11 @@ constexpr double sampled_energy = 1.8;  // [LL10, Fig. 5]
 constexpr int harmonics_shown[] = {2, 3, 5, 8, 10};
 constexpr int samples_per_harmonic[] = {2, 4, 8, 16};
 constexpr int main_harmonics = 5;
-constexpr double absent_value = std::numeric_limits<double>::quiet_NaN();
 
 struct Sampled {
   int harmonics, samples;
-  double frequency = absent_value, mean_force = absent_value, largest_force = absent_value,
-         contact_fraction = absent_value;
+  double frequency = solvers::missing, mean_force = solvers::missing, largest_force = solvers::missing,
+         contact_fraction = solvers::missing;
   std::string status = {};
 
   bool found() const { return std::isfinite(frequency); }

@@ -81,10 +81,9 @@ class ResponseComparison {
  private:
   /// False after an interrupt.
   bool goes_on(std::string_view phase) {
-    constexpr double no_value = SolvePoint::unknown;
     if (!found_.interrupted)
       found_.interrupted = !solvers::goes_on(
-          observer_, {phase, 0, no_value, {}, std::min(1.0, seconds_of(start_) / options_.budget)});
+          observer_, {phase, 0, solvers::missing, {}, std::min(1.0, seconds_of(start_) / options_.budget)});
     return !found_.interrupted;
   }
 

@@ -12,8 +12,6 @@
 namespace wavebalance::app {
 namespace {
 
-constexpr double none = SolvePoint::unknown;
-
 /// The first entries of every summary.
 Summary heading(const ComparisonRecord& record, const Scene& scene, double wall_seconds) {
   return {{"converged", record.converged},
@@ -120,7 +118,8 @@ void add_reference(Summary& summary, const Reference& reference) {
 
 void append_inadmissible(Table& table, const PairResult& pair) {
   table.append_row({pair.pair.trial, pair.pair.weight, false, std::int64_t{0}, std::int64_t{0},
-                    std::int64_t{0}, none, none, none, std::int64_t{0}, pair.inadmissible});
+                    std::int64_t{0}, solvers::missing, solvers::missing, solvers::missing, std::int64_t{0},
+                    pair.inadmissible});
 }
 
 std::string inadmissible_text(const std::vector<PairResult>& pairs) {

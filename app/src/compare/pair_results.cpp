@@ -26,7 +26,7 @@ double order_of(const std::vector<SolvePoint>& points, double SolvePoint::*error
       errors.push_back(point.*error);
     }
   constexpr std::size_t most = 4, fewest = 3;
-  if (sizes.size() < fewest) return SolvePoint::unknown;
+  if (sizes.size() < fewest) return solvers::missing;
   const std::size_t first = sizes.size() - std::min(most, sizes.size());
   return observed_order(std::span(sizes).subspan(first), std::span(errors).subspan(first));
 }

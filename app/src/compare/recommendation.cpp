@@ -228,7 +228,7 @@ std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double
 std::string_view to_string(BasisMatters value) { return enum_name(value); }
 
 double Recommendation::fourier_time_ratio() const {
-  return choice && fourier ? fourier->seconds / choice->seconds : SolvePoint::unknown;
+  return choice && fourier ? fourier->seconds / choice->seconds : solvers::missing;
 }
 
 Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,

@@ -23,7 +23,7 @@ solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureM
 }
 
 double relative_error(const Eigen::MatrixXd& values, const Eigen::MatrixXd& reference) {
-  if (values.size() != reference.size() || !(reference.squaredNorm() > 0.0)) return SolvePoint::unknown;
+  if (values.size() != reference.size() || !(reference.squaredNorm() > 0.0)) return solvers::missing;
   return relative_rms_error(values.reshaped(), reference.reshaped());
 }
 
@@ -174,8 +174,7 @@ class SizeSeries {
       return;
     }
     point.converged = response.converged();
-    const auto motion =
-        problem.motion(response, static_cast<int>(measured_.reference.displacement.cols()));
+    const auto motion = problem.motion(response, static_cast<int>(measured_.reference.displacement.cols()));
     point.error = displacement_error(motion, measured_.reference);
     point.force_error = force_error(motion, measured_.reference);
   }

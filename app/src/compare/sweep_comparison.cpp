@@ -152,8 +152,7 @@ class CurveComparison {
   /// Until the observer stops it, or time is up. May be called by several threads.
   bool goes_on(std::string_view phase) {
     const double share = std::min(1.0, elapsed() / options_.budget);
-    return observer_.goes_on({phase, finished_, SolvePoint::unknown, {}, share}) &&
-           elapsed() < options_.budget;
+    return observer_.goes_on({phase, finished_, solvers::missing, {}, share}) && elapsed() < options_.budget;
   }
 
   /// What a thread does: the smallest size that is to be solved, again and again.
@@ -248,10 +247,10 @@ class CurveComparison {
 }  // namespace
 
 double curve_distance(const ComparedCurve& a, const ComparedCurve& b, double interval) {
-  if (a.varied.empty() || b.varied.empty()) return SolvePoint::unknown;
+  if (a.varied.empty() || b.varied.empty()) return solvers::missing;
   double height = 0.0;
   for (const double value : b.displacement) height = std::max(height, std::abs(value));
-  if (!(height > 0.0)) return SolvePoint::unknown;
+  if (!(height > 0.0)) return solvers::missing;
   const auto first = scaled_curve(a, interval, height), second = scaled_curve(b, interval, height);
   return std::max(largest_distance(first, second), largest_distance(second, first));
 }

@@ -1,7 +1,6 @@
 #include "wavebalance/app/compose/massless_contacts.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -17,7 +16,7 @@ double frequency_change(const solvers::LinearStructure& from, const solvers::Lin
     const Eigen::VectorXd masses = structure.mass.diagonal();
     return static_cast<int>((masses.array() != 0.0).count());
   };
-  if (from.size() > most) return std::numeric_limits<double>::quiet_NaN();
+  if (from.size() > most) return solvers::missing;
   const int count = std::min({first, moving(from), moving(to)});
   const Eigen::VectorXd before = fem::eigenmodes(symmetric_part(from.stiffness), from.mass, count).omega;
   const Eigen::VectorXd after = fem::eigenmodes(symmetric_part(to.stiffness), to.mass, count).omega;

@@ -118,12 +118,12 @@ void append_rows(Table& table, const Study& study) {
   const double amplitude = study.scene.forcing.amplitude, gap = study.scene.contact.gap;
   const auto add = [&](const std::string& contact, const Pair& pair, const app::Response& response) {
     const Eigen::VectorXd u = response.displacement(), pressure = response.force();
-    const double missing = std::nan("");
-    table.append_row({std::int64_t{study.number}, contact, pair.trial, pair.weight, response.converged,
-                      u.maxCoeff() / gap - 1.0,
-                      response.rigid ? std::max(0.0, response.rigid->max_penetration / gap) : missing,
-                      pressure.mean() / amplitude, pressure.maxCoeff() / amplitude,
-                      app::contact_fraction(response.leading())});
+    table.append_row(
+        {std::int64_t{study.number}, contact, pair.trial, pair.weight, response.converged,
+         u.maxCoeff() / gap - 1.0,
+         response.rigid ? std::max(0.0, response.rigid->max_penetration / gap) : solvers::missing,
+         pressure.mean() / amplitude, pressure.maxCoeff() / amplitude,
+         app::contact_fraction(response.leading())});
   };
   add("exponential", pairs()[0], study.soft[0]);
   for (std::size_t i = 0; i < study.rigid.size(); ++i) add("rigid", pairs()[i], study.rigid[i]);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -20,8 +19,6 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 std::span<const double> view(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 ModalModel checked(ModalModel model, const LagrangianModeOptions& options) {
   options.validate();
@@ -271,7 +268,7 @@ std::optional<LagrangianStatus> LagrangianMode::outer_iteration(LagrangianPoint&
   const auto count = static_cast<std::size_t>(g.size());
   multipliers.inequality_force(view(g), {multiplier.data(), count}, {tangent.data(), count});
   measure(point, x, multiplier, multipliers.equality_force(h), frozen);
-  point.history.push_back({inner.iterations, inner.gradient, missing, missing});
+  point.history.push_back({inner.iterations, inner.gradient, solvers::missing, solvers::missing});
   if (inner.status != LagrangianStatus::converged) return inner.status;
   const MultiplierReport report = multipliers.update(view(g), h);
   point.history.back().inequality_measure = report.inequality_measure;

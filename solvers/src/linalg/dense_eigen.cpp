@@ -1,7 +1,6 @@
-#include <limits>
-
 #include "linalg/dense.hpp"
 #include "linalg/lapack.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -54,7 +53,7 @@ std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, con
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   const lapack_int n = lapack_size(matrix.rows());
-  Eigen::VectorXcd values = Eigen::VectorXcd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  Eigen::VectorXcd values = Eigen::VectorXcd::Constant(n, missing);
   if (n == 0 || !matrix.allFinite()) return values;
   Eigen::MatrixXd copy = matrix;
   Eigen::VectorXd real(n), imaginary(n);

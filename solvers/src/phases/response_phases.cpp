@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "period/contact_free_motion.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // Amplitudes over the period of the problem of a motion that is known over that of its load.
 Eigen::MatrixXcd amplitudes_of(const ContactFreeMotion& motion) {
@@ -26,7 +24,7 @@ Eigen::MatrixXcd amplitudes_of(const ContactFreeMotion& motion) {
 
 double relative_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exact) {
   const double size = exact.norm();
-  return size > 0.0 ? (values - exact).norm() / size : not_known;
+  return size > 0.0 ? (values - exact).norm() / size : missing;
 }
 
 }  // namespace
@@ -39,7 +37,7 @@ ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaw
   const Motion balance = contact_motion(problem, response, laws, points);
   const PhasesProblem phases{dynamics, laws, amplitudes_of(ContactFreeMotion(problem, 0)),
                              problem.frequency()};
-  ResponsePhases result{contact_phases(phases, balance.displacement, options), not_known, not_known};
+  ResponsePhases result{contact_phases(phases, balance.displacement, options), missing, missing};
   if (result.motion.parts == nullptr) return result;
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
   result.displacement_error = relative_distance(balance.displacement, result.motion.displacement(times));

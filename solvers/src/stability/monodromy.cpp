@@ -292,7 +292,7 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
   const Index size = propagator.states().size();
   const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
-  if (!resolving) return Eigen::MatrixXd::Constant(size, size, std::nan(""));
+  if (!resolving) return Eigen::MatrixXd::Constant(size, size, missing);
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
   for (const Piece& piece : *resolving) propagator.pass(piece, map);
   return map;
@@ -321,11 +321,11 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
   const Index size = propagator.states().size();
   auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
-  if (!resolving) return Eigen::VectorXcd::Constant(size, std::nan(""));
+  if (!resolving) return Eigen::VectorXcd::Constant(size, missing);
   const auto left = propagator.states().left_after(begin_with_free_flight(*resolving));
   Eigen::MatrixXd states = Eigen::MatrixXd::Identity(size, size)(Eigen::all, left);
   for (const Piece& piece : *resolving) propagator.pass(piece, states);
-  if (!states.allFinite()) return Eigen::VectorXcd::Constant(size, std::nan(""));
+  if (!states.allFinite()) return Eigen::VectorXcd::Constant(size, missing);
   Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(size);
   multipliers.head(Index(left.size())) = by_falling_modulus(states(left, Eigen::all));
   return multipliers;
@@ -342,7 +342,7 @@ Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const Periodic
     if (piece.closed.empty())
       states.advance(length, map);
     else if (!hold(states, dynamics, piece.closed, length / frequency, map))
-      return Eigen::VectorXcd::Constant(states.size(), std::nan(""));
+      return Eigen::VectorXcd::Constant(states.size(), missing);
   }
   return by_falling_modulus(map);
 }

@@ -29,10 +29,10 @@ struct PairResult {
   int solves = 0;             ///< sizes solved
   int converged = 0;          ///< of these
   int largest_functions = 0;  ///< solved
-  double smallest_error = SolvePoint::unknown;
+  double smallest_error = solvers::missing;
   /// Observed orders over the functions, of displacements and forces, with the most points per function that
   /// have three errors above that of the reference: over the last four of them. NaN without three.
-  double order = SolvePoint::unknown, force_order = SolvePoint::unknown;
+  double order = solvers::missing, force_order = solvers::missing;
   int order_points_per_function = 0;  ///< of these orders
   std::string failures;  ///< "2 stalled (4 to 8 functions), 1 cancelled (1024 functions)", or empty
 };

@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
@@ -17,7 +16,7 @@ struct Reference {
   std::string status;  ///< "converged" or why not
   std::string text;    ///< what it is, for a sentence: "shooting"
   /// Estimated relative rms error of its displacements: smaller differences from it say nothing.
-  double error = std::numeric_limits<double>::quiet_NaN();
+  double error = solvers::missing;
   solvers::Motion motion;  ///< displacements and forces of all contacts, without velocities
   ResponseStability stability;
   double wall_seconds = 0.0;

@@ -1,26 +1,25 @@
 #pragma once
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::app {
 
 /// One way to compute a scene's response, and what came of it. Numbers that have no meaning are NaN.
 struct SolvePoint {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
   std::string method = "weighted_residual";  ///< or a baseline of bench
   BasisPair pair = {};
-  std::string inner_products = {};  ///< "exact" or "quadrature"
-  int functions = 0;                ///< M; 0 where there is none
-  int points = 0;                   ///< N
-  double tolerance = unknown;       ///< of time stepping and shooting
-  double construction_seconds = unknown;
-  double seconds = unknown;  ///< least of several solves from the contact-free response, plans made before
-  double error = unknown;    ///< relative rms of the contact displacements against the reference
-  double force_error = unknown;  ///< the same of the contact forces
+  std::string inner_products = {};      ///< "exact" or "quadrature"
+  int functions = 0;                    ///< M; 0 where there is none
+  int points = 0;                       ///< N
+  double tolerance = solvers::missing;  ///< of time stepping and shooting
+  double construction_seconds = solvers::missing;
+  double seconds =
+      solvers::missing;  ///< least of several solves from the contact-free response, plans made before
+  double error = solvers::missing;        ///< relative rms of the contact displacements against the reference
+  double force_error = solvers::missing;  ///< the same of the contact forces
   bool converged = false;
   std::string status = {};  ///< why not; "not_run" when smaller sizes took too long
   bool on_front = false;

@@ -13,13 +13,13 @@ struct ComparedCurve {
   int functions = 0, points = 0;  ///< M and N
   std::string
       status;  ///< of the sweep, "reached_end" where it was solved; "out_of_time" if the budget ended it
-  double seconds = SolvePoint::unknown;   ///< processor time of its thread, once
-  std::vector<double> varied;             ///< frequency (Hz) or amplitude along the curve
-  std::vector<double> displacement;       ///< m, the largest over the period and the contacts
-  int turning_points = 0;                 ///< at which the curve reverses
-  double peak = SolvePoint::unknown;      ///< m, the largest displacement
-  double peak_at = SolvePoint::unknown;   ///< frequency (Hz) or amplitude there
-  double distance = SolvePoint::unknown;  ///< from the finest curve, see curve_distance(); NaN without it
+  double seconds = solvers::missing;   ///< processor time of its thread, once
+  std::vector<double> varied;          ///< frequency (Hz) or amplitude along the curve
+  std::vector<double> displacement;    ///< m, the largest over the period and the contacts
+  int turning_points = 0;              ///< at which the curve reverses
+  double peak = solvers::missing;      ///< m, the largest displacement
+  double peak_at = solvers::missing;   ///< frequency (Hz) or amplitude there
+  double distance = solvers::missing;  ///< from the finest curve, see curve_distance(); NaN without it
 
   bool converged() const { return status == "reached_end"; }
 };

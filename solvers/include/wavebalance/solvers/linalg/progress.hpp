@@ -1,18 +1,19 @@
 #pragma once
 #include <functional>
-#include <limits>
 #include <string_view>
+
+#include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::solvers {
 
 /// State of a long computation.
 struct Progress {
-  std::string_view phase;  ///< what is done: "Newton", "lowering the obstacle", "frequency sweep"
-  int step = 0;            ///< steps of this phase so far
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when the phase has none
+  std::string_view phase;         ///< what is done: "Newton", "lowering the obstacle", "frequency sweep"
+  int step = 0;                   ///< steps of this phase so far
+  double value = missing;         ///< NaN when the phase has none
   std::string_view measure = {};  ///< what `value` is: "relative residual", "Hz"; empty when there is none
   /// Share of the whole work, 0..1; NaN when unknown.
-  double done = std::numeric_limits<double>::quiet_NaN();
+  double done = missing;
 };
 
 /// Called repeatedly during long work; the texts live as long as the call. Returns false to stop the work,

@@ -1,10 +1,10 @@
 #pragma once
 #include <complex>
-#include <limits>
 #include <string>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -18,8 +18,7 @@ struct MotionStability {
   std::string status = "no_modes";
   int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
   /// The multiplier of the largest modulus, Im >= 0; NaN where it is not known or below 1e-2.
-  std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::quiet_NaN()};
+  std::complex<double> leading{missing, missing};
   /// Whether it is that of the motion of the structure, by phases of contact, or of the balance.
   bool by_phases = false;
   double wall_seconds = 0.0;

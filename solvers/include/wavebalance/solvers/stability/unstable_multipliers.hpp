@@ -1,6 +1,5 @@
 #pragma once
 #include <complex>
-#include <limits>
 
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 #include "wavebalance/solvers/stability/contact_stiffness.hpp"
@@ -34,8 +33,7 @@ struct UnstableMultipliers {
   int evaluations = 0;   ///< of the determinant
   double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
   /// The largest multiplier in modulus, Im >= 0, where the monodromy was taken, NaN elsewhere.
-  std::complex<double> leading{std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::quiet_NaN()};
+  std::complex<double> leading{missing, missing};
 };
 
 /// The number of Floquet multipliers outside the unit circle, of perturbations v of
