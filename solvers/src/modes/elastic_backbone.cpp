@@ -25,7 +25,7 @@ ModeFollower::ModeFollower(ModeCurve& curve, const ElasticModeOptions& mode,
 bool ModeFollower::start() {
   state_ = curve_.linear_state(starts_linear_ ? 1.0 : first_amplitude);
   if (!starts_linear_) {
-    if (!curve_.settle(state_)) return false;
+    if (!curve_.project_onto_curve(state_)) return false;
     result_.points.push_back(measure(state_.iterations));
     energy_ = result_.points.back().energy_ratio;
   }
@@ -112,7 +112,7 @@ bool ModeFollower::raise_harmonics(CurveState& state, double frequency, int all)
   int spent = 0;
   for (int highest = equations.highest(); highest <= all; ++highest) {
     equations.set_highest(highest);
-    if (!curve_.settle_at(frequency, 1.0, state)) return false;
+    if (!curve_.project_onto_curve_at(frequency, 1.0, state)) return false;
     spent += state.iterations;
   }
   state.iterations = spent;

@@ -88,12 +88,12 @@ bool ModeCurve::correct(const CurveState& from, double distance, CurveState& to)
   return tangent_at(to, way);
 }
 
-bool ModeCurve::settle(CurveState& state) {
+bool ModeCurve::project_onto_curve(CurveState& state) {
   const CurvePoint along = state;
   return solve_in(plane_across(along, along), nullptr, state, state.iterations) && tangent_at(state, along);
 }
 
-bool ModeCurve::settle_at(double frequency, double direction, CurveState& state) {
+bool ModeCurve::project_onto_curve_at(double frequency, double direction, CurveState& state) {
   const CurvePlane plane{Eigen::VectorXd::Zero(state.displacement.size()), 1.0, frequency, 1e-9};
   CurvePoint along;
   along.displacement_tangent = plane.row;

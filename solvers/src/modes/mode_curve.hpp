@@ -50,10 +50,10 @@ class ModeCurve : private CurveCorrector<FreeMotions> {
   /// Newton's method does not converge, or does so far from the plane's foot.
   bool correct(const CurveState& from, double distance, CurveState& to);
   /// Solves in the plane through `state` across its tangent: from a state near the curve onto it.
-  bool settle(CurveState& state);
+  bool project_onto_curve(CurveState& state);
   /// Solves at a frequency, over omega_m; the tangent goes towards higher frequencies for direction = 1,
   /// lower for -1.
-  bool settle_at(double frequency, double direction, CurveState& state);
+  bool project_onto_curve_at(double frequency, double direction, CurveState& state);
   /// One step from `state`, as long as the last one allows. False when even the shortest one fails.
   bool advance(CurveState& state);
   /// A step that passes what lies directly ahead: the first of growing length whose end `accepts` takes.
