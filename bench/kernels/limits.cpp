@@ -54,7 +54,7 @@ double LimitReporter::flop_rate() const {
   return rate;
 }
 
-// Of the copy nearest in size: what fits into a cache is copied faster than what does not.
+// The time of the copy nearest in size: what fits into a cache is copied faster than what does not.
 double LimitReporter::copy_seconds(double bytes) const {
   const Measured* nearest = nullptr;
   const auto distance = [bytes](const Measured& one) { return std::abs(std::log(one.bytes / bytes)); };

@@ -74,7 +74,7 @@ class RatioReporter final : public benchmark::ConsoleReporter {
     ConsoleReporter::Finalize();
   }
 
-  // Of all but the baselines; empty without the yardstick.
+  // The speeds of all but the baselines; empty without the yardstick.
   Speeds speeds() const {
     Speeds result;
     const auto unit = seconds_.find(yardstick_name);

@@ -20,7 +20,7 @@
 namespace wavebalance::bench {
 namespace {
 
-// Of a forward and an inverse transform.
+// The time of a forward and an inverse transform.
 double fft_pair_seconds(int points) {
   spectral::RealFft fft(points);
   std::vector<double> samples(static_cast<std::size_t>(points), 1.0);
@@ -136,7 +136,7 @@ void dense_point(benchmark::State& state) {
   state.counters["newton"] = solution.iterations;
 }
 
-// Of the large system one Newton step alone, assembly included: the ratio is then a lower bound.
+// Times one Newton step of the large system alone, assembly included: the ratio is then a lower bound.
 void dense_step(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
   auto system = dense_problem(scene, static_cast<int>(state.range(1)), static_cast<int>(state.range(2)));

@@ -54,7 +54,7 @@ solvers::FrequencySweepOptions options_of(double from, double to, const Steps& s
   return options;
 }
 
-/// Of an amplitude sweep `frequency` is that of all points; NaN for a frequency sweep.
+/// `frequency` is that of all points of an amplitude sweep; NaN for a frequency sweep.
 std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::object& laws,
                              double frequency, double from, double to, const Steps& steps) {
   auto one = std::make_shared<Curve>(Curve{problem, laws_of(laws, problem->condensed().structure()), {}, {}});
@@ -65,8 +65,7 @@ std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::
     options.observer = observer;
     options.start.observer = observer;
     solvers::ContactProblem& with = problem->with(one->laws);
-    one->curve =
-        std::isfinite(frequency) ? with.amplitude_sweep(frequency, options) : with.sweep(options);
+    one->curve = std::isfinite(frequency) ? with.amplitude_sweep(frequency, options) : with.sweep(options);
     if (steps.stability && one->curve.status != solvers::SweepStatus::cancelled)
       one->stability = with.stability(one->curve, steps.output_points, observer);
     one->wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

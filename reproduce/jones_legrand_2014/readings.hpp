@@ -20,8 +20,8 @@ struct Sums {
 
   std::string name() const;  ///< "256 left ends, same sums"
   std::string key() const;   ///< "256_left_sums", for the columns of a table
-  /// Of a scene of this pair. One sample per function is a reading of pairs with Haar trial functions alone,
-  /// which have one value per cell; the others keep 256.
+  /// The overrides of a scene with this pair. One sample per function is a reading of pairs with Haar trial
+  /// functions alone, which have one value per cell; the others keep 256.
   std::vector<std::string> overrides(const Pair& pair) const;
   /// Whether the paper's words give it: 256 points for all inner products.
   bool literal() const { return samples == 256 && !exact; }

@@ -112,7 +112,7 @@ void hardening(report::Artefact& artefact, const RodCurves& curves) {
   judge(artefact, s, because);
 }
 
-/// Of √r against ω at the energies compared.
+/// The relative error of √r against ω at the energies compared.
 struct QuotientError {
   double largest = 0.0;
   double exact = 0.0;      ///< the same of the exact motions

@@ -61,7 +61,7 @@ TEST(RandomStructures, MostAreAnsweredAndEveryAnswerHolds) {
     EXPECT_LE(misses.law, 1e-6) << seed;
     EXPECT_LE(misses.motion, 1e-8) << seed;
   }
-  // Of 150 seeds 139 are answered and 79 converge. Asked is 0.98; the first 30 hold half of those not
+  // 139 of 150 seeds are answered and 79 converge. Asked is 0.98; the first 30 hold half of those not
   // answered.
   EXPECT_GE(answered, 0.8 * count) << answered << " of " << count;
   EXPECT_GE(converged, 0.4 * count) << converged << " of " << count;

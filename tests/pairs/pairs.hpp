@@ -62,8 +62,8 @@ inline solvers::TimePairOptions options(
   return result;
 }
 
-/// Of [JL14, section 4.1]: sums over the points but for Daubechies:Daubechies, which takes connection
-/// coefficients.
+/// The options of [JL14, section 4.1]: sums over the points but for Daubechies:Daubechies, which takes
+/// connection coefficients.
 inline solvers::TimePairOptions paper_options(const Pair& pair, int functions, int points = 256) {
   const bool connection = pair.trial == Family::daubechies6 && pair.weight == Family::daubechies6;
   return options(pair, functions, points,

@@ -113,7 +113,7 @@ class ResponseComparison {
     }
   }
 
-  /// Of the motion of a choice; of one that was recommended before, too, the same.
+  /// The stability of the motion of a choice, computed once for choices that are recommended twice.
   std::string stability_of(const SolvePoint& choice) {
     for (const Recommendation& before : found_.recommendations)
       if (before.choice && before.choice->pair == choice.pair && before.choice->points == choice.points &&

@@ -71,7 +71,7 @@ std::string ratio_text(double ratio) {
   return fmt::format("takes {:.{}f} times as long", ratio, ratio < 9.95 ? 1 : 0);
 }
 
-/// Of a choice that is Fourier:Fourier.
+/// The second sentence where the choice is Fourier:Fourier: it names the best other pair.
 std::string runner_up_sentence(const Recommendation& found) {
   if (!found.runner_up) return "No other pair reaches it within the budget.";
   const double ratio = found.runner_up->seconds / found.choice->seconds;

@@ -31,7 +31,7 @@ class SharedObserver {
     const std::lock_guard alone(guard_);
     return stopped_;
   }
-  /// Of the last call.
+  /// The phase of the last call.
   std::string phase() const {
     const std::lock_guard alone(guard_);
     return phase_;

@@ -193,8 +193,8 @@ class SizeSeries {
   bool ended_ = false;
 };
 
-/// Those that were on the front with their last size first, since time may end before the others. Bench has
-/// the time for all and takes them in their own order.
+/// Series that were Pareto-optimal at their last size come first, because the budget may run out. Benchmarks
+/// have the time for all and take them in their own order.
 std::vector<SizeSeries*> in_order(std::vector<SizeSeries>& all, const SizeStudyOptions& options) {
   std::vector<std::pair<double, SizeSeries*>> lags;
   for (SizeSeries& series : all)

@@ -155,7 +155,7 @@ class CurveComparison {
     return observer_.goes_on({phase, finished_, solvers::missing, {}, share}) && elapsed() < options_.budget;
   }
 
-  /// What a thread does: the smallest size that is to be solved, again and again.
+  /// The loop of a thread: it solves the smallest pending size.
   void follow_chains() try {
     while (CurveChain* chain = next_chain()) {
       ComparedCurve curve = solved_curve(chain->pair, chain->size);

@@ -32,9 +32,9 @@ struct StructureFiles {
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;
   Eigen::Index file_rows() const { return std::ssize(rows) + std::ssize(moving) + std::ssize(massless); }
-  /// Of displacements with an entry per row of the files, those of the unknowns.
+  /// The displacements of the unknowns among those with an entry per row of the files.
   Eigen::VectorXd at_unknowns(const Eigen::VectorXd& values) const { return values(rows); }
-  /// Of forces with an entry per row of the files, those on the unknowns; massless rows pass theirs on.
+  /// The forces on the unknowns among those with an entry per row of the files; massless rows pass theirs on.
   Eigen::VectorXd forces_at_unknowns(const Eigen::VectorXd& forces) const;
 };
 

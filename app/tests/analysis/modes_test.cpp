@@ -85,7 +85,7 @@ TEST(Backbone, FailureOnNoInternalResonanceIsNotConverged) {
 }
 
 TEST(Analyse, RigidBackboneThatEndsBeforeItsEnergyIsNotConvergedAndSaysWhereItEnds) {
-  // Of the second mode few points lie on no internal resonance, none beyond 1.04 times its linear frequency.
+  // Few points of the second mode lie on no internal resonance, none beyond 1.04 times its linear frequency.
   const Record record = analyse(rod({"analysis.mode=2"}));
   EXPECT_FALSE(record.converged);
   EXPECT_NE(record.status.find("ended at frequency ratio 1.0"), std::string::npos) << record.status;
@@ -107,7 +107,7 @@ bool warns_of(const Record& record, const std::string& part) {
                      [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
 }
 
-// Of the rod some points cycle with 40 samples for 15 harmonics, beside internal resonances.
+// Some points of the rod cycle with 40 samples for 15 harmonics, beside internal resonances.
 TEST(Analyse, PointsWithoutAMotionAreAWarningWithTheirNumberAndPlaces) {
   const Record record = analyse(rod({"analysis.harmonics=15", "analysis.samples=40", "analysis.points=100"}));
   const auto count = [&](const std::string& of) { return value_of<std::int64_t>(record.summary, of); };

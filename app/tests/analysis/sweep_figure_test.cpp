@@ -53,7 +53,7 @@ TEST(SweepFigure, TheEndOfAnUnboundedCurveDoesNotSetTheAxis) {
   EXPECT_NEAR(*panel.y.upper, 1.1, 1e-12);
 }
 
-/// Of the first panel in px, from the path of its axes.
+/// The height of the first panel in px, from the path of its axes.
 double height_of_axes(const std::string& svg) {
   const std::string begin = "<path stroke='rgb( 34,  34,  34)'  d='M";
   for (std::size_t at = svg.find(begin); at != svg.npos; at = svg.find(begin, at + 1)) {

@@ -98,7 +98,7 @@ Analysis any_analysis() {
   return analysis;
 }
 
-/// Of harmonics that the functions hold.
+/// The terms have harmonics that the functions represent.
 std::vector<ForcingTerm> any_terms(int highest) {
   std::vector<ForcingTerm> terms(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
   for (ForcingTerm& term : terms) {

@@ -83,7 +83,8 @@ TEST(StudyFile, LatinHypercubeHasOneRunInEachStratumAndDependsOnItsSeedAlone) {
   EXPECT_NE(points, latin_hypercube_points(size, 3, 8));
 }
 
-// Of 2^m - 1 points, with 0 left out, each dyadic interval of length 2^-k holds 2^(m-k), the first one less.
+// Each dyadic interval of length 2^-k holds 2^(m-k) of the 2^m - 1 points, the first one less, as 0 is left
+// out.
 TEST(StudyFile, SobolPointsFillDyadicIntervalsEvenly) {
   constexpr int size = 63, parts = 8;
   const std::vector<double> points = sobol_points(size, 5);

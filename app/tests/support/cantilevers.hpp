@@ -20,7 +20,7 @@ class Cantilevers {
       facing_.emplace_back(under[i], lower.model.dofs.count() + over[i]);
   }
 
-  /// Of both bodies, the lower one's unknowns first, symmetric to the last bit.
+  /// The matrices of both bodies have the lower one's unknowns first and are symmetric to the last bit.
   const wavebalance::fem::Matrices& matrices() const { return matrices_; }
   /// Unknowns, from 0: the heights of nodes of the lower and the upper body that face each other.
   const std::vector<std::pair<int, int>>& facing() const { return facing_; }

@@ -58,7 +58,7 @@ inline std::string with(std::string text, const std::string& from, const std::st
   return place == std::string::npos ? "no such text: " + from : text.replace(place, from.size(), to);
 }
 
-// Of bar_scene: a frequency sweep.
+// They make bar_scene a frequency sweep.
 inline const std::vector<std::string> sweep_overrides{"time.functions=31", "analysis.type=frequency_sweep",
                                                       "analysis.frequency_from=100",
                                                       "analysis.frequency_to=110"};

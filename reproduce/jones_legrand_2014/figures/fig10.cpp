@@ -23,7 +23,7 @@ std::vector<std::string> all_names() {
   return names;
 }
 
-/// Of all ratios drawn: the axis on which the paper's words are judged.
+/// The range of all ratios drawn: the axis on which the paper's words are judged.
 struct RatioAxis {
   double lower = 1.0, upper = 1.0;
 

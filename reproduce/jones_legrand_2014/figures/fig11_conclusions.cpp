@@ -15,7 +15,7 @@ using report::Verdict;
 const std::vector<std::string> petrov_galerkin{"haar_fourier", "daubechies6_fourier", "haar_bspline"};
 const std::string hbm_pair = "fourier_fourier";
 
-/// Of a measure with all numbers of functions at both cases.
+/// The values of a measure with all numbers of functions at both cases.
 std::vector<double> everywhere(const Convergence& results, Measure measure, const std::string& name) {
   std::vector<double> values = results.of(measure, 1, name);
   for (const double value : results.of(measure, 2, name)) values.push_back(value);

@@ -76,7 +76,7 @@ std::optional<GeneralEigen> general_eigen(const Eigen::MatrixXd& matrix) {
   GeneralEigen result{Eigen::VectorXcd(n), packed.cast<std::complex<double>>()};
   result.values.real() = real;
   result.values.imag() = imaginary;
-  // Of a conjugate pair LAPACK stores the real and the imaginary part of the first vector.
+  // LAPACK stores the real and the imaginary part of the first vector of a conjugate pair.
   for (lapack_int i = 0; i + 1 < n; ++i) {
     if (!(imaginary[i] > 0.0)) continue;
     result.vectors.col(i).imag() = packed.col(i + 1);

@@ -25,7 +25,7 @@ class BdfMap final : public PeriodMap {
   Period advance(const PeriodState& begin, const StepControl& control) override;
   double operations() const override { return operations_of_step() * double(steps_); }
 
-  /// Of a step that is accepted, without the factorizations of the Jacobian.
+  /// The operations of a step that is accepted, without the factorizations of the Jacobian.
   double operations_of_step() const { return double(system_.states()) * system_.states(); }
   long steps() const { return steps_; }  ///< accepted so far
   long failed_steps() const;

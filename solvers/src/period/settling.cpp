@@ -106,7 +106,7 @@ class Settling {
     return (one.motion - other.motion).norm() / map_.size(one);
   }
 
-  // Of the states that nearly return after a period of the problem, the nearest first, those that differ.
+  // The different states that nearly return after a period of the problem, the nearest first.
   std::vector<std::size_t> nearest_returns() const {
     constexpr std::size_t transient = 20;
     const auto period = static_cast<std::size_t>(load_periods_);

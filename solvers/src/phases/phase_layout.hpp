@@ -57,11 +57,11 @@ class PanelForces {
   PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values);
 
   const std::vector<Panel>& panels() const { return panels_; }
-  /// Of the phase at a time in its own periods, continued beyond the ends of the phase.
+  /// The force of a phase at a time in its own periods, continued beyond the ends of the phase.
   double in_phase(int phase, double time) const;
   /// The slope of in_phase() by time, N per period.
   double slope_in_phase(int phase, double time) const;
-  /// Of a contact at any time; zero outside its panels.
+  /// The force of a contact at any time; zero outside its panels.
   double at(int contact, double time) const;
   /// q x panels, N.
   const Eigen::MatrixXd& coefficients() const { return coefficients_; }

@@ -71,7 +71,8 @@ class ContactCurve {
   bool smooth_;
 };
 
-/// A law along the motion of its contact. In the force form the curve is that of v = u + flexibility f.
+/// The contact law evaluated along the computed motion. The curve of the force form is that of
+/// v = u + flexibility f.
 struct ContactAlong {
   AnyContactLaw law;
   bool unilateral;

@@ -47,7 +47,7 @@ LinearStructure projected(const LinearStructure& structure, const Eigen::MatrixX
   return result;
 }
 
-// Of a structure without symmetry, whose `metric` is the symmetric part of its stiffness.
+// Reduces a structure without symmetry, whose `metric` is the symmetric part of its stiffness.
 LinearStructure unsymmetric_reduction(const LinearStructure& structure,
                                       const Eigen::SparseMatrix<double>& metric, int vectors) {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factor;

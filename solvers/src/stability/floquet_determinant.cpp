@@ -282,7 +282,7 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
 
 namespace {
 
-// Of each contact, over the period.
+// The largest values of each contact over the period.
 struct Contacts {
   Eigen::VectorXd stiffness;  // the largest, N/m
   Eigen::VectorXd longest;    // the longest interval, in periods

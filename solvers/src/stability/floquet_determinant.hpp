@@ -22,9 +22,9 @@ Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicS
 
 /// Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j)) of unstable_multipliers(), and its derivative. Where
 /// Im sigma > 0 the harmonic n = -H - 1 is added with the weight 2 Im sigma / omega, so that Delta is real at
-/// Im sigma = omega / 2 as it is at 0; where Im sigma < 0 it is the complex conjugate. Compliances g at once,
-/// ContactDynamics::constant() and those of the truncation, are taken into D, D / (1 + g D), which leaves a
-/// positive factor out.
+/// Im sigma = omega / 2 as it is at 0; where Im sigma < 0 it is the complex conjugate. Static compliances g,
+/// ContactDynamics::constant() and those of the truncation, are merged into the stiffness as D / (1 + g D).
+/// This drops a positive factor, which has no zeros.
 class FloquetDeterminant {
  public:
   /// Keeps a reference to `dynamics`. frequency in Hz.

@@ -181,7 +181,7 @@ void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptio
   }
 }
 
-// Of laws that depend on the velocity: from the monodromy, without motions.
+// Laws that depend on the velocity have their exponents from the monodromy, without motions.
 FloquetExponents damped_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                   double frequency, const FloquetOptions& options) {
   FloquetExponents result;

@@ -15,10 +15,10 @@ struct Perturbation {
   Eigen::VectorXd unknown(const Eigen::VectorXd& regularization) const;
 };
 
-/// Of an exponent found for a motion of one period, at the points of a pair whose period is `periods` times
-/// as long. It repeats after them if the multiplier to that power is real and positive. `phase` (rad) is
-/// counted from the phase of the largest rms. O(C points H). Without an entry where the exponent has no
-/// motion.
+/// The perturbation of an exponent that was found for a motion of one period, at the points of a pair whose
+/// period is `periods` times as long. It repeats after them if the multiplier to that power is real and
+/// positive. `phase` (rad) is counted from the phase of the largest rms. O(C points H). Without an entry
+/// where the exponent has no motion.
 Perturbation perturbation(const FloquetExponent& exponent, int periods, const TimePair& pair,
                           double phase = 0.0);
 

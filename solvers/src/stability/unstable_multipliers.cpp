@@ -87,7 +87,7 @@ std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& d
   return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
 }
 
-// Of rigid contact, where it has a limit.
+// The count for rigid contact, where it has a limit.
 UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
                                       double frequency, const StabilityOptions& options) {
   UnstableMultipliers result = without_count(contact.status);

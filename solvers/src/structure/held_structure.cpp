@@ -22,7 +22,7 @@ std::vector<Index> pivot_rows(Eigen::MatrixXd rest) {
   return rows;
 }
 
-// Of the largest entry of K, or of M where nothing is elastic: it affects the rounding alone.
+// The largest entry of K, or of M where nothing is elastic. The size affects the rounding alone.
 double size_of_springs(const LinearStructure& structure) {
   const double elastic = structure.stiffness.diagonal().cwiseAbs().maxCoeff();
   return elastic > 0.0 ? elastic : structure.mass.diagonal().cwiseAbs().maxCoeff();

@@ -16,7 +16,7 @@ struct HeldStructure {
   Eigen::MatrixXd drifting;    ///< n x (r - q), M-orthonormal: the motions that no contact resists
 };
 
-/// Of a structure with rigid_modes. O(n r^2 + C^2 q).
+/// Holds a structure that has rigid_modes. O(n r^2 + C^2 q).
 HeldStructure hold(const LinearStructure& structure);
 
 }  // namespace wavebalance::solvers

@@ -259,7 +259,7 @@ TEST(VelocityLaw, ResponsesAreThoseOfTimeStepping) {
   }
 }
 
-// Of harmonic balance the velocity is one of the weighting functions: the work of the load is the loss in the
+// The velocity is one of the weighting functions of harmonic balance: the work of the load is the loss in the
 // damper of the structure and in contact, to rounding.
 TEST(VelocityLaw, TheWorkOfTheLoadIsWhatStructureAndContactDissipate) {
   const double damping = 0.1, load = 0.8, frequency = 0.2;

@@ -177,7 +177,7 @@ struct OscillatorPoint {
   double contact_fraction;
 };
 
-// Of the 50 states of the overdamped bar few are left after its free flight.
+// Few of the 50 states of the overdamped bar are left after its free flight.
 TEST(Monodromy, HasTheEigenvaluesOfTheWholeMap) {
   for (const testing::Jl14Case& one : {testing::jl14_case_1, testing::jl14_case_2}) {
     CondensedProblem problem(testing::fourier_pair(63, 256), one.structure(), testing::cosine_load());

@@ -17,7 +17,7 @@ inline ExactBarMode mode_at(const RigidObstacleBar& bar, int mode, double fracti
   return {bar, mode, 1.0 + fraction * (ExactBarMode::largest_frequency_ratio(mode) - 1.0)};
 }
 
-/// Of the interval of frequencies of a mode.
+/// Places in the interval of frequencies of a mode.
 inline constexpr double fractions[] = {0.02, 0.3, 0.7, 0.98};
 
 /// Modes of two bars over their intervals of frequencies.

@@ -31,9 +31,9 @@ struct StructureModel {
   /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are equal.
   Eigen::MatrixXd recovery;
   std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
-  /// Of the condensations of problems that are made of it, as CondensedProblem::set_threads() takes them.
+  /// How many threads condense problems that are made of it, as CondensedProblem::set_threads() takes them.
   int threads = 0;
-  /// Of `structure`, for all runs that share the model.
+  /// The dynamics of `structure`, for all runs that share the model.
   std::shared_ptr<solvers::StructureDynamics> dynamics = std::make_shared<solvers::StructureDynamics>();
 
   int contacts() const { return structure.contacts(); }

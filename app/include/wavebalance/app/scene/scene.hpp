@@ -134,7 +134,7 @@ struct ContactPair {
 /// contacts_of() lists the contacts that these keys and MatricesStructure::contact_dofs say together.
 struct Contact {
   std::string law{no_law};  ///< a name of contact::law_catalogue()
-  /// Of the law's parameters other than the gap, as far as they differ from their defaults.
+  /// The law's parameters other than the gap, as far as they differ from their defaults.
   contact::LawValues values = {};
   ContactForm form = ContactForm::automatic;  ///< the unknown that is solved for
   ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom

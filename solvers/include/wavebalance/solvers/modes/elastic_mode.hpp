@@ -80,10 +80,11 @@ struct ModeProblem;
 /// the linear mode at an energy ratio of 1e-4. ModalModel::gaps are the lengths that energies refer to; a
 /// unilateral law must have them as its gaps, unless its own is 0.
 ///
-/// Of a ModePoint, energy_ratio is the constant energy of the motion, the law's potential included, over that
-/// of linear grazing; gamma_ratio is LL10's. In max_penetration the law yields, and virial_residual is
-/// |omega^2 m - k - mean(u f)| / (omega^2 m), with m and k the quadratic forms of mass and stiffness.
-/// Amplitudes are the harmonics of the samples, up to half of their number unless the trial basis is Fourier.
+/// In points of this class energy_ratio is the constant energy of the motion, with the law's potential, over
+/// that of linear grazing; gamma_ratio is LL10's. max_penetration includes the deformation of the law.
+/// virial_residual is |omega^2 m - k - mean(u f)| / (omega^2 m), with m and k the quadratic forms of mass and
+/// stiffness. Amplitudes are the harmonics of the samples, up to half of their number unless the trial basis
+/// is Fourier.
 ///
 /// Immutable, may be shared between threads. A Newton step costs O((C M)^3 + C N M^2).
 class ElasticMode {

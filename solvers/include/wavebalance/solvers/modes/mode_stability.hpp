@@ -58,8 +58,8 @@ class ModeMultipliers {
   /// Throws std::invalid_argument as options.validate() does.
   explicit ModeMultipliers(const ElasticMode& mode, ModeStabilityOptions options = {});
 
-  /// Of one motion of the mode; the linear mode below contact has all multipliers on the circle. The cost is
-  /// that of monodromy(). too_few_harmonics where the closure is above its limit, effort_limit where there
+  /// The stability of one motion; the linear mode below contact has all multipliers on the circle. The cost
+  /// is that of monodromy(). too_few_harmonics where the closure is above its limit, effort_limit where there
   /// are more than max_states states or contact is too stiff for the monodromy, no_finite_stiffness for a
   /// rigid law at contacts that have mass, none of ModalModel::springs.
   ModeStability operator()(const ModePoint& point) const;

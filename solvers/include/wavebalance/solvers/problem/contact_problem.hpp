@@ -32,10 +32,10 @@ struct ResponseStart {
 /// come in any order. Owns plans and buffers: one object per thread.
 class ContactProblem {
  public:
-  /// Throws std::invalid_argument for laws that are neither one nor one for each contact, for a rigid law at a
-  /// contact with mass, and as CondensedProblem does.
+  /// Throws std::invalid_argument for laws that are neither one nor one for each contact, for a rigid law at
+  /// a contact with mass, and as CondensedProblem does.
   ContactProblem(TimePair pair, const LinearStructure& structure, ContactLaws laws, int periods = 1);
-  /// Of a problem with another load, or a structure whose dynamics are shared with others.
+  /// Takes a problem with another load, or a structure whose dynamics are shared with others.
   ContactProblem(CondensedProblem problem, ContactLaws laws,
                  std::shared_ptr<StructureDynamics> dynamics = std::make_shared<StructureDynamics>());
 

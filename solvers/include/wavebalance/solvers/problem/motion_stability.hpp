@@ -24,10 +24,10 @@ struct MotionStability {
   double wall_seconds = 0.0;
 };
 
-/// How the stability of a problem's motions is found unless it is said otherwise: harmonics of the trial
-/// functions, at most 255, since exponents err by 1e-6 at most with 127 and the cost grows like their cube;
-/// the monodromy of up to 120 states where contact is too stiff for the harmonics, since it costs seconds
-/// with many; operations of about ten seconds.
+/// How the stability of a problem's motions is found unless it is said otherwise: as many harmonics as
+/// the trial functions, at most 255, since 127 already give exponents to 1e-6 and the cost grows like their
+/// cube; the monodromy of up to 120 states where contact is too stiff for the harmonics, since it costs
+/// seconds with many; operations of about ten seconds.
 StabilityOptions stability_options(const CondensedProblem& problem);
 
 /// The verdict on a motion of which all multipliers are known, the largest first.

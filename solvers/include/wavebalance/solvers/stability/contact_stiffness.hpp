@@ -76,8 +76,8 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
 /// A law whose force depends on the velocity has its intervals where it acts; the velocity is that of the sum
 /// of trial functions or of the interpolant.
 ///
-/// Of rigid contact the status is no_finite_stiffness and there is no tangent; the intervals are those of the
-/// contact force, but empty where elastic laws are in contact, too.
+/// Rigid contact has the status no_finite_stiffness and no tangent; the intervals are those of the contact
+/// force, but empty where elastic laws are in contact, too.
 ///
 /// The result refers to `laws` no more than by copies. O(C (N + intervals M)).
 /// Throws std::invalid_argument for laws that are neither one nor one per contact, and for samples of another

@@ -21,8 +21,8 @@ struct Motion {
 /// Contact-major samples (all of the first contact, then all of the second, ...) as contacts x points.
 Eigen::MatrixXd by_contact(const Eigen::VectorXd& samples, int contacts);
 
-/// Of each row, whose samples are uniform over the period, those nearest to `points` uniform times; the later
-/// one where two are equally near. rows x points. O(rows points).
+/// The samples of each row nearest to `points` uniform times, the later one where two are equally near. The
+/// samples are uniform over the period. rows x points. O(rows points).
 Eigen::MatrixXd nearest_samples(const Eigen::MatrixXd& samples, int points);
 
 }  // namespace wavebalance::solvers
