@@ -9,10 +9,10 @@
 #include "command/run_record.hpp"
 #include "tables.hpp"
 #include "unlocked.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::python {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 
 namespace wavebalance::blade {

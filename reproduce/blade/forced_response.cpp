@@ -6,9 +6,10 @@
 #include "curve_parts.hpp"
 #include "figures.hpp"
 #include "forced_blade.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/stability_figure.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/drawing/stability_figure.hpp"
+#include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::blade {

@@ -2,6 +2,7 @@
 
 #include "comparison.hpp"
 #include "figures.hpp"
+#include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::cases {
 namespace {

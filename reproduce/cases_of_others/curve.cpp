@@ -7,7 +7,8 @@
 #include <complex>
 #include <numbers>
 
-#include "wavebalance/app/analysis/stability_figure.hpp"
+#include "wavebalance/app/drawing/stability_figure.hpp"
+#include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::cases {
 namespace {

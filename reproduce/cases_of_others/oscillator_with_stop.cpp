@@ -5,6 +5,7 @@
 #include "comparison.hpp"
 #include "figures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::cases {
 namespace {

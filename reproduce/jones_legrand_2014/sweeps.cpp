@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "nyquist_resonances.hpp"
-#include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/drawing/stability_figure.hpp"
 
 namespace wavebalance::jl14 {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "jl14.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 namespace wavebalance::jl14 {
 

@@ -6,11 +6,10 @@
 #include <map>
 #include <utility>
 
-#include "analysis/motion_files.hpp"
-#include "analysis/summary_parts.hpp"
 #include "analysis/sweep_axis.hpp"
-#include "wavebalance/app/analysis/contact_motion.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -56,11 +55,9 @@ class MotionsOfCurve {
     motion.contacts = problem_.motion(response, scene_.analysis.output_points);
     motion.contact = leading_contact(motion.contacts, model_.gaps);
     if (scene_.analysis.motion_points > 0)
-      motion.structure =
-          problem_.structure_motion(response, scene_.analysis.motion_points).displacement;
+      motion.structure = problem_.structure_motion(response, scene_.analysis.motion_points).displacement;
     motion.stability.status.clear();
-    if (scene_.analysis.stability && motion.converged)
-      motion.stability = problem_.stability(response);
+    if (scene_.analysis.stability && motion.converged) motion.stability = problem_.stability(response);
     return motion;
   }
 
@@ -77,41 +74,6 @@ void append_numbered(std::vector<CurveMotion>& all, std::vector<CurveMotion> mot
   for (std::size_t i = 0; i < motions.size(); ++i) {
     motions[i].name = several ? fmt::format("{}_{}", stem, i + 1) : stem;
     all.push_back(std::move(motions[i]));
-  }
-}
-
-std::vector<Cell> row_of(const CurveMotion& motion) {
-  const solvers::Motion leading = motion.contacts.contact(motion.contact);
-  Summary values;
-  append_motion(values, leading);
-  std::vector<Cell> row{motion.name + ".csv", motion.at, motion.place};
-  for (const auto& [name, value] : values) row.emplace_back(std::get<double>(value));
-  row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
-  row.emplace_back(motion.residual);
-  row.emplace_back(motion.converged);
-  return row;
-}
-
-std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
-  if (motion.at == axis.quantity) return fmt::format("at {} {}", cell_text(motion.place), axis.unit);
-  std::string type = motion.at;
-  std::replace(type.begin(), type.end(), '_', ' ');
-  return fmt::format("at the {}, {:.7g} {}", type, motion.place, axis.unit);
-}
-
-void append_files(Record& record, const StructureModel& model, const CurveMotion& motion,
-                  const std::string& place) {
-  const std::string about = "motion of the curve " + place;
-  const bool several = motion.contacts.rows() > 1;
-  record.files.push_back({motion.name + ".csv",
-                          csv_text(response_table(motion.contacts.contact(motion.contact))),
-                          about + (several ? ": the leading contact" : "")});
-  if (several)
-    record.files.push_back({motion.name + "_contacts.csv", csv_text(contacts_table(motion.contacts)),
-                            about + ": every contact"});
-  for (RecordFile& file : motion_files(model, motion.structure, motion.name)) {
-    file.about = about + ": the whole structure";
-    record.files.push_back(std::move(file));
   }
 }
 
@@ -147,35 +109,6 @@ std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel&
     if (goes_on_to(name)) append_numbered(motions, curve.at_place(place), "motion_" + name);
   }
   return motions;
-}
-
-void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
-                    const std::vector<CurveMotion>& motions) {
-  if (scene.analysis.motion_at.empty()) return;
-  const SweepAxis axis = sweep_axis(sweep);
-  Table table({"file", "at", axis.column(), "max_displacement_m", "min_displacement_m", "rms_displacement_m",
-               "max_contact_force_N", "contact_fraction", "unstable_multipliers", "residual", "converged"});
-  for (const CurveMotion& motion : motions) {
-    table.append_row(row_of(motion));
-    append_files(record, model, motion, place_of(motion, axis));
-    if (!motion.converged)
-      record.warnings.push_back("The motion " + place_of(motion, axis) +
-                                " was not solved for to the tolerance: " + motion.name +
-                                ".csv holds the last iterate.");
-  }
-  if (!sweep.motions_left_out.empty())
-    record.warnings.push_back(
-        fmt::format("analysis.motion_at: the sweep was interrupted before these motions were solved for: {}.",
-                    fmt::join(sweep.motions_left_out, ", ")));
-  for (const double place : scene.analysis.motion_at.places)
-    if (sweep.motions_left_out.empty() &&
-        std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
-          return motion.at == axis.quantity && motion.place == place;
-        }))
-      record.warnings.push_back(
-          fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
-                      cell_text(place), axis.unit));
-  record.summary.emplace_back("motions", std::move(table));
 }
 
 }  // namespace wavebalance::app

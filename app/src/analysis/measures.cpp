@@ -43,6 +43,15 @@ double contact_fraction(const solvers::Motion& motion) {
   return (motion.force.array() > 0.0).cast<double>().mean();
 }
 
+int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps) {
+  Eigen::Index contact = 0;
+  if (contacts.force.size() > 0 && contacts.force.maxCoeff() > 0.0)
+    contacts.force.rowwise().maxCoeff().maxCoeff(&contact);
+  else if (!contacts.empty())
+    (contacts.displacement.rowwise().maxCoeff() - gaps).maxCoeff(&contact);
+  return static_cast<int>(contact);
+}
+
 double observed_order(std::span<const double> sizes, std::span<const double> errors) {
   if (sizes.size() != errors.size())
     throw std::invalid_argument(

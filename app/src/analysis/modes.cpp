@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/summary_parts.hpp"
+#include "files/missing.hpp"
 #include "files/number_text.hpp"
 
 namespace wavebalance::app {

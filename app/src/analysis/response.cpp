@@ -10,7 +10,7 @@
 
 #include "analysis/response_parts.hpp"
 #include "analysis/tolerance_response.hpp"
-#include "wavebalance/app/analysis/contact_motion.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/period/shooting.hpp"
@@ -29,9 +29,8 @@ double seconds_since(Clock::time_point start) {
 
 /// Sets the contacts' motion, the leading contact, and the motion of the whole structure if the options
 /// require it.
-void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
-                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
-                 Response& result) {
+void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found, const Scene& scene,
+                 const StructureModel& model, const ResponseOptions& options, Response& result) {
   result.contacts = problem.motion(found, scene.analysis.output_points);
   result.contact = leading_contact(result.contacts, model.gaps);
   if (options.structure_points > 0)
@@ -49,8 +48,7 @@ void solve_law(const Scene& scene, const StructureModel& model, const ResponseOp
   solver.form = scene.contact.form;
   solver.stay_near_guess = options.stay_near_guess;
   solvers::ContactProblem problem = compose_problem(scene, model);
-  const auto found =
-      problem.respond(scene.forcing.frequency, solver, {options.guess, options.guess_force});
+  const auto found = problem.respond(scene.forcing.frequency, solver, {options.guess, options.guess_force});
   note_solution(result, problem.condensed(), found, scene, model);
   result.start_distance = relative_distance(found.displacement, options.guess);
   note_motion(problem, found, scene, model, options, result);

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 namespace wavebalance::app {
 

@@ -13,11 +13,11 @@
 #include "command/next_steps.hpp"
 #include "command/progress_bar.hpp"
 #include "command/run_record.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -124,8 +124,8 @@ std::string pictures_html(const std::vector<RecordPicture>& pictures, const std:
     block.curves = holds_file(files, picture.stem + ".figure.js");
     html += figure_html(block);
   }
-  const bool missing = html.empty() && !pictures.empty();
-  return missing ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;
+  const bool none_drawn = html.empty() && !pictures.empty();
+  return none_drawn ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;
 }
 
 }  // namespace wavebalance::app

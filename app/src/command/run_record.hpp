@@ -4,8 +4,8 @@
 
 #include "command/commands.hpp"
 #include "command/run_report.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 

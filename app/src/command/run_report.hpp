@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "command/commands.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 

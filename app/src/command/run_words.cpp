@@ -238,16 +238,16 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
   const auto [column, unit] = swept_column(curve);
   if (!curve.has_column("unstable") || column.empty() || curve.has_column("branch")) return;
   const std::vector<double> unstable = curve.numbers("unstable");
-  const auto missing =
+  const auto not_known =
       std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
-  if (missing == static_cast<std::ptrdiff_t>(unstable.size())) return;
+  if (not_known == static_cast<std::ptrdiff_t>(unstable.size())) return;
   const auto parts =
       unstable_parts(curve.numbers(column), unstable, changes_of_stability(summary, column), unit);
   sentences.push_back(
       parts.empty() ? "No motion whose stability is known is unstable."
                     : fmt::format("Along the curve motions are unstable at {}.", fmt::join(parts, ", ")));
-  if (missing > 0)
-    sentences.push_back(fmt::format("Stability is not known at {} of {} points.", missing, unstable.size()));
+  if (not_known > 0)
+    sentences.push_back(fmt::format("Stability is not known at {} of {} points.", not_known, unstable.size()));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include "analysis/sweep_axis.hpp"
 #include "compare/shared_observer.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"

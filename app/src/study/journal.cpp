@@ -128,10 +128,10 @@ void StudyJournal::append(const StudyRow& row) {
 std::vector<std::int64_t> missing_runs(const std::vector<StudyRow>& rows, std::int64_t runs) {
   std::vector<bool> there(static_cast<std::size_t>(runs));
   for (const StudyRow& row : rows) there[static_cast<std::size_t>(row.run)] = true;
-  std::vector<std::int64_t> missing;
+  std::vector<std::int64_t> left;
   for (std::int64_t run = 0; run < runs; ++run)
-    if (!there[static_cast<std::size_t>(run)]) missing.push_back(run);
-  return missing;
+    if (!there[static_cast<std::size_t>(run)]) left.push_back(run);
+  return left;
 }
 
 }  // namespace wavebalance::app

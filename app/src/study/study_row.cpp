@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "files/json_line.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 
 namespace wavebalance::app {

@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 

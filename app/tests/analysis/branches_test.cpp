@@ -11,8 +11,9 @@
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace {
 

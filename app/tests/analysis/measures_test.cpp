@@ -9,7 +9,7 @@
 
 #include "support/bar_scene.hpp"
 #include "support/scene_texts.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -3,7 +3,7 @@
 #include "support/bar_scene.hpp"
 #include "support/summary_value.hpp"
 #include "temporary_folder.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 
 namespace wavebalance::app {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace {

@@ -1,4 +1,5 @@
 #include "wavebalance/app/compare/sweep_comparison.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 
 #include "support/bracket.hpp"
 #include "support/command.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/fem/dof_map.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/matrix_file.hpp"

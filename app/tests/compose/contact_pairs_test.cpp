@@ -5,11 +5,11 @@
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 

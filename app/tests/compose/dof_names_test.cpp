@@ -9,8 +9,8 @@
 #include "compose/structure_facts.hpp"
 #include "support/chain_files.hpp"
 #include "support/scene_error.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
 namespace {

@@ -7,11 +7,11 @@
 #include "support/chain_files.hpp"
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 

@@ -11,10 +11,10 @@
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
 #include "temporary_folder.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 

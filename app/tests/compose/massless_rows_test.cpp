@@ -7,10 +7,10 @@
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
 #include "temporary_folder.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace {

@@ -4,11 +4,11 @@
 #include "support/chain_files.hpp"
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace {
 

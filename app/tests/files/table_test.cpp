@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "temporary_folder.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace {
 

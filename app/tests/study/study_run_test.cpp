@@ -9,8 +9,8 @@
 
 #include "support/scene_texts.hpp"
 #include "temporary_folder.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/study/journal.hpp"
 #include "wavebalance/app/study/study_record.hpp"
 #include "wavebalance/app/study/study_runner.hpp"

@@ -9,10 +9,10 @@
 
 #include "support/stop_scene.hpp"
 #include "temporary_folder.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 

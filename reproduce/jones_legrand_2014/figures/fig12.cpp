@@ -7,6 +7,7 @@
 #include "figures.hpp"
 #include "sweeps.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::jl14 {
 namespace {

@@ -5,9 +5,8 @@
 #include "jl14.hpp"
 #include "motion.hpp"
 #include "readings.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
-#include "wavebalance/app/analysis/contact_motion.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 namespace wavebalance::app {
 
@@ -27,10 +27,5 @@ struct CurveMotion {
 /// Where the observer stops them, the others are left out and named in sweep.motions_left_out.
 std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
                                        const Observer& observer = {});
-
-/// The files of the motions of a sweep, their table `motions` in the summary, and a warning for each place
-/// without one and each motion that was not solved for.
-void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
-                    const std::vector<CurveMotion>& motions);
 
 }  // namespace wavebalance::app

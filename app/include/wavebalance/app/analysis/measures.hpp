@@ -26,6 +26,10 @@ double energy_norm(const Scene& scene, const solvers::Motion& motion);
 /// Share of the samples with a contact force.
 double contact_fraction(const solvers::Motion& motion);
 
+/// The contact with the largest force; without any force, the one that comes nearest to its gap (m, one per
+/// contact). From 0; 0 of an empty motion.
+int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps);
+
 /// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
 /// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not
 /// positive.

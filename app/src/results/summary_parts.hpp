@@ -1,13 +1,10 @@
 #pragma once
-#include <limits>
 #include <string>
 
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
-
-inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// The first entries of every summary.
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,

@@ -1,5 +1,5 @@
 #pragma once
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 

@@ -1,13 +1,14 @@
-#include "analysis/summary_parts.hpp"
+#include "results/summary_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "wavebalance/app/analysis/contact_motion.hpp"
+#include "files/missing.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 

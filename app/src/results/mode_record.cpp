@@ -1,4 +1,4 @@
-#include "analysis/mode_record.hpp"
+#include "results/mode_record.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,15 @@
 #include <numbers>
 
 #include "analysis/mode_stability.hpp"
-#include "analysis/motion_files.hpp"
-#include "analysis/record_figure.hpp"
-#include "analysis/summary_parts.hpp"
-#include "wavebalance/app/analysis/contact_motion.hpp"
+#include "drawing/mode_figure.hpp"
+#include "drawing/record_figure.hpp"
+#include "files/missing.hpp"
+#include "results/mode_stability.hpp"
+#include "results/motion_files.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/stability_figure.hpp"
+#include "wavebalance/app/drawing/stability_figure.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,7 @@
 #pragma once
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::app {
 

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 

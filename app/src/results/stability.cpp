@@ -1,16 +1,13 @@
-#include "analysis/stability.hpp"
+#include "results/stability.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include "analysis/response_parts.hpp"
-#include "analysis/summary_parts.hpp"
 #include "analysis/sweep_axis.hpp"
-#include "analysis/sweep_options.hpp"
-#include "wavebalance/app/compose/compose.hpp"
+#include "files/missing.hpp"
+#include "results/summary_parts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -112,31 +109,6 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
       motion, stability.unstable, stability.unstable == 1 ? "" : "s"));
 }
 
-namespace {
-
-/// Period of a branch over that of the curve, at most. Each doubling takes twice the functions and points.
-constexpr int largest_period = 4;
-
-void add_branches(const Scene& scene, solvers::ContactProblem& problem, const Observer& observer,
-                  Sweep& sweep) {
-  solvers::BranchOptions options;
-  options.sweep = sweep_options(scene);
-  options.stability.output_points = scene.analysis.output_points;
-  options.largest_period = largest_period;
-  options.observer = observer;
-  const auto pairs = [&](int periods) { return make_pair(with_longer_period(scene, periods).time); };
-  sweep.branches = problem.branches(sweep.curve, sweep.stability, pairs, options);
-}
-
-}  // namespace
-
-void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
-  if (!scene.analysis.stability || sweep.curve.points.empty() || !model.contact_dynamics()) return;
-  solvers::ContactProblem problem = compose_problem(scene, model);
-  sweep.stability = problem.stability(sweep.curve, scene.analysis.output_points, observer);
-  if (scene.analysis.branches && !sweep.stability.cancelled) add_branches(scene, problem, observer, sweep);
-}
-
 void append_stability(Record& record, const Sweep& sweep) {
   const bool complete =
       !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
@@ -208,70 +180,6 @@ void append_branches(Record& record, const Sweep& sweep) {
                           point.bracket, point.multiplier.real(), point.multiplier.imag(),
                           point.max_displacement, std::string(point.located ? "located" : "bracketed")});
   record.summary.emplace_back("special_points_of_branches", special);
-}
-
-namespace {
-
-const std::vector<std::string> point_columns{
-    "frequency_Hz",           "max_displacement_m",  "rms_displacement_m", "min_displacement_m",
-    "max_abs_displacement_m", "max_contact_force_N", "contact_fraction"};
-
-std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepParameter parameter) {
-  return {parameter_of(point, parameter), point.max_displacement,     point.rms_displacement,
-          point.min_displacement,         point.max_abs_displacement, point.max_force,
-          point.contact_fraction};
-}
-
-void append_rows(Table& table, const solvers::FrequencySweep& curve,
-                 const std::vector<solvers::PointStability>& stability, int branch, int period) {
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const bool known = i < stability.size();
-    std::vector<Cell> row = point_cells(curve.points[i], curve.parameter);
-    row.emplace_back(known && stability[i].unstable >= 0 ? stability[i].unstable : missing);
-    row.emplace_back(known ? stability[i].contacts : missing);
-    row.emplace_back(std::int64_t{branch});
-    row.emplace_back(std::int64_t{period});
-    table.append_row(std::move(row));
-  }
-}
-
-}  // namespace
-
-namespace {
-
-/// With the name of its first column.
-Table points_table(const solvers::FrequencySweep& curve, const std::string& place) {
-  std::vector<std::string> columns = point_columns;
-  columns.front() = place;
-  Table table(columns);
-  for (const auto& point : curve.points) table.append_row(point_cells(point, curve.parameter));
-  return table;
-}
-
-}  // namespace
-
-Table sweep_table(const solvers::FrequencySweep& curve) { return points_table(curve, point_columns.front()); }
-
-Table sweep_table(const Sweep& sweep, bool with_branches) {
-  if (with_branches) {
-    std::vector<std::string> columns = point_columns;
-    columns.insert(columns.end(), {"unstable", "contacts", "branch", "period"});
-    Table table(columns);
-    append_rows(table, sweep.curve, sweep.stability.points, 0, sweep.periods);
-    int number = 0;
-    for (const solvers::Branch& branch : sweep.branches)
-      append_rows(table, branch.curve, branch.stability.points, ++number, branch.periods * sweep.periods);
-    return table;
-  }
-  Table table = points_table(sweep.curve, sweep_axis(sweep).column());
-  const auto& points = sweep.stability.points;
-  if (points.empty()) return table;
-  std::vector<double> unstable(table.rows(), missing), contacts(table.rows(), missing);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].unstable >= 0) unstable[i] = points[i].unstable;
-    contacts[i] = points[i].contacts;
-  }
-  return table.add_column("unstable", unstable).add_column("contacts", contacts);
 }
 
 }  // namespace wavebalance::app

@@ -1,4 +1,4 @@
-#include "analysis/record_figure.hpp"
+#include "drawing/record_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_axis.hpp"
-#include "wavebalance/app/analysis/stability_figure.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -137,21 +137,41 @@ double top_before_the_end(const std::vector<double>& place, const std::vector<do
   return before > 0.0 && largest > far_beyond * before ? before : largest;
 }
 
-std::vector<double> joined_columns(const Table& table, std::string_view first, std::string_view second) {
-  std::vector<double> values = table.numbers(first);
-  const std::vector<double> more = table.numbers(second);
-  values.insert(values.end(), more.begin(), more.end());
+using PointValue = double solvers::SweepPoint::*;
+
+/// One quantity along a curve, times a factor.
+std::vector<double> values_along(const solvers::FrequencySweep& curve, PointValue value,
+                                 double factor = 1.0) {
+  std::vector<double> values;
+  for (const auto& point : curve.points) values.push_back(factor * (point.*value));
+  return values;
+}
+
+/// Frequencies or amplitudes of its points.
+std::vector<double> places_along(const solvers::FrequencySweep& curve) {
+  std::vector<double> places;
+  for (const auto& point : curve.points) places.push_back(parameter_of(point, curve.parameter));
+  return places;
+}
+
+/// All displacements that a picture of the sweep shows.
+std::vector<double> displacements_of(const Sweep& sweep) {
+  std::vector<double> values = values_along(sweep.curve, &solvers::SweepPoint::max_displacement);
+  for (const auto& point : sweep.curve.points) values.push_back(point.rms_displacement);
+  for (const solvers::Branch& branch : sweep.branches)
+    for (const auto& point : branch.curve.points) values.push_back(point.max_displacement);
   return values;
 }
 
 /// The displacement up to which a sweep is drawn, of those in `values`: where the curve did not end well,
 /// neither one wild point nor an end without bound sets the axis.
-double shown_top(const Sweep& sweep, const Table& table, const std::vector<double>& values) {
+double shown_top(const Sweep& sweep, const std::vector<double>& values) {
   if (sweep.converged()) return *std::max_element(values.begin(), values.end());
   if (sweep.curve.status != solvers::SweepStatus::unbounded) return top_of_most(values);
-  const auto place = table.numbers(sweep_axis(sweep).column());
-  return std::max(top_before_the_end(place, table.numbers("max_displacement_m")),
-                  top_before_the_end(place, table.numbers("rms_displacement_m")));
+  const auto top = [&, place = places_along(sweep.curve)](PointValue value) {
+    return top_before_the_end(place, values_along(sweep.curve, value));
+  };
+  return std::max(top(&solvers::SweepPoint::max_displacement), top(&solvers::SweepPoint::rms_displacement));
 }
 
 /// Special points at their largest displacement.
@@ -239,17 +259,9 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
 }
 
 Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
-  const Table table = sweep_table(sweep);
-  const auto scaled = [&](std::string_view column, double factor) {
-    std::vector<double> values = table.numbers(column);
-    for (double& value : values) value *= factor;
-    return values;
-  };
-  auto values = joined_columns(table, "max_displacement_m", "rms_displacement_m");
-  for (const solvers::Branch& branch : sweep.branches)
-    for (const auto& point : branch.curve.points) values.push_back(point.max_displacement);
+  const std::vector<double> values = displacements_of(sweep);
   const double largest = *std::max_element(values.begin(), values.end());
-  const double top = shown_top(sweep, table, values);
+  const double top = shown_top(sweep, values);
   const Scale scale = scale_of(top);
   Figure figure;
   figure.title = method_title(scene);
@@ -259,12 +271,12 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
-  const SweepAxis axis = sweep_axis(sweep);
-  panel.x.label = axis.label();
+  panel.x.label = sweep_axis(sweep).label();
   panel.y.label = "Displacement (" + scale.prefix + "m)";
-  for (const auto& [label, column, colour] : {std::tuple{"largest", "max_displacement_m", Colour::blue},
-                                              {"rms", "rms_displacement_m", Colour::orange}}) {
-    Series series(label, scaled(axis.column(), 1.0), scaled(column, scale.factor));
+  for (const auto& [label, value, colour] :
+       {std::tuple{"largest", &solvers::SweepPoint::max_displacement, Colour::blue},
+        {"rms", &solvers::SweepPoint::rms_displacement, Colour::orange}}) {
+    Series series(label, places_along(sweep.curve), values_along(sweep.curve, value, scale.factor));
     series.colour = colour;
     const bool largest_one = colour == Colour::blue;  // that of the special points
     add_curve(panel, series, sweep.stability.points,

@@ -1,7 +1,8 @@
 #pragma once
 #include <string_view>
 
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 

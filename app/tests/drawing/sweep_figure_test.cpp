@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "analysis/record_figure.hpp"
+#include "drawing/record_figure.hpp"
 #include "support/bar_scene.hpp"
 #include "support/scene_texts.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "wavebalance/app/analysis/analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::app {

@@ -8,10 +8,10 @@
 #include "compose/structure_facts.hpp"
 #include "compose/structure_files.hpp"
 #include "files/number_text.hpp"
-#include "wavebalance/app/analysis/analysis.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/motion_files.hpp"
+#include "results/motion_files.hpp"
 
 #include <fmt/format.h>
 

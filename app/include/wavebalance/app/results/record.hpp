@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/analysis/start_motion.hpp"
+#include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// A further file of a record, ready to be written.
+struct RecordFile {
+  std::string name;
+  std::string contents;
+  std::string about;  ///< one sentence without its full stop
+};
+
+/// The results of an analysis: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
+struct Record {
+  bool converged = false;
+  bool interrupted = false;  ///< a sweep that its observer stopped, or its stability
+  std::string status;
+  /// Reasons why the result may be inaccurate, one sentence each; also in the summary.
+  std::vector<std::string> warnings;
+  Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
+  Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
+  Table sweep;      ///< see sweep_table(); empty otherwise
+  Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
+  Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
+  /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx; of a sweep the motions
+  /// of its points, see curve_motions.hpp.
+  std::vector<RecordFile> files;
+  /// Displacements of the nodes of a bar from its clamp on (rows) at uniform instants of the period, m; empty
+  /// for other structures and after a curve.
+  Eigen::MatrixXd bar_motion;
+  Figure figure;  ///< without panels when there is nothing to draw
+};
+
+/// Where a solution starts, what watches it, and on how many threads it runs.
+struct AnalysisOptions {
+  /// A motion near which the response or the first point of a sweep is sought, see require_start_fits(); what
+  /// is not found near it is not sought elsewhere. Empty: none.
+  StartMotion start{};
+  Observer observer{};
+  int threads = 0;  ///< that condense several harmonics side by side; 0: one per core. Digits do not change
+  /// That of the scene, made before, whose threads then hold; null: it is made.
+  const StructureModel* model = nullptr;
+};
+
+/// Solves `scene`. A failure to converge is reported in the record. Throws std::invalid_argument or
+/// solvers::InadmissiblePair for scenes that load_scene() would have rejected.
+Record analyse(const Scene& scene, const Observer& observer = {});
+Record analyse(const Scene& scene, const AnalysisOptions& options);
+
+/// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.
+std::string describe_scene(const Scene& scene);
+
+}  // namespace wavebalance::app

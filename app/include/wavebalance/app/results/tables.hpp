@@ -1,0 +1,21 @@
+#pragma once
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::app {
+
+/// time_fraction, displacement_m, velocity_m_per_s, contact_force_N of one contact, 1 x points each.
+Table response_table(const solvers::Motion& contact);
+
+/// time_fraction, contact (from 1), displacement_m, contact_force_N: every contact at every time.
+Table contacts_table(const solvers::Motion& contacts);
+
+/// The table of a frequency sweep's record.
+Table sweep_table(const solvers::FrequencySweep& curve);
+/// The same with the columns `unstable`, missing where it is not known, and `contacts`; with branches also
+/// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other. Of an
+/// amplitude sweep the first column is the amplitude in its unit.
+Table sweep_table(const Sweep& sweep, bool with_branches = false);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,114 @@
+#include "wavebalance/app/analysis/sweep.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "analysis/response_parts.hpp"
+#include "analysis/sweep_options.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/motion_periods.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// The first point of a sweep that starts near a motion, or that has several periods of the load.
+solvers::PeriodicResponse first_point(const Scene& scene, solvers::ContactProblem& problem,
+                                      solvers::ForcedResponseOptions how, const StartMotion& start,
+                                      double& distance) {
+  StartSamples samples;
+  if (!start.contacts.empty()) samples = start_samples(start, scene);
+  how.stay_near_guess = !start.contacts.empty();
+  auto first = problem.respond(scene.analysis.frequency_from, how, {samples.displacement, samples.force});
+  distance = relative_distance(first.displacement, samples.displacement);
+  return first;
+}
+
+Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                       const StartMotion& start) {
+  solvers::FrequencySweepOptions options = sweep_options(scene);
+  options.observer = observer;
+  options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
+  Sweep sweep;
+  solvers::ContactProblem problem = compose_problem(scene, model);
+  if (scene.analysis.subharmonic == 1 && start.contacts.empty()) {
+    sweep.curve = problem.sweep(options);
+    return sweep;
+  }
+  options.start.observer = options.observer;
+  const auto first = first_point(scene, problem, options.start, start, sweep.start_distance);
+  sweep.periods = scene.analysis.subharmonic;
+  sweep.motion_periods = solvers::motion_periods(problem.condensed(), first);
+  sweep.curve = problem.sweep(options, first);
+  return sweep;
+}
+
+}  // namespace
+
+bool Sweep::stopped() const {
+  return interrupted() || stability.cancelled || !motions_left_out.empty() ||
+         std::any_of(branches.begin(), branches.end(),
+                     [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
+}
+
+std::string Sweep::status() const {
+  if (interrupted()) return "interrupted";
+  if (curve.rounding_error > largest_rounding_error) return inaccurate_status(curve.rounding_error);
+  return std::string(to_string(curve.status));
+}
+
+Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
+  return frequency_sweep(scene, make_model(scene, observer), observer);
+}
+
+Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                      const StartMotion& start) {
+  require_start_fits(start, scene);
+  const auto begin = std::chrono::steady_clock::now();
+  Sweep sweep = arc_length_sweep(scene, model, observer, start);
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return sweep;
+}
+
+Sweep amplitude_sweep(const Scene& scene, const Observer& observer) {
+  return amplitude_sweep(scene, make_model(scene), observer);
+}
+
+Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  const ReferenceLoad load = reference_load(scene.forcing).value();
+  solvers::FrequencySweepOptions options = sweep_options(scene);
+  options.observer = observer;
+  options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
+  Sweep sweep;
+  sweep.curve = compose_problem(scene, model).amplitude_sweep(scene.forcing.frequency, options);
+  sweep.amplitude_unit = load.unit;
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return sweep;
+}
+
+namespace {
+
+/// Period of a branch over that of the curve, at most. Each doubling takes twice the functions and points.
+constexpr int largest_period = 4;
+
+void add_branches(const Scene& scene, solvers::ContactProblem& problem, const Observer& observer,
+                  Sweep& sweep) {
+  solvers::BranchOptions options;
+  options.sweep = sweep_options(scene);
+  options.stability.output_points = scene.analysis.output_points;
+  options.largest_period = largest_period;
+  options.observer = observer;
+  const auto pairs = [&](int periods) { return make_pair(with_longer_period(scene, periods).time); };
+  sweep.branches = problem.branches(sweep.curve, sweep.stability, pairs, options);
+}
+
+}  // namespace
+
+void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
+  if (!scene.analysis.stability || sweep.curve.points.empty() || !model.contact_dynamics()) return;
+  solvers::ContactProblem problem = compose_problem(scene, model);
+  sweep.stability = problem.stability(sweep.curve, scene.analysis.output_points, observer);
+  if (scene.analysis.branches && !sweep.stability.cancelled) add_branches(scene, problem, observer, sweep);
+}
+
+}  // namespace wavebalance::app

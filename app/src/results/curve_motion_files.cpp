@@ -1,0 +1,83 @@
+#include "results/curve_motion_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/sweep_axis.hpp"
+#include "files/missing.hpp"
+#include "results/motion_files.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/results/tables.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::vector<Cell> row_of(const CurveMotion& motion) {
+  const solvers::Motion leading = motion.contacts.contact(motion.contact);
+  Summary values;
+  append_motion(values, leading);
+  std::vector<Cell> row{motion.name + ".csv", motion.at, motion.place};
+  for (const auto& [name, value] : values) row.emplace_back(std::get<double>(value));
+  row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
+  row.emplace_back(motion.residual);
+  row.emplace_back(motion.converged);
+  return row;
+}
+
+std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
+  if (motion.at == axis.quantity) return fmt::format("at {} {}", cell_text(motion.place), axis.unit);
+  std::string type = motion.at;
+  std::replace(type.begin(), type.end(), '_', ' ');
+  return fmt::format("at the {}, {:.7g} {}", type, motion.place, axis.unit);
+}
+
+void append_files(Record& record, const StructureModel& model, const CurveMotion& motion,
+                  const std::string& place) {
+  const std::string about = "motion of the curve " + place;
+  const bool several = motion.contacts.rows() > 1;
+  record.files.push_back({motion.name + ".csv",
+                          csv_text(response_table(motion.contacts.contact(motion.contact))),
+                          about + (several ? ": the leading contact" : "")});
+  if (several)
+    record.files.push_back({motion.name + "_contacts.csv", csv_text(contacts_table(motion.contacts)),
+                            about + ": every contact"});
+  for (RecordFile& file : motion_files(model, motion.structure, motion.name)) {
+    file.about = about + ": the whole structure";
+    record.files.push_back(std::move(file));
+  }
+}
+
+}  // namespace
+
+void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
+                    const std::vector<CurveMotion>& motions) {
+  if (scene.analysis.motion_at.empty()) return;
+  const SweepAxis axis = sweep_axis(sweep);
+  Table table({"file", "at", axis.column(), "max_displacement_m", "min_displacement_m", "rms_displacement_m",
+               "max_contact_force_N", "contact_fraction", "unstable_multipliers", "residual", "converged"});
+  for (const CurveMotion& motion : motions) {
+    table.append_row(row_of(motion));
+    append_files(record, model, motion, place_of(motion, axis));
+    if (!motion.converged)
+      record.warnings.push_back("The motion " + place_of(motion, axis) +
+                                " was not solved for to the tolerance: " + motion.name +
+                                ".csv holds the last iterate.");
+  }
+  if (!sweep.motions_left_out.empty())
+    record.warnings.push_back(
+        fmt::format("analysis.motion_at: the sweep was interrupted before these motions were solved for: {}.",
+                    fmt::join(sweep.motions_left_out, ", ")));
+  for (const double place : scene.analysis.motion_at.places)
+    if (sweep.motions_left_out.empty() &&
+        std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
+          return motion.at == axis.quantity && motion.place == place;
+        }))
+      record.warnings.push_back(
+          fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
+                      cell_text(place), axis.unit));
+  record.summary.emplace_back("motions", std::move(table));
+}
+
+}  // namespace wavebalance::app
