@@ -34,15 +34,15 @@ py::dict columns_of(const app::Table& table) {
 
 py::dict dictionary_of(const app::Summary& summary) {
   py::dict values;
-  for (const auto& [name, value] : summary)
-    values[py::str(name)] = std::visit(
+  for (const app::Entry& entry : summary)
+    values[py::str(entry.name)] = std::visit(
         [](const auto& one) -> py::object {
           if constexpr (std::is_same_v<std::decay_t<decltype(one)>, app::Table>)
             return columns_of(one);
           else
             return py::cast(one);
         },
-        value);
+        entry.value);
   return values;
 }
 

@@ -124,9 +124,9 @@ StartMotion read_start_motion(const fs::path& place) {
   StartMotion start;
   start.source = file.string();
   start.contacts = motion_of(read_csv(file), file);
-  for (const auto& [name, value] : read_summary(file.parent_path() / "summary.json"))
-    if (const auto* periods = std::get_if<std::int64_t>(&value); periods != nullptr && name == "subharmonic")
-      start.periods = static_cast<int>(*periods);
+  const Summary summary = read_summary(file.parent_path() / "summary.json");
+  if (const auto* periods = value_in<std::int64_t>(summary, "subharmonic"))
+    start.periods = static_cast<int>(*periods);
   return start;
 }
 

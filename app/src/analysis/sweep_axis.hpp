@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::app {
 
@@ -16,5 +18,7 @@ struct SweepAxis {
 };
 
 SweepAxis sweep_axis(const Sweep& sweep);
+/// That of which a table has the column; empty for other tables.
+std::optional<SweepAxis> axis_of(const Table& table);
 
 }  // namespace wavebalance::app

@@ -40,9 +40,9 @@ std::string shown_value(const Table& table) { return std::to_string(table.rows()
 
 std::string summary_text(const Summary& summary) {
   std::string text;
-  for (const auto& [name, value] : summary) {
-    const std::string shown = std::visit([](const auto& one) { return shown_value(one); }, value);
-    text += name + std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') + shown + "\n";
+  for (const Entry& entry : summary) {
+    const std::string shown = std::visit([](const auto& one) { return shown_value(one); }, entry.value);
+    text += entry.name + std::string(entry.name.size() < 22 ? 22 - entry.name.size() : 1, ' ') + shown + "\n";
   }
   return text;
 }

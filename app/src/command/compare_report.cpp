@@ -12,13 +12,6 @@
 namespace wavebalance::app {
 namespace {
 
-template <class Value>
-Value value_in(const Summary& summary, const std::string& wanted, Value otherwise) {
-  for (const auto& [name, value] : summary)
-    if (const auto* found = std::get_if<Value>(&value); found != nullptr && name == wanted) return *found;
-  return otherwise;
-}
-
 std::string command_of(const CompareArguments& arguments) {
   std::string text = "wavebalance compare " + shell_word(arguments.run.scene.string());
   if (!arguments.pairs.empty()) text += " --pairs " + shell_word(arguments.pairs);
@@ -99,15 +92,15 @@ std::string curves(const ComparisonRecord& record, const Summary& summary) {
 }
 
 std::string reference(const Summary& summary) {
-  const std::string text = value_in<std::string>(summary, "reference_text", "");
+  const std::string text = text_in(summary, {"reference_text"});
   if (text.empty()) return "";
-  const double error = value_in<double>(summary, "reference_error", std::numeric_limits<double>::quiet_NaN());
+  const double error = number_in(summary, {"reference_error"});
   if (!std::isfinite(error)) return paragraph({"No reference was found within its share of the budget."});
   std::vector<std::string> sentences{
       fmt::format("Errors are those against {}. Its own error is about {:.0e}; smaller differences from it "
                   "say nothing.",
                   text, error)};
-  const std::string stability = value_in<std::string>(summary, "reference_stability", "");
+  const std::string stability = text_in(summary, {"reference_stability"});
   if (stability == "stable" || stability == "unstable")
     sentences.push_back("Its motion is " + stability + ".");
   else if (!stability.empty())

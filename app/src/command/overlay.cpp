@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "results/quantities.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
@@ -129,12 +130,6 @@ void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std
   curves.push_back(std::move(curve));
 }
 
-double number_in(const Summary& summary, const std::string& wanted) {
-  for (const auto& [name, value] : summary)
-    if (const auto* number = std::get_if<double>(&value); number != nullptr && name == wanted) return *number;
-  return unknown;
-}
-
 /// The displacements of all contacts where there are several.
 void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
                   OverlayQuantity quantity) {
@@ -146,8 +141,8 @@ void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, con
   if (!u.empty() && quantity == OverlayQuantity::max) value = *high;
   if (!u.empty() && quantity == OverlayQuantity::min) value = *low;
   if (!u.empty() && quantity == OverlayQuantity::max_abs) value = std::max(-*low, *high);
-  if (quantity == OverlayQuantity::rms) value = number_in(summary, "rms_displacement_m");
-  curves.push_back({label, "response", {number_in(summary, "frequency_Hz")}, {value}, {unknown}});
+  if (quantity == OverlayQuantity::rms) value = number_in(summary, quantities::rms_displacement);
+  curves.push_back({label, "response", {number_in(summary, quantities::frequency)}, {value}, {unknown}});
 }
 
 void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,

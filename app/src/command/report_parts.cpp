@@ -66,7 +66,7 @@ std::string shell_word(const std::string& text) {
 
 std::string values_table(const Summary& summary) {
   std::vector<std::vector<std::string>> rows{{"name", "value"}};
-  for (const auto& [name, value] : summary) rows.push_back({name, value_text(value)});
+  for (const Entry& one : summary) rows.push_back({one.name, value_text(one.value)});
   return table_html(rows);
 }
 
@@ -80,10 +80,8 @@ std::vector<std::vector<std::string>> text_rows(const Table& table) {
 }
 
 const Table* table_of(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (const auto* table = std::get_if<Table>(&value); table != nullptr && key == name && !table->empty())
-      return table;
-  return nullptr;
+  const auto* table = value_in<Table>(summary, name);
+  return table == nullptr || table->empty() ? nullptr : table;
 }
 
 std::string files_list(const std::vector<ResultFile>& files) {

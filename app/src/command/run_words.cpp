@@ -4,55 +4,46 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <optional>
+
+#include "analysis/sweep_axis.hpp"
+#include "results/quantities.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-template <class Value>
-const Value* find(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (key == name) return std::get_if<Value>(&value);
-  return nullptr;
-}
-
-double number(const Summary& summary, const std::string& name) {
-  if (const auto* value = find<double>(summary, name)) return *value;
-  if (const auto* count = find<std::int64_t>(summary, name)) return static_cast<double>(*count);
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::string text(const Summary& summary, const std::string& name) {
-  const auto* value = find<std::string>(summary, name);
-  return value == nullptr ? "" : *value;
-}
 
 std::string spaced(std::string words) {
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }
 
-std::string count_of(const Summary& summary, const std::string& name, const std::string& noun) {
-  const double count = number(summary, name);
+std::string count_of(const Summary& summary, const Quantity& of, const std::string& noun) {
+  const double count = number_in(summary, of);
   return fmt::format("{:.0f} {}{}", count, noun, count == 1.0 ? "" : "s");
+}
+
+/// A value of the summary with its unit.
+std::string with_unit(const Summary& summary, const Quantity& one) {
+  return quantity(number_in(summary, one), std::string(one.unit));
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
 std::string solution_sentence(const Summary& summary) {
-  const bool* converged = find<bool>(summary, "converged");
-  const std::string seconds = quantity(number(summary, "wall_seconds"), "s");
-  const double residual = number(summary, "residual");
+  const bool* converged = value_in<bool>(summary, quantities::converged.name);
+  const std::string seconds = with_unit(summary, quantities::wall_seconds);
+  const double residual = number_in(summary, quantities::residual);
   const std::string ending =
       std::isfinite(residual)
           ? fmt::format(", in {}; the largest relative residual is {:.2g}.", seconds, residual)
           : fmt::format(", in {}.", seconds);
   if (converged != nullptr && *converged) return "The scene was solved" + ending;
-  if (text(summary, "status") == "unbalanced")
+  if (text_in(summary, quantities::status) == "unbalanced")
     return "No periodic motion exists: the structure is free to move, and no contact force balances its static load.";
-  const bool shown = std::isfinite(number(summary, "max_displacement_m")) || number(summary, "points") > 0.0;
-  return "The scene was not solved (" + spaced(text(summary, "status")) + ")" + ending +
+  const bool shown = std::isfinite(number_in(summary, quantities::max_displacement)) ||
+                     number_in(summary, quantities::points) > 0.0;
+  return "The scene was not solved (" + spaced(text_in(summary, quantities::status)) + ")" + ending +
          (shown ? " What follows is not a solution." : " There is no motion to show.");
 }
 
@@ -66,7 +57,8 @@ std::string beside_gap(double displacement, double gap) {
 
 /// `limit` is "up to " for a curve, whose shares differ from point to point.
 void append_contact(std::vector<std::string>& sentences, const Summary& summary, const char* limit) {
-  const double share = number(summary, "contact_fraction"), force = number(summary, "max_contact_force_N");
+  const double share = number_in(summary, quantities::contact_fraction),
+               force = number_in(summary, quantities::max_contact_force);
   if (share == 0.0) {
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
@@ -78,57 +70,43 @@ void append_contact(std::vector<std::string>& sentences, const Summary& summary,
 }
 
 void append_motion(std::vector<std::string>& sentences, const Summary& summary, double gap) {
-  const double highest = number(summary, "max_displacement_m"),
-               lowest = number(summary, "min_displacement_m");
+  const double highest = number_in(summary, quantities::max_displacement),
+               lowest = number_in(summary, quantities::min_displacement);
   if (!std::isfinite(highest)) return;
   sentences.push_back(fmt::format("At {} the displacement lies between {} and {}{}.",
-                                  quantity(number(summary, "frequency_Hz"), "Hz"), quantity(lowest, "m"),
+                                  with_unit(summary, quantities::frequency), quantity(lowest, "m"),
                                   quantity(highest, "m"), beside_gap(highest, gap)));
 }
 
-/// Ends of the names of columns and units of amplitude sweeps.
-constexpr std::pair<const char*, const char*> amplitude_units[] = {
-    {"N", "N"}, {"m", "m"}, {"m_per_s2", "m/s^2"}};
-
-/// The column that a sweep varies and its unit; empty for other curves.
-std::pair<std::string, std::string> swept_column(const Table& table) {
-  if (table.has_column("frequency_Hz")) return {"frequency_Hz", "Hz"};
-  for (const auto& [suffix, unit] : amplitude_units)
-    if (table.has_column("amplitude_" + std::string(suffix)))
-      return {"amplitude_" + std::string(suffix), unit};
-  return {};
-}
-
 void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap) {
-  const double highest = number(summary, "max_displacement_m");
-  sentences.push_back(fmt::format("The curve has {}.", count_of(summary, "points", "point")));
+  const double highest = number_in(summary, quantities::max_displacement);
+  sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
   if (!std::isfinite(highest)) return;
-  std::string place = quantity(number(summary, "frequency_at_max_displacement_Hz"), "Hz");
-  for (const auto& [suffix, unit] : amplitude_units)
-    if (const double amplitude = number(summary, "amplitude_at_max_displacement_" + std::string(suffix));
-        std::isfinite(amplitude))
-      place = "an amplitude of " + quantity(amplitude, unit);
+  std::string place = "not known";
+  for (const Quantity& one : quantities::peak_places)
+    if (find_entry(summary, one.name) != nullptr)
+      place = (one.unit == "Hz" ? "" : "an amplitude of ") + with_unit(summary, one);
   sentences.push_back(fmt::format("Its largest displacement is {}, at {}{}.", quantity(highest, "m"), place,
                                   beside_gap(highest, gap)));
 }
 
 void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
-  const double ratio = number(summary, "largest_energy_ratio");
+  const double ratio = number_in(summary, quantities::largest_energy_ratio);
   if (!std::isfinite(ratio)) return;
   sentences.push_back(fmt::format(
       "Mode {:.0f} was followed over {} to {:.4g} times the energy at which the linear mode touches.",
-      number(summary, "mode"), count_of(summary, "points", "point"), ratio));
+      number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"), ratio));
   sentences.push_back(fmt::format("Its frequency rises to {:.4g} times the linear one of {}.",
-                                  number(summary, "largest_frequency_ratio"),
-                                  quantity(number(summary, "linear_frequency_Hz"), "Hz")));
-  if (number(summary, "points_tongue") > 0.0)
+                                  number_in(summary, quantities::largest_frequency_ratio),
+                                  with_unit(summary, quantities::linear_frequency)));
+  if (number_in(summary, quantities::points_tongue) > 0.0)
     sentences.emplace_back(
         "A tongue is a part of the curve on an internal resonance, where another mode moves along with this one.");
-  if (std::isfinite(number(summary, "virial_residual")))
+  if (std::isfinite(number_in(summary, quantities::virial_residual)))
     sentences.push_back(fmt::format(
         "The virial residual, at most {:.2g}, is the relative error of a balance of energies that exact motions "
         "satisfy.",
-        number(summary, "virial_residual")));
+        number_in(summary, quantities::virial_residual)));
 }
 
 /// One sentence for each status of stability that a record can have.
@@ -184,16 +162,16 @@ std::string type_in_words(const std::string& type) {
 }
 
 void append_special_points(std::vector<std::string>& sentences, const Summary& summary) {
-  const auto* points = find<Table>(summary, "special_points");
+  const auto* points = value_in<Table>(summary, quantities::special_points.name);
   if (points == nullptr || points->empty()) return;
-  const auto [column, unit] = swept_column(*points);
-  const bool sweep = !column.empty();
-  const std::string place = sweep ? column : points->columns().at(1);
+  const std::optional<SweepAxis> axis = axis_of(*points);
+  const std::string place = axis ? axis->column() : points->columns().at(1);
   std::map<std::string, std::vector<std::string>> places;
   for (std::size_t i = 0; i < points->rows(); ++i)
     if (const auto* value = std::get_if<double>(&points->at(i, place)))
       places[type_in_words(cell_text(points->at(i, "type")))].push_back(
-          sweep ? fmt::format("{:.7g} {}", *value, unit) : fmt::format("{} {:.5g}", spaced(place), *value));
+          axis ? fmt::format("{:.7g} {}", *value, axis->unit)
+               : fmt::format("{} {:.5g}", spaced(place), *value));
   for (const auto& [type, where] : places)
     sentences.push_back(fmt::format("{}: {}.", type, fmt::join(where, ", ")));
 }
@@ -201,7 +179,7 @@ void append_special_points(std::vector<std::string>& sentences, const Summary& s
 /// Frequencies or amplitudes of the special points at which multipliers pass the unit circle.
 std::vector<double> changes_of_stability(const Summary& summary, const std::string& column) {
   std::vector<double> places;
-  const auto* points = find<Table>(summary, "special_points");
+  const auto* points = value_in<Table>(summary, quantities::special_points.name);
   for (std::size_t i = 0; points != nullptr && i < points->rows(); ++i)
     if (const auto* place = std::get_if<double>(&points->at(i, column));
         place != nullptr && cell_text(points->at(i, "type")) != "grazing")
@@ -235,19 +213,20 @@ std::vector<std::string> unstable_parts(const std::vector<double>& place, const 
 }
 
 void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& curve) {
-  const auto [column, unit] = swept_column(curve);
-  if (!curve.has_column("unstable") || column.empty() || curve.has_column("branch")) return;
+  const std::optional<SweepAxis> axis = axis_of(curve);
+  if (!axis || !curve.has_column("unstable") || curve.has_column("branch")) return;
   const std::vector<double> unstable = curve.numbers("unstable");
   const auto not_known =
       std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
   if (not_known == static_cast<std::ptrdiff_t>(unstable.size())) return;
-  const auto parts =
-      unstable_parts(curve.numbers(column), unstable, changes_of_stability(summary, column), unit);
+  const auto parts = unstable_parts(curve.numbers(axis->column()), unstable,
+                                    changes_of_stability(summary, axis->column()), axis->unit);
   sentences.push_back(
       parts.empty() ? "No motion whose stability is known is unstable."
                     : fmt::format("Along the curve motions are unstable at {}.", fmt::join(parts, ", ")));
   if (not_known > 0)
-    sentences.push_back(fmt::format("Stability is not known at {} of {} points.", not_known, unstable.size()));
+    sentences.push_back(
+        fmt::format("Stability is not known at {} of {} points.", not_known, unstable.size()));
 }
 
 }  // namespace
@@ -264,7 +243,7 @@ std::string quantity(double value, const std::string& unit) {
 
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
   std::vector<std::string> sentences{solution_sentence(summary)};
-  const std::string analysis = text(summary, "analysis");
+  const std::string analysis = text_in(summary, quantities::analysis);
   const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";
   if (curve)
     append_curve(sentences, summary, gap);
@@ -277,12 +256,12 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
 }
 
 std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve) {
-  const std::string status = text(summary, "stability");
+  const std::string status = text_in(summary, quantities::stability);
   if (status.empty()) return {};
   std::vector<std::string> sentences{status_sentence(status)};
-  const double unstable = number(summary, "unstable_multipliers");
-  const double real = number(summary, "leading_multiplier_real"),
-               imaginary = number(summary, "leading_multiplier_imag");
+  const double unstable = number_in(summary, quantities::unstable_multipliers);
+  const double real = number_in(summary, quantities::leading_multiplier_real),
+               imaginary = number_in(summary, quantities::leading_multiplier_imag);
   if (unstable > 0.0)
     sentences.push_back(fmt::format("Of its Floquet multipliers {:.0f} {} outside the unit circle.", unstable,
                                     unstable == 1.0 ? "lies" : "lie"));

@@ -110,10 +110,8 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
 std::string study_outcome(const StudyRecord& record) {
   const Summary& summary = record.summary;
   const auto value = [&](const char* wanted) {
-    for (const auto& [name, one] : summary)
-      if (const auto* count = std::get_if<std::int64_t>(&one); count != nullptr && name == wanted)
-        return *count;
-    return std::int64_t{0};
+    const auto* count = value_in<std::int64_t>(summary, wanted);
+    return count == nullptr ? std::int64_t{0} : *count;
   };
   std::string text = fmt::format("{} of {} runs have ended, and {} of them converged.\n", value("runs_ended"),
                                  value("runs"), value("runs_converged"));

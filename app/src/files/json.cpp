@@ -28,8 +28,8 @@ nlohmann::ordered_json json_value(const Value& value) {
 /// Text that is no UTF-8 (a file's name) must not cost the record.
 std::string dumped(const Summary& summary, int indent) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : summary)
-    std::visit([&, &key = name](const auto& content) { object[key] = json_value(content); }, value);
+  for (const Entry& one : summary)
+    std::visit([&](const auto& content) { object[one.name] = json_value(content); }, one.value);
   return object.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

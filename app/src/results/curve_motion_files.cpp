@@ -8,6 +8,7 @@
 #include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
 #include "results/motion_files.hpp"
+#include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
@@ -19,7 +20,7 @@ std::vector<Cell> row_of(const CurveMotion& motion) {
   Summary values;
   append_motion(values, leading);
   std::vector<Cell> row{motion.name + ".csv", motion.at, motion.place};
-  for (const auto& [name, value] : values) row.emplace_back(std::get<double>(value));
+  for (const Entry& one : values) row.emplace_back(std::get<double>(one.value));
   row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
   row.emplace_back(motion.residual);
   row.emplace_back(motion.converged);
@@ -77,7 +78,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
       record.warnings.push_back(
           fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
                       cell_text(place), axis.unit));
-  record.summary.emplace_back("motions", std::move(table));
+  record.summary.emplace_back(quantities::motions, std::move(table));
 }
 
 }  // namespace wavebalance::app

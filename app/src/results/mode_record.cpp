@@ -13,6 +13,7 @@
 #include "files/missing.hpp"
 #include "results/mode_stability.hpp"
 #include "results/motion_files.hpp"
+#include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
@@ -62,14 +63,14 @@ double worst_residual(const Backbone& curve) {
 
 void append_discretisation(Summary& summary, const ModeStudy& study) {
   const Analysis& analysis = study.scene().analysis;
-  summary.emplace_back("analysis", name_of(analysis.type));
-  summary.emplace_back("mode", std::int64_t{analysis.mode});
+  summary.emplace_back(quantities::analysis, name_of(analysis.type));
+  summary.emplace_back(quantities::mode, std::int64_t{analysis.mode});
   if (!study.elastic_mode() || study.scene().time.trial.empty()) {
-    summary.emplace_back("harmonics", std::int64_t{analysis.harmonics});
-    summary.emplace_back("samples", std::int64_t{analysis.samples});
+    summary.emplace_back(quantities::harmonics, std::int64_t{analysis.harmonics});
+    summary.emplace_back(quantities::samples, std::int64_t{analysis.samples});
   }
   if (study.elastic_mode()) append_discretisation(summary, mode_time(study.scene()));
-  summary.emplace_back("linear_frequency_Hz", study.linear_frequency());
+  summary.emplace_back(quantities::linear_frequency, study.linear_frequency());
   append_structure(summary, study.model());
 }
 
@@ -81,22 +82,22 @@ double common_gap(const ModeStudy& study) {
 
 void append_curve(Summary& summary, const Backbone& curve, double gap) {
   const double penetration = largest(curve, [](const auto& point) { return point.max_penetration; });
-  summary.emplace_back("max_displacement_m", gap * (1.0 + penetration));
-  summary.emplace_back("min_displacement_m", missing);
-  summary.emplace_back("rms_displacement_m", missing);
-  summary.emplace_back("max_contact_force_N",
+  summary.emplace_back(quantities::max_displacement, gap * (1.0 + penetration));
+  summary.emplace_back(quantities::min_displacement, missing);
+  summary.emplace_back(quantities::rms_displacement, missing);
+  summary.emplace_back(quantities::max_contact_force,
                        largest(curve, [](const auto& point) { return point.force.maxCoeff(); }));
-  summary.emplace_back("contact_fraction",
+  summary.emplace_back(quantities::contact_fraction,
                        largest(curve, [](const auto& point) { return point.contact_fraction; }));
 }
 
 void append_statuses(Summary& summary, const Backbone& curve) {
-  summary.emplace_back("points", static_cast<std::int64_t>(curve.points.size()));
+  summary.emplace_back(quantities::points, static_cast<std::int64_t>(curve.points.size()));
   for (const auto status : {ModeStatus::converged, ModeStatus::internal_resonance, ModeStatus::cycling,
                             ModeStatus::no_contact, ModeStatus::singular})
     summary.emplace_back("points_" + std::string(to_string(status)), std::int64_t{curve.count(status)});
-  summary.emplace_back("tongues", joined_names(all_resonances(curve)));
-  summary.emplace_back("interruptions", static_cast<std::int64_t>(curve.interruptions.size()));
+  summary.emplace_back(quantities::tongues, joined_names(all_resonances(curve)));
+  summary.emplace_back(quantities::interruptions, static_cast<std::int64_t>(curve.interruptions.size()));
 }
 
 /// The points of a curve without a motion, which beside an internal resonance leave it converged.
@@ -122,9 +123,9 @@ void warn_of_failed_points(Record& record, const Backbone& curve) {
 }
 
 void append_quality(Summary& summary, double penetration, double min_force, double virial_residual) {
-  summary.emplace_back("max_penetration_over_gap", std::max(0.0, penetration));
-  summary.emplace_back("min_contact_force_N", min_force);
-  summary.emplace_back("virial_residual", virial_residual);
+  summary.emplace_back(quantities::max_penetration_over_gap, std::max(0.0, penetration));
+  summary.emplace_back(quantities::min_contact_force, min_force);
+  summary.emplace_back(quantities::virial_residual, virial_residual);
 }
 
 Record curve_record(const ModeStudy& study, const Observer& observer) {
@@ -142,9 +143,9 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
                  -largest(curve, [](const auto& point) { return -point.min_force; }),
                  largest(curve, [](const auto& point) { return point.virial_residual; }));
-  record.summary.emplace_back("largest_energy_ratio",
+  record.summary.emplace_back(quantities::largest_energy_ratio,
                               largest(curve, [](const auto& point) { return point.energy_ratio; }));
-  record.summary.emplace_back("largest_frequency_ratio", largest(curve, [&](const auto& point) {
+  record.summary.emplace_back(quantities::largest_frequency_ratio, largest(curve, [&](const auto& point) {
                                 return point.omega / study.mode().linear_omega();
                               }));
   append_stability(record.summary, study, stability);
@@ -179,11 +180,11 @@ Record motion_record(const ModeStudy& study) {
   append_motion(record.summary, moves ? response.leading() : solvers::Motion{});
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
-  record.summary.emplace_back("frequency_Hz", moves ? ratio * study.linear_frequency() : missing);
-  record.summary.emplace_back("frequency_ratio", moves ? ratio : missing);
-  record.summary.emplace_back("rayleigh_frequency_ratio",
+  record.summary.emplace_back(quantities::frequency, moves ? ratio * study.linear_frequency() : missing);
+  record.summary.emplace_back(quantities::frequency_ratio, moves ? ratio : missing);
+  record.summary.emplace_back(quantities::rayleigh_frequency_ratio,
                               moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
-  record.summary.emplace_back("energy_ratio", moves ? point.energy_ratio : missing);
+  record.summary.emplace_back(quantities::energy_ratio, moves ? point.energy_ratio : missing);
   append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
                  moves ? point.virial_residual : missing);
   if (!moves) return record;
@@ -209,7 +210,7 @@ Record mode_record(const Scene& scene, const StructureModel& model, const Observ
   const ModeStudy study(scene, model);
   goes_on(observer, {"backbone"});
   Record record = record_of(study, observer);
-  record.summary.emplace_back("warnings", record.warnings);
+  record.summary.emplace_back(quantities::warnings, record.warnings);
   return record;
 }
 

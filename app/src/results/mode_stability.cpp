@@ -4,6 +4,7 @@
 #include <string>
 
 #include "files/missing.hpp"
+#include "results/quantities.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
 
@@ -43,12 +44,12 @@ void add_stability(Table& table, const solvers::BackboneStability& stability) {
 void append_stability(Summary& summary, const ModeStudy& study, const solvers::BackboneStability& stability) {
   if (!study.scene().analysis.stability) return;
   if (!study.elastic_mode()) {
-    summary.emplace_back("stability", std::string(no_law_of_impact));
+    summary.emplace_back(quantities::stability, std::string(no_law_of_impact));
     return;
   }
-  summary.emplace_back("stability",
+  summary.emplace_back(quantities::stability,
                        stability.cancelled ? "interrupted" : std::string(to_string(stability.status())));
-  summary.emplace_back("special_points", table_of(study, stability.special_points));
+  summary.emplace_back(quantities::special_points, table_of(study, stability.special_points));
 }
 
 void append_stability(Record& record, const ModeStudy& study, const solvers::ModePoint& point) {

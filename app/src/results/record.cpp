@@ -13,6 +13,7 @@
 #include "results/curve_motion_files.hpp"
 #include "results/mode_record.hpp"
 #include "results/motion_files.hpp"
+#include "results/quantities.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/curve_motions.hpp"
@@ -36,10 +37,10 @@ Table level_table(const Refinement& refinement) {
 }
 
 void append_refinement(Summary& summary, const Refinement& refinement, double tolerance) {
-  summary.emplace_back("tolerance", tolerance);
-  summary.emplace_back("estimated_error", refinement.estimated_error);
-  summary.emplace_back("ladder", level_table(refinement));
-  summary.emplace_back("ladder_seconds", refinement.seconds);
+  summary.emplace_back(quantities::tolerance, tolerance);
+  summary.emplace_back(quantities::estimated_error, refinement.estimated_error);
+  summary.emplace_back(quantities::ladder, level_table(refinement));
+  summary.emplace_back(quantities::ladder_seconds, refinement.seconds);
 }
 
 /// Instants of the period at which the motion of a bar is kept for its report.
@@ -87,9 +88,9 @@ void append_rigid(Summary& summary, const Response& response) {
   if (!response.rigid) return;
   const RigidContact& rigid = *response.rigid;
   const bool moves = response.moves;
-  summary.emplace_back("max_penetration_m", moves ? std::max(0.0, rigid.max_penetration) : missing);
-  summary.emplace_back("min_contact_force_N", moves ? rigid.min_force : missing);
-  summary.emplace_back("complementarity", moves ? rigid.product : missing);
+  summary.emplace_back(quantities::max_penetration, moves ? std::max(0.0, rigid.max_penetration) : missing);
+  summary.emplace_back(quantities::min_contact_force, moves ? rigid.min_force : missing);
+  summary.emplace_back(quantities::complementarity, moves ? rigid.product : missing);
 }
 
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
@@ -102,19 +103,19 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
                                     response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
   append_dissipation(record.summary, scene, response);
-  record.summary.emplace_back("analysis", name_of(scene.analysis.type));
-  record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
+  record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
+  record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
-    record.summary.emplace_back("strategy", response.strategy);
+    record.summary.emplace_back(quantities::strategy, response.strategy);
   warn_of_scene(record, scene);
   if (response.moves && scene.contact.law != no_law && !response.contacts.force.any())
     warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
   append_period(record, response.periods, response.motion_periods);
   if (response.periods > 1)
-    record.summary.emplace_back("change_after_one_period",
+    record.summary.emplace_back(quantities::change_after_one_period,
                                 response.moves ? response.change_after_one : missing);
   append_attractor(record, response.periods, response);
-  if (!response.form.empty()) record.summary.emplace_back("form", response.form);
+  if (!response.form.empty()) record.summary.emplace_back(quantities::form, response.form);
   append_rigid(record.summary, response);
   if (response.phases) append_phases(record, response);
   if (response.stability) append_stability(record, *response.stability);
@@ -179,20 +180,18 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary =
       solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual),
                        points, model.contacts() * scene.time.functions, sweep.wall_seconds);
-  record.summary.emplace_back("max_displacement_m", highest);
-  const SweepAxis axis = sweep_axis(sweep);
-  record.summary.emplace_back(axis.quantity + "_at_max_displacement_" + axis.suffix,
-                              place_of_peak(sweep.curve));
-  record.summary.emplace_back("min_displacement_m", least_displacement(sweep.curve));
-  record.summary.emplace_back("rms_displacement_m",
+  record.summary.emplace_back(quantities::max_displacement, highest);
+  record.summary.emplace_back(quantities::peak_place(sweep_axis(sweep).unit), place_of_peak(sweep.curve));
+  record.summary.emplace_back(quantities::min_displacement, least_displacement(sweep.curve));
+  record.summary.emplace_back(quantities::rms_displacement,
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
-  record.summary.emplace_back("max_contact_force_N", largest_force(scene, sweep.curve, highest));
-  record.summary.emplace_back("contact_fraction",
+  record.summary.emplace_back(quantities::max_contact_force, largest_force(scene, sweep.curve, highest));
+  record.summary.emplace_back(quantities::contact_fraction,
                               largest(sweep.curve, &solvers::SweepPoint::contact_fraction));
-  record.summary.emplace_back("analysis", name_of(scene.analysis.type));
+  record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
-    record.summary.emplace_back("frequency_Hz", scene.forcing.frequency);
-  record.summary.emplace_back("points", std::int64_t{points});
+    record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
+  record.summary.emplace_back(quantities::points, std::int64_t{points});
   warn_of_scene(record, scene);
   if (points > 0 && scene.contact.law != no_law &&
       largest(sweep.curve, &solvers::SweepPoint::contact_fraction) == 0.0)
@@ -202,7 +201,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (scene.analysis.branches) append_branches(record, sweep);
   append_motions(record, scene, model, sweep, motions);
   append_discretisation(record.summary, scene.time);
-  record.summary.emplace_back("form", std::string(to_string(sweep.curve.form)));
+  record.summary.emplace_back(quantities::form, std::string(to_string(sweep.curve.form)));
   append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   append_structure(record.summary, model);
   record.sweep = sweep_table(sweep, scene.analysis.branches);
@@ -222,8 +221,8 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
 /// Where the solution started, and what to do if that led nowhere.
 void append_start(Record& record, const StartMotion& start, bool found, double distance) {
   if (start.contacts.empty()) return;
-  record.summary.emplace_back("start_from", start.source);
-  record.summary.emplace_back("start_distance", found ? distance : missing);
+  record.summary.emplace_back(quantities::start_from, start.source);
+  record.summary.emplace_back(quantities::start_distance, found ? distance : missing);
   constexpr double as_large_as_the_start = 0.9;
   if (found && distance > as_large_as_the_start)
     record.warnings.push_back(fmt::format(

@@ -7,6 +7,7 @@
 
 #include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
+#include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 
 namespace wavebalance::app {
@@ -95,13 +96,13 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
 }  // namespace
 
 void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
-  record.summary.emplace_back("stability", stability.status);
+  record.summary.emplace_back(quantities::stability, stability.status);
   if (stability.unstable >= 0)
-    record.summary.emplace_back("unstable_multipliers", std::int64_t{stability.unstable});
+    record.summary.emplace_back(quantities::unstable_multipliers, std::int64_t{stability.unstable});
   else
-    record.summary.emplace_back("unstable_multipliers", missing);
-  record.summary.emplace_back("leading_multiplier_real", stability.leading.real());
-  record.summary.emplace_back("leading_multiplier_imag", stability.leading.imag());
+    record.summary.emplace_back(quantities::unstable_multipliers, missing);
+  record.summary.emplace_back(quantities::leading_multiplier_real, stability.leading.real());
+  record.summary.emplace_back(quantities::leading_multiplier_imag, stability.leading.imag());
   if (stability.unstable <= 0) return;
   record.warnings.push_back(fmt::format(
       "The {} is unstable, with {} Floquet multiplier{} outside the unit circle: a structure that is "
@@ -114,9 +115,9 @@ void append_stability(Record& record, const Sweep& sweep) {
       !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
   append_turning_points(record, sweep, complete && folds_are_known(sweep.stability));
   if (sweep.stability.points.empty()) return;
-  record.summary.emplace_back("stability",
+  record.summary.emplace_back(quantities::stability,
                               complete ? std::string(to_string(sweep.stability.status())) : "interrupted");
-  record.summary.emplace_back("special_points", table_of(sweep));
+  record.summary.emplace_back(quantities::special_points, table_of(sweep));
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
 
@@ -171,7 +172,7 @@ void append_branches(Record& record, const Sweep& sweep) {
     record.warnings.push_back(
         fmt::format("Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end)));
   }
-  record.summary.emplace_back("branches", table);
+  record.summary.emplace_back(quantities::branches, table);
   Table special({"branch", "type", "frequency_Hz", "bracket_Hz", "multiplier_real", "multiplier_imag",
                  "max_displacement_m", "status"});
   for (std::size_t i = 0; i < sweep.branches.size(); ++i)
@@ -179,7 +180,7 @@ void append_branches(Record& record, const Sweep& sweep) {
       special.append_row({std::int64_t(i) + 1, std::string(to_string(point.type)), point.frequency,
                           point.bracket, point.multiplier.real(), point.multiplier.imag(),
                           point.max_displacement, std::string(point.located ? "located" : "bracketed")});
-  record.summary.emplace_back("special_points_of_branches", special);
+  record.summary.emplace_back(quantities::special_points_of_branches, special);
 }
 
 }  // namespace wavebalance::app

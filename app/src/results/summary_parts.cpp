@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "files/missing.hpp"
+#include "results/quantities.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/results/tables.hpp"
@@ -16,32 +17,32 @@ namespace wavebalance::app {
 
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
                          int unknowns, double wall_seconds) {
-  return {{"converged", converged},
-          {"status", status},
-          {"residual", residual},
-          {"iterations", std::int64_t{iterations}},
-          {"unknowns", std::int64_t{unknowns}},
-          {"wall_seconds", wall_seconds}};
+  return {{quantities::converged, converged},
+          {quantities::status, status},
+          {quantities::residual, residual},
+          {quantities::iterations, std::int64_t{iterations}},
+          {quantities::unknowns, std::int64_t{unknowns}},
+          {quantities::wall_seconds, wall_seconds}};
 }
 
 void append_discretisation(Summary& summary, const Time& time) {
-  summary.emplace_back("trial", time.trial);
-  summary.emplace_back("weight", time.weight);
-  summary.emplace_back("formulation", name_of(time.formulation));
-  summary.emplace_back("inner_products", name_of(effective_inner_products(time)));
-  summary.emplace_back("functions", std::int64_t{time.functions});
-  summary.emplace_back("quadrature_points", std::int64_t{time.quadrature_points});
-  if (time.sample_offset != 0.0) summary.emplace_back("sample_offset", time.sample_offset);
-  if (time.functions % 2 == 0) summary.emplace_back("nyquist", name_of(time.nyquist));
+  summary.emplace_back(quantities::trial, time.trial);
+  summary.emplace_back(quantities::weight, time.weight);
+  summary.emplace_back(quantities::formulation, name_of(time.formulation));
+  summary.emplace_back(quantities::inner_products, name_of(effective_inner_products(time)));
+  summary.emplace_back(quantities::functions, std::int64_t{time.functions});
+  summary.emplace_back(quantities::quadrature_points, std::int64_t{time.quadrature_points});
+  if (time.sample_offset != 0.0) summary.emplace_back(quantities::sample_offset, time.sample_offset);
+  if (time.functions % 2 == 0) summary.emplace_back(quantities::nyquist, name_of(time.nyquist));
 }
 
 void append_structure(Summary& summary, const StructureModel& model) {
-  summary.emplace_back("contacts", std::int64_t{model.contacts()});
-  summary.emplace_back("degrees_of_freedom", std::int64_t{model.unknowns});
-  summary.emplace_back("reduced_degrees_of_freedom", std::int64_t{model.size()});
-  summary.emplace_back("reduction_seconds", model.reduction_seconds);
+  summary.emplace_back(quantities::contacts, std::int64_t{model.contacts()});
+  summary.emplace_back(quantities::degrees_of_freedom, std::int64_t{model.unknowns});
+  summary.emplace_back(quantities::reduced_degrees_of_freedom, std::int64_t{model.size()});
+  summary.emplace_back(quantities::reduction_seconds, model.reduction_seconds);
   if (std::isfinite(model.frequency_change))
-    summary.emplace_back("contact_mass_frequency_change", model.frequency_change);
+    summary.emplace_back(quantities::contact_mass_frequency_change, model.frequency_change);
 }
 
 void append_condition(Record& record, double condition, double rounding_error) {
@@ -58,14 +59,14 @@ void append_condition(Record& record, double condition, double rounding_error) {
     record.warnings.push_back(fmt::format(
         "the rounding error of the condensation is estimated at {:.1e} of the motion: fewer than six digits are accurate",
         rounding_error));
-  record.summary.emplace_back("condition_estimate", condition);
-  record.summary.emplace_back("rounding_error_estimate", rounding_error);
-  record.summary.emplace_back("warnings", record.warnings);
+  record.summary.emplace_back(quantities::condition_estimate, condition);
+  record.summary.emplace_back(quantities::rounding_error_estimate, rounding_error);
+  record.summary.emplace_back(quantities::warnings, record.warnings);
 }
 
 void add_contacts(Record& record, const solvers::Motion& contacts, int leading) {
   if (contacts.rows() < 2) return;
-  record.summary.emplace_back("leading_contact", std::int64_t{leading + 1});
+  record.summary.emplace_back(quantities::leading_contact, std::int64_t{leading + 1});
   record.contacts = contacts_table(contacts);
 }
 
@@ -91,17 +92,17 @@ void warn_of_open_contacts(Record& record, double displacement, double gap) {
 void append_motion(Summary& summary, const solvers::Motion& leading) {
   const bool empty = leading.empty();
   const Eigen::MatrixXd& u = leading.displacement;
-  summary.emplace_back("max_displacement_m", empty ? missing : u.maxCoeff());
-  summary.emplace_back("min_displacement_m", empty ? missing : u.minCoeff());
-  summary.emplace_back("rms_displacement_m", empty ? missing : rms(u.reshaped()));
-  summary.emplace_back("max_contact_force_N", empty ? missing : leading.force.maxCoeff());
-  summary.emplace_back("contact_fraction", empty ? missing : contact_fraction(leading));
+  summary.emplace_back(quantities::max_displacement, empty ? missing : u.maxCoeff());
+  summary.emplace_back(quantities::min_displacement, empty ? missing : u.minCoeff());
+  summary.emplace_back(quantities::rms_displacement, empty ? missing : rms(u.reshaped()));
+  summary.emplace_back(quantities::max_contact_force, empty ? missing : leading.force.maxCoeff());
+  summary.emplace_back(quantities::contact_fraction, empty ? missing : contact_fraction(leading));
 }
 
 void append_period(Record& record, int periods, int motion_periods) {
   if (periods == 1) return;
-  record.summary.emplace_back("subharmonic", std::int64_t{periods});
-  record.summary.emplace_back("period_of_motion", std::int64_t{motion_periods});
+  record.summary.emplace_back(quantities::subharmonic, std::int64_t{periods});
+  record.summary.emplace_back(quantities::period_of_motion, std::int64_t{motion_periods});
   if (motion_periods == periods) return;
   record.warnings.push_back(fmt::format(
       "analysis.subharmonic is {}, but the motion found repeats after {} of the load already: none of {} "
@@ -111,7 +112,7 @@ void append_period(Record& record, int periods, int motion_periods) {
 
 void append_attractor(Record& record, int periods, const Response& response) {
   if (response.attractor_periods < 0) return;
-  record.summary.emplace_back("attractor_periods", std::int64_t{response.attractor_periods});
+  record.summary.emplace_back(quantities::attractor_periods, std::int64_t{response.attractor_periods});
   const int attractor = response.attractor_periods;
   if (attractor > 0 && periods % attractor == 0) return;
   record.warnings.push_back(
@@ -130,24 +131,25 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   const double power = !response.moves || motion.empty()
                            ? missing
                            : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
-  summary.emplace_back("contact_dissipation_J", power / scene.forcing.frequency);
+  summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
 void append_phases(Record& record, const Response& response) {
   const solvers::ResponsePhases& found = *response.phases;
   const bool known = found.motion.parts != nullptr;
-  record.summary.emplace_back("phases_status", std::string(to_string(found.motion.status)));
-  record.summary.emplace_back("error_of_displacement", found.displacement_error);
-  record.summary.emplace_back("error_of_force", found.force_error);
-  record.summary.emplace_back("phases_estimated_error", known ? found.motion.estimated_error : missing);
-  record.summary.emplace_back("phases_unknowns", std::int64_t{found.motion.unknowns});
+  record.summary.emplace_back(quantities::phases_status, std::string(to_string(found.motion.status)));
+  record.summary.emplace_back(quantities::error_of_displacement, found.displacement_error);
+  record.summary.emplace_back(quantities::error_of_force, found.force_error);
+  record.summary.emplace_back(quantities::phases_estimated_error,
+                              known ? found.motion.estimated_error : missing);
+  record.summary.emplace_back(quantities::phases_unknowns, std::int64_t{found.motion.unknowns});
   Table phases({"contact", "begin", "end"});
   for (const solvers::ContactPhase& phase : found.motion.phases)
     phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
-  record.summary.emplace_back("phases", std::move(phases));
+  record.summary.emplace_back(quantities::phases, std::move(phases));
   const bool none = found.motion.status == solvers::PhasesStatus::no_motion_near;
   if (response.stability && !none)
-    record.summary.emplace_back("stability_by",
+    record.summary.emplace_back(quantities::stability_by,
                                 std::string(response.stability->by_phases ? "phases" : "balance"));
   if (!none) return;
   record.warnings.emplace_back(

@@ -39,9 +39,9 @@ int open_locked(const fs::path& file) {
 /// Why a journal that begins with this line is not that of the study.
 std::string difference_text(const std::string& found) {
   const std::optional<Summary> header = parse_summary(found);
-  if (!header || header->empty() || header->front().first != "wavebalance_study")
+  if (!header || header->empty() || header->front().name != "wavebalance_study")
     return "is no journal of a study";
-  const auto* written = std::get_if<std::string>(&header->front().second);
+  const auto* written = std::get_if<std::string>(&header->front().value);
   if (written != nullptr && *written != version())
     return "was written by version " + *written + "; name another folder, or remove the file to begin anew";
   return "belongs to another study or scene; name another folder, or remove the file to begin anew";

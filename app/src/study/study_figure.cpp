@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
-#include <string_view>
-#include <tuple>
 #include <utility>
 
+#include "results/quantities.hpp"
 #include "study/quantile.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study_record.hpp"
@@ -27,15 +25,10 @@ struct Shown {
 };
 
 Shown shown_as(const std::string& column) {
-  constexpr std::array<std::tuple<std::string_view, std::string_view, double>, 4> units{
-      {{"_m", "mm", 1e3}, {"_N", "N", 1.0}, {"_Hz", "Hz", 1.0}, {"_J", "J", 1.0}}};
-  for (const auto& [suffix, unit, factor] : units) {
-    if (!column.ends_with(suffix)) continue;
-    std::string words = column.substr(0, column.size() - suffix.size());
-    std::replace(words.begin(), words.end(), '_', ' ');
-    return {fmt::format("{} ({})", words, unit), factor};
-  }
-  return {plain(column), 1.0};
+  const Quantity* known = quantities::find_in_words(column);
+  if (known == nullptr) return {plain(column), 1.0};
+  if (known->unit == "m") return {fmt::format("{} (mm)", known->words), 1e3};
+  return {fmt::format("{} ({})", known->words, known->unit), 1.0};
 }
 
 double number_of(const Cell& cell) {

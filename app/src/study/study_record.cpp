@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "results/quantities.hpp"
 #include "study/quantile.hpp"
 
 namespace wavebalance::app {
@@ -26,10 +27,10 @@ std::vector<ValueColumn> value_columns(const std::vector<StudyRow>& rows) {
   std::vector<ValueColumn> columns;
   std::map<std::string, std::size_t> places;
   for (const StudyRow& row : rows)
-    for (const auto& [name, value] : row.values) {
-      const auto place = places.try_emplace(name, columns.size());
-      if (place.second) columns.push_back({name, false});
-      if (std::holds_alternative<std::string>(value)) columns[place.first->second].text = true;
+    for (const Entry& one : row.values) {
+      const auto place = places.try_emplace(one.name, columns.size());
+      if (place.second) columns.push_back({one.name, false});
+      if (std::holds_alternative<std::string>(one.value)) columns[place.first->second].text = true;
     }
   return columns;
 }
@@ -42,8 +43,7 @@ Cell cell_of(const SummaryValue& value) {
 }
 
 Cell found_cell(const StudyRow& row, const ValueColumn& column) {
-  for (const auto& [name, value] : row.values)
-    if (name == column.name) return cell_of(value);
+  if (const Entry* found = find_entry(row.values, column.name)) return cell_of(found->value);
   return column.text ? Cell(std::string()) : Cell(not_there);
 }
 
@@ -131,7 +131,8 @@ Table statuses_table(const Table& table) {
 std::string drawn_quantity(const Study& study, const Table& table) {
   if (table.empty()) return "";
   if (table.has_column(study.quantity)) return study.quantity;
-  if (table.has_column("max_displacement_m")) return "max_displacement_m";
+  const std::string usual = quantities::max_displacement.column();
+  if (table.has_column(usual)) return usual;
   for (std::size_t j = study.parameters.size() + 4; j + 1 < table.columns().size(); ++j)
     if (!ordered_values(table, j).empty()) return table.columns()[j];
   return "";

@@ -79,7 +79,7 @@ TEST(Analyse, ForcedResponseHoldsTheFieldsInOrder) {
                                        "max_displacement_m", "min_displacement_m",
                                        "rms_displacement_m", "max_contact_force_N",
                                        "contact_fraction"};
-  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(record.summary[i].first, names[i]);
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(record.summary[i].name, names[i]);
   EXPECT_TRUE(record.converged);
   EXPECT_TRUE(value_of<bool>(record.summary, "converged"));
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "unknowns"), 64);

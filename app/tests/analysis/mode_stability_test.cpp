@@ -21,7 +21,7 @@ Scene stopped_rod(const std::vector<std::string>& overrides = {}) {
 
 bool has(const Record& record, const std::string& key) {
   return std::any_of(record.summary.begin(), record.summary.end(),
-                     [&](const auto& entry) { return entry.first == key; });
+                     [&](const auto& entry) { return entry.name == key; });
 }
 
 std::vector<std::string> labels_of(const Record& record) {

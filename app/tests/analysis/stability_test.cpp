@@ -20,7 +20,7 @@ Scene fourier_scene(const std::string& name, const std::vector<std::string>& ove
 }
 
 bool holds(const Summary& summary, const std::string& name) {
-  return std::any_of(summary.begin(), summary.end(), [&](const auto& entry) { return entry.first == name; });
+  return std::any_of(summary.begin(), summary.end(), [&](const auto& entry) { return entry.name == name; });
 }
 
 // Between grazing and the period doubling at 2840.48 Hz.

@@ -55,8 +55,9 @@ TEST(RunWords, WhatHasNotConvergedIsCalledNoSolution) {
 
 TEST(RunWords, WithoutAMotionNothingIsSaidToFollow) {
   Summary none = motion(false);
-  for (auto& [name, value] : none)
-    if (name.ends_with("_m") || name.ends_with("_N") || name == "contact_fraction") value = unknown;
+  for (Entry& one : none)
+    if (one.name.ends_with("_m") || one.name.ends_with("_N") || one.name == "contact_fraction")
+      one.value = unknown;
   const std::string text = joined(outcome_sentences(none, unknown));
   EXPECT_NE(text.find("There is no motion to show."), std::string::npos) << text;
   EXPECT_EQ(text.find("What follows"), std::string::npos) << text;

@@ -74,11 +74,7 @@ TEST(StudyRun, RowsAreThoseOfTheRecordWithAnyNumberOfThreads) {
   const Record record = analyse(scene_of_run(bar.study, bar.runs, 5));
   const StudyRow row = parse_row(one[5]);
   EXPECT_EQ(row.status, "converged");
-  const auto displacement = [](const Summary& summary) {
-    for (const auto& [name, value] : summary)
-      if (name == "max_displacement_m") return std::get<double>(value);
-    return 0.0;
-  };
+  const auto displacement = [](const Summary& summary) { return number_in(summary, {"max_displacement_m"}); };
   EXPECT_GT(displacement(row.values), 1e-4);
   EXPECT_EQ(displacement(row.values), displacement(record.summary));
 }
@@ -146,7 +142,7 @@ TEST(StudyRun, RowsSurviveTheirJournal) {
   const StudyRow read = parse_row(line);
   EXPECT_EQ(json_line(read), line);
   EXPECT_EQ(read.run, 7);
-  EXPECT_EQ(std::get<double>(read.values[1].second), 1.0);
+  EXPECT_EQ(std::get<double>(read.values[1].value), 1.0);
   EXPECT_THROW(parse_row("{\"run\": 1}"), std::invalid_argument);
 }
 
@@ -201,10 +197,7 @@ TEST(StudyRun, LinesOfTheJournalThatCannotBeReadAreCountedAndTheirRunsSolvedAgai
       rows.push_back(row);
     });
     const StudyRecord record = study_record(bar.study, bar.runs, rows, {}, journal.unreadable_lines());
-    bool said = false;
-    for (const auto& [name, value] : record.summary)
-      said = said || (name == "journal_lines_unreadable" && std::get<std::int64_t>(value) == 3);
-    EXPECT_TRUE(said);
+    EXPECT_EQ(number_in(record.summary, {"journal_lines_unreadable"}), 3.0);
   }
   EXPECT_EQ(texts_of(rows), texts_of(solved_with(bar, 1)));
   StudyJournal journal(folder.path(), bar.study, bar.runs);

@@ -12,8 +12,7 @@ namespace wavebalance::app {
 /// The value of that name in a record's summary; a test failure when it has none.
 template <class Type>
 Type value_of(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (key == name) return std::get<Type>(value);
+  if (const Entry* entry = find_entry(summary, name)) return std::get<Type>(entry->value);
   ADD_FAILURE() << "no " << name;
   return {};
 }

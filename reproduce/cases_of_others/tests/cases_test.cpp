@@ -35,8 +35,7 @@ fs::path scene_file(const std::string& name) {
 }
 
 const app::Table& special_points(const app::Summary& summary) {
-  for (const auto& [key, value] : summary)
-    if (key == "special_points") return std::get<app::Table>(value);
+  if (const auto* points = app::value_in<app::Table>(summary, "special_points")) return *points;
   throw std::runtime_error("no special points");
 }
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -13,7 +14,61 @@ namespace wavebalance::app {
 /// A Table is written as an array of objects, one per row.
 using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
                                   std::vector<std::string>, Table>;
-using Summary = std::vector<std::pair<std::string, SummaryValue>>;
+
+/// What a value of a summary says something about.
+enum class EntryKind {
+  heading,     ///< which analysis it is, how it ended and how long it took
+  setting,     ///< the scene: its bases, sizes and frequency
+  diagnostic,  ///< the solution: its residual, its effort, its stability in a word
+  result,      ///< the motion or the curve; without a meaning where the solution did not converge
+};
+
+/// What is known of a value by its name. Texts are literals.
+struct Quantity {
+  std::string_view name;  ///< of its entry in summary.json and of its columns: "max_displacement_m"
+  EntryKind kind = EntryKind::diagnostic;
+  std::string_view unit = "";   ///< "m"; empty for words, counts and ratios
+  std::string_view words = "";  ///< "max displacement", as pictures call it; empty where they show the name
+
+  std::string column() const { return std::string(name); }
+};
+
+/// A named value with what is known of it.
+struct Entry {
+  Entry(std::string its_name, SummaryValue its_value)
+      : name(std::move(its_name)), value(std::move(its_value)) {}
+  Entry(const Quantity& quantity, SummaryValue its_value)
+      : name(quantity.name),
+        value(std::move(its_value)),
+        kind(quantity.kind),
+        unit(quantity.unit),
+        words(quantity.words) {}
+
+  /// Whether it is one number, truth value or text.
+  bool scalar() const { return value.index() < 4; }
+
+  std::string name;
+  SummaryValue value;
+  EntryKind kind = EntryKind::diagnostic;
+  std::string_view unit, words;  ///< those of its Quantity
+};
+
+using Summary = std::vector<Entry>;
+
+/// The entry of a name; null if there is none.
+const Entry* find_entry(const Summary& summary, std::string_view name);
+
+/// The value of a name, if it is of this type; else null.
+template <class Value>
+const Value* value_in(const Summary& summary, std::string_view name) {
+  const Entry* entry = find_entry(summary, name);
+  return entry == nullptr ? nullptr : std::get_if<Value>(&entry->value);
+}
+
+/// A number or a count; NaN if there is none.
+double number_in(const Summary& summary, const Quantity& quantity);
+/// A text; empty if there is none.
+std::string text_in(const Summary& summary, const Quantity& quantity);
 
 /// `summary` as a JSON object in its order; numbers that are not finite become null.
 std::string json_text(const Summary& summary);

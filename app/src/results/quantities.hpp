@@ -1,0 +1,84 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "wavebalance/app/files/summary.hpp"
+
+/// The values that records of runs hold, each named in this one place.
+namespace wavebalance::app::quantities {
+
+using enum EntryKind;
+
+inline constexpr Quantity converged{"converged", heading}, status{"status", heading},
+    analysis{"analysis", heading}, wall_seconds{"wall_seconds", heading, "s"},
+    reduction_seconds{"reduction_seconds", heading, "s"};
+
+inline constexpr Quantity frequency{"frequency_Hz", setting, "Hz", "frequency"}, mode{"mode", setting},
+    linear_frequency{"linear_frequency_Hz", setting, "Hz", "linear frequency"},
+    subharmonic{"subharmonic", setting}, start_from{"start_from", setting}, tolerance{"tolerance", setting},
+    trial{"trial", setting}, weight{"weight", setting}, formulation{"formulation", setting},
+    inner_products{"inner_products", setting}, functions{"functions", setting},
+    quadrature_points{"quadrature_points", setting}, sample_offset{"sample_offset", setting},
+    nyquist{"nyquist", setting}, harmonics{"harmonics", setting}, samples{"samples", setting},
+    contacts{"contacts", setting}, degrees_of_freedom{"degrees_of_freedom", setting},
+    reduced_degrees_of_freedom{"reduced_degrees_of_freedom", setting};
+
+inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknowns{"unknowns"},
+    strategy{"strategy"}, form{"form"}, start_distance{"start_distance"},
+    contact_mass_frequency_change{"contact_mass_frequency_change"}, condition_estimate{"condition_estimate"},
+    rounding_error_estimate{"rounding_error_estimate"}, warnings{"warnings"},
+    estimated_error{"estimated_error"}, ladder{"ladder"}, ladder_seconds{"ladder_seconds", diagnostic, "s"},
+    attractor_periods{"attractor_periods"}, phases_status{"phases_status"},
+    error_of_displacement{"error_of_displacement"}, error_of_force{"error_of_force"},
+    phases_estimated_error{"phases_estimated_error"}, phases_unknowns{"phases_unknowns"}, phases{"phases"},
+    points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"}, interruptions{"interruptions"},
+    stability{"stability"}, stability_by{"stability_by"}, special_points{"special_points"},
+    branches{"branches"}, special_points_of_branches{"special_points_of_branches"}, motions{"motions"};
+
+inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
+    min_displacement{"min_displacement_m", result, "m", "min displacement"},
+    rms_displacement{"rms_displacement_m", result, "m", "rms displacement"},
+    max_contact_force{"max_contact_force_N", result, "N", "max contact force"},
+    contact_fraction{"contact_fraction", result},
+    contact_dissipation{"contact_dissipation_J", result, "J", "contact dissipation"},
+    max_penetration{"max_penetration_m", result, "m", "max penetration"},
+    min_contact_force{"min_contact_force_N", result, "N", "min contact force"},
+    complementarity{"complementarity", result}, leading_contact{"leading_contact", result},
+    period_of_motion{"period_of_motion", result}, change_after_one_period{"change_after_one_period", result},
+    unstable_multipliers{"unstable_multipliers", result},
+    leading_multiplier_real{"leading_multiplier_real", result},
+    leading_multiplier_imag{"leading_multiplier_imag", result};
+
+// Those of nonlinear modes.
+inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},
+    rayleigh_frequency_ratio{"rayleigh_frequency_ratio", result}, virial_residual{"virial_residual", result},
+    largest_energy_ratio{"largest_energy_ratio", result},
+    largest_frequency_ratio{"largest_frequency_ratio", result},
+    max_penetration_over_gap{"max_penetration_over_gap", result};
+
+/// Where a curve is highest: at a frequency, or at an amplitude in the unit of its load.
+inline constexpr std::array peak_places{
+    Quantity{"frequency_at_max_displacement_Hz", result, "Hz", "frequency at max displacement"},
+    Quantity{"amplitude_at_max_displacement_N", result, "N", "amplitude at max displacement"},
+    Quantity{"amplitude_at_max_displacement_m", result, "m", "amplitude at max displacement"},
+    Quantity{"amplitude_at_max_displacement_m_per_s2", result, "m/s^2", "amplitude at max displacement"}};
+
+/// That of a curve over a frequency or an amplitude in `unit`.
+constexpr const Quantity& peak_place(std::string_view unit) {
+  return *std::find_if(peak_places.begin(), peak_places.end(),
+                       [&](const Quantity& one) { return one.unit == unit; });
+}
+
+/// The quantity with words that a column of a table holds; null for others.
+constexpr const Quantity* find_in_words(std::string_view column) {
+  for (const Quantity* one :
+       {&frequency, &linear_frequency, &max_displacement, &min_displacement, &rms_displacement,
+        &max_contact_force, &contact_dissipation, &max_penetration, &min_contact_force})
+    if (one->name == column) return one;
+  for (const Quantity& one : peak_places)
+    if (one.name == column) return &one;
+  return nullptr;
+}
+
+}  // namespace wavebalance::app::quantities
