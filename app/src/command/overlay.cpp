@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "files/missing.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -21,8 +23,6 @@ namespace wavebalance::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct QuantityNames {
   const char* name;
@@ -101,7 +101,7 @@ std::vector<double> column_of(const Table& table, const std::string& name, const
 
 std::vector<double> unstable_of(const Table& table) {
   return table.has_column("unstable") ? table.numbers("unstable")
-                                      : std::vector<double>(table.rows(), unknown);
+                                      : std::vector<double>(table.rows(), missing);
 }
 
 void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
@@ -126,7 +126,7 @@ void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std
                      column_of(table, column, file), unstable_of(table)};
   const std::vector<std::string> statuses = table.texts("status");
   for (std::size_t i = 0; i < statuses.size(); ++i)
-    if (statuses[i] != "converged" && statuses[i] != "linear") curve.displacement[i] = unknown;
+    if (statuses[i] != "converged" && statuses[i] != "linear") curve.displacement[i] = missing;
   curves.push_back(std::move(curve));
 }
 
@@ -137,12 +137,12 @@ void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, con
   const std::vector<double> u = column_of(table, "displacement_m", folder / "response.csv");
   const Summary summary = read_summary(folder / "summary.json");
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
-  double value = unknown;
+  double value = missing;
   if (!u.empty() && quantity == OverlayQuantity::max) value = *high;
   if (!u.empty() && quantity == OverlayQuantity::min) value = *low;
   if (!u.empty() && quantity == OverlayQuantity::max_abs) value = std::max(-*low, *high);
   if (quantity == OverlayQuantity::rms) value = number_in(summary, quantities::rms_displacement);
-  curves.push_back({label, "response", {number_in(summary, quantities::frequency)}, {value}, {unknown}});
+  curves.push_back({label, "response", {number_in(summary, quantities::frequency)}, {value}, {missing}});
 }
 
 void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
@@ -159,38 +159,25 @@ void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const
                   "holds neither sweep.csv, backbone.csv nor response.csv; expected the results of a run");
 }
 
-/// A curve without the lines of which an end is unstable, or with these alone.
-Series part_of(const OverlayCurve& curve, bool unstable_part, double factor) {
-  Series series;
-  const auto is_unstable = [&](std::size_t i) { return curve.unstable[i] > 0.0; };
-  const std::size_t size = curve.frequency.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    const bool before = i > 0 && (is_unstable(i - 1) || is_unstable(i));
-    const bool after = i + 1 < size && (is_unstable(i) || is_unstable(i + 1));
-    const bool single = size == 1;
-    const bool shown =
-        unstable_part ? before || after : single || (i > 0 && !before) || (i + 1 < size && !after);
-    series.x.push_back(curve.frequency[i]);
-    series.y.push_back(shown ? factor * curve.displacement[i] : unknown);
-  }
-  return series;
-}
-
 bool any_number(const Series& series) {
   return std::any_of(series.y.begin(), series.y.end(), [](double value) { return std::isfinite(value); });
 }
 
 void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor) {
-  Series stable = part_of(curve, false, factor), unstable = part_of(curve, true, factor);
-  stable.label = plain(curve.label);
-  stable.colour = unstable.colour = colour;
-  if (curve.kind == "response") stable.style = SeriesStyle::points;
-  if (curve.kind == "nonlinear_mode") stable.width = unstable.width = 2.4;
-  unstable.dash = Dash::dashed;
-  if (any_number(stable) || !any_number(unstable)) panel.add(std::move(stable));
-  if (!any_number(unstable)) return;
-  unstable.label = plain(curve.label + ", unstable");
-  panel.add(std::move(unstable));
+  Series series(plain(curve.label), curve.frequency, curve.displacement);
+  for (double& value : series.y) value *= factor;
+  series.colour = colour;
+  if (curve.kind == "response") series.style = SeriesStyle::points;
+  if (curve.kind == "nonlinear_mode") series.width = 2.4;
+  if (series.x.size() < 2) {
+    panel.add(std::move(series));
+    return;
+  }
+  std::vector<bool> unstable;
+  for (const double count : curve.unstable) unstable.push_back(count > 0.0);
+  auto [solid, dashed] = parts_by_stability(series, unstable);
+  if (any_number(solid) || !any_number(dashed)) panel.add(std::move(solid));
+  if (any_number(dashed)) panel.add(std::move(dashed));
 }
 
 }  // namespace
@@ -217,7 +204,7 @@ Overlay read_overlay(std::span<const fs::path> folders, OverlayQuantity quantity
       overlay.warnings.push_back(fmt::format(
           "{} has another gap than the first folder: their curves are those of different contacts",
           folders[i].string()));
-    overlay.gap = unknown;
+    overlay.gap = missing;
   }
   return overlay;
 }
@@ -229,21 +216,20 @@ Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
   for (const OverlayCurve& curve : overlay.curves)
     for (const double value : curve.displacement)
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const bool micro = largest < 1e-3, milli = !micro && largest < 1.0;
-  const double factor = micro ? 1e6 : milli ? 1e3 : 1.0;
+  const Scale scale = axis_scale(largest);
   Figure figure;
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
   panel.x.label = "Frequency (Hz)";
-  panel.y.label = fmt::format("{} ({}m)", names_of(quantity).words, micro ? "µ" : milli ? "m" : "");
+  panel.y.label = fmt::format("{} ({}m)", names_of(quantity).words, scale.prefix);
   std::size_t next = 0;
   for (const OverlayCurve& curve : overlay.curves) {
     const bool mode = curve.kind == "nonlinear_mode";
-    draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], factor);
+    draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], scale.factor);
   }
   if (std::isfinite(overlay.gap) && quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min)
-    panel.mark_level(factor * overlay.gap, "gap", micro ? "µm" : milli ? "mm" : "m");
+    panel.mark_level(scale.factor * overlay.gap, "gap", scale.prefix + "m");
   return figure;
 }
 

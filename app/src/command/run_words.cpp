@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "analysis/sweep_axis.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 
 namespace wavebalance::app {
@@ -230,16 +231,6 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
 }
 
 }  // namespace
-
-std::string quantity(double value, const std::string& unit) {
-  if (!std::isfinite(value)) return "not known";
-  static const std::vector<std::pair<double, const char*>> prefixes{
-      {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}};
-  for (const auto& [factor, prefix] : prefixes)
-    if (std::abs(value) >= factor && (factor <= 1.0 || unit == "N"))
-      return fmt::format("{:.4g} {}{}", value / factor, prefix, unit);
-  return fmt::format("{:.4g} {}", value, unit);
-}
 
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
   std::vector<std::string> sentences{solution_sentence(summary)};

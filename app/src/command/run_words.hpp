@@ -13,7 +13,4 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap);
 /// What the record says of stability, and where it changes; `curve` is the table of a sweep, or empty.
 std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve = {});
 
-/// "1.02 mm", "79.2 kN": four digits with a prefix from micro to giga; "not known" for NaN.
-std::string quantity(double value, const std::string& unit);
-
 }  // namespace wavebalance::app

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
 #include <utility>
 
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_axis.hpp"
+#include "plot/thin_curve.hpp"
+#include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
@@ -15,21 +16,6 @@
 
 namespace wavebalance::app {
 namespace {
-
-/// A factor of 1000 with its prefix where that makes numbers readable.
-struct Scale {
-  double factor = 1.0;
-  std::string prefix;
-};
-
-Scale scale_of(double largest) {
-  if (!(largest > 0.0)) return {};
-  if (largest < 1e-3) return {1e6, "µ"};
-  if (largest < 1.0) return {1e3, "m"};
-  if (largest < 1e3) return {};
-  if (largest < 1e6) return {1e-3, "k"};
-  return {1e-6, "M"};
-}
 
 std::string basis_title(const std::string& basis) {
   if (const int coefficients = daubechies_coefficients(basis); coefficients > 0)
@@ -71,28 +57,6 @@ Eigen::VectorXd closed(const Eigen::VectorXd& values) {
   return result;
 }
 
-/// What a picture shows of many points: the first, lowest, highest and last of each of `runs` runs of
-/// neighbours. gnuplot takes minutes for millions of points.
-Series thinned(const Series& series) {
-  constexpr std::size_t runs = 2048;
-  const std::size_t size = series.x.size();
-  if (size <= 4 * runs) return series;
-  Series result = series;
-  result.x.clear();
-  result.y.clear();
-  for (std::size_t run = 0; run < runs; ++run) {
-    const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(run * size / runs);
-    const auto end = series.y.begin() + static_cast<std::ptrdiff_t>((run + 1) * size / runs);
-    const auto [lowest, highest] = std::minmax_element(begin, end);
-    const std::set kept{begin, std::min(lowest, highest), std::max(lowest, highest), end - 1};
-    for (const auto at : kept) {
-      result.x.push_back(series.x[static_cast<std::size_t>(at - series.y.begin())]);
-      result.y.push_back(*at);
-    }
-  }
-  return result;
-}
-
 std::string time_label(int periods) {
   if (periods == 1) return "Time (fraction of a period)";
   return "Time (fraction of " + std::to_string(periods) + " periods of the load)";
@@ -100,7 +64,7 @@ std::string time_label(int periods) {
 
 void add_motion(Figure& figure, const std::string& quantity, const std::string& unit,
                 const Eigen::VectorXd& values, const Response& response) {
-  const Scale scale = scale_of(values.cwiseAbs().maxCoeff());
+  const Scale scale = axis_scale(values.cwiseAbs().maxCoeff());
   Panel& panel = figure.add_panel();
   panel.x = {
       .label = time_label(response.periods), .lower = 0.0, .upper = 1.0, .ticks = {}, .tick_format = "%.1f"};
@@ -112,7 +76,7 @@ void add_motion(Figure& figure, const std::string& quantity, const std::string& 
     series.colour = Colour::grey;
     series.dash = Dash::dashed;
   }
-  panel.add(thinned(series));
+  panel.add(extremes_of_runs(series));
 }
 
 /// The 99th percentile of `values`, not empty, where single ones lie far beyond it; the largest otherwise.
@@ -191,7 +155,7 @@ void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::Poi
   if (unstable)
     draw_by_stability(panel, curve, points, special);
   else
-    panel.add(thinned(curve));
+    panel.add(extremes_of_runs(curve));
 }
 
 /// The end of the axis of energies: that of linear grazing is shown, and `largest` only where the curve comes
@@ -222,7 +186,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Contact force", "N", response.force(), response);
   const SceneContact contact = contacts_of(scene).at(static_cast<std::size_t>(response.contact));
   if (has_gap(contact.law)) {
-    const Scale scale = scale_of(response.displacement().cwiseAbs().maxCoeff());
+    const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
     figure.panels.front().mark_level(scale.factor * contact.gap, "gap", scale.prefix + "m");
   }
   return figure;
@@ -262,7 +226,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   const std::vector<double> values = displacements_of(sweep);
   const double largest = *std::max_element(values.begin(), values.end());
   const double top = shown_top(sweep, values);
-  const Scale scale = scale_of(top);
+  const Scale scale = axis_scale(top);
   Figure figure;
   figure.title = method_title(scene);
   if (scene.analysis.type == AnalysisType::amplitude_sweep)

@@ -75,10 +75,10 @@ void append(std::vector<Piece>& pieces, Vertex from, Vertex to, bool unstable) {
 }
 
 /// Lines of a curve, cut at its special points.
-std::vector<Piece> pieces_of(const Series& curve, const std::vector<solvers::PointStability>& points,
+std::vector<Piece> pieces_of(const Series& curve, const std::vector<bool>& points,
                              const std::vector<PlacedPoint>& special) {
   const std::vector<std::size_t> lines = lines_of(curve, special);
-  const auto unstable_at = [&](std::size_t i) { return i < points.size() && points[i].unstable > 0; };
+  const auto unstable_at = [&](std::size_t i) { return i < points.size() && points[i]; };
   std::vector<Piece> pieces;
   std::size_t next = 0;
   for (std::size_t i = 0; i + 1 < curve.x.size(); ++i) {
@@ -139,19 +139,26 @@ void label_once(Panel& panel, std::size_t first) {
 
 }  // namespace
 
-void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
-                       const std::vector<PlacedPoint>& special) {
-  const std::vector<Piece> pieces = pieces_of(curve, points, special);
+StabilityParts parts_by_stability(const Series& curve, const std::vector<bool>& unstable,
+                                  const std::vector<PlacedPoint>& special) {
+  const std::vector<Piece> pieces = pieces_of(curve, unstable, special);
   Series solid = drawn(curve, pieces, false), dashed = drawn(curve, pieces, true);
   if (solid.x.empty() && !dashed.x.empty()) {
     solid.x = {dashed.x.front()};
     solid.y = {std::nan("")};
   }
-  panel.add(std::move(solid));
-  if (dashed.x.empty()) return;
   if (!dashed.label.empty()) dashed.label += ", unstable";
   dashed.dash = Dash::dashed;
-  panel.add(std::move(dashed));
+  return {std::move(solid), std::move(dashed)};
+}
+
+void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
+                       const std::vector<PlacedPoint>& special) {
+  std::vector<bool> unstable;
+  for (const auto& point : points) unstable.push_back(point.unstable > 0);
+  auto [solid, dashed] = parts_by_stability(curve, unstable, special);
+  panel.add(std::move(solid));
+  if (!dashed.x.empty()) panel.add(std::move(dashed));
 }
 
 void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points) {

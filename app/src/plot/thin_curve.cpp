@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace wavebalance::app {
@@ -58,6 +59,26 @@ std::vector<std::size_t> kept_points(const std::vector<double>& x, const std::ve
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i]) numbers.push_back(i);
   return numbers;
+}
+
+Series extremes_of_runs(const Series& series) {
+  constexpr std::size_t runs = 2048;
+  const std::size_t size = series.x.size();
+  if (size <= 4 * runs) return series;
+  Series result = series;
+  result.x.clear();
+  result.y.clear();
+  for (std::size_t run = 0; run < runs; ++run) {
+    const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(run * size / runs);
+    const auto end = series.y.begin() + static_cast<std::ptrdiff_t>((run + 1) * size / runs);
+    const auto [lowest, highest] = std::minmax_element(begin, end);
+    const std::set kept{begin, std::min(lowest, highest), std::max(lowest, highest), end - 1};
+    for (const auto at : kept) {
+      result.x.push_back(series.x[static_cast<std::size_t>(at - series.y.begin())]);
+      result.y.push_back(*at);
+    }
+  }
+  return result;
 }
 
 }  // namespace wavebalance::app

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "files/missing.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "study/quantile.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -15,10 +16,9 @@
 namespace wavebalance::app {
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_curves = 8, most_scatters = 5;
 
-/// A column as pictures show it: "max_displacement_m" as "max displacement (mm)".
+/// A column as pictures show it: "max_displacement_m" as "max displacement (mm)", whatever its size.
 struct Shown {
   std::string label;
   double factor = 1.0;
@@ -27,14 +27,15 @@ struct Shown {
 Shown shown_as(const std::string& column) {
   const Quantity* known = quantities::find_in_words(column);
   if (known == nullptr) return {plain(column), 1.0};
-  if (known->unit == "m") return {fmt::format("{} (mm)", known->words), 1e3};
-  return {fmt::format("{} ({})", known->words, known->unit), 1.0};
+  constexpr double usual_length = 1e-3;  // m
+  const Scale scale = known->unit == "m" ? axis_scale(usual_length) : Scale();
+  return {fmt::format("{} ({}{})", known->words, scale.prefix, known->unit), scale.factor};
 }
 
 double number_of(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return *number;
   if (const auto* count = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*count);
-  return no_number;
+  return missing;
 }
 
 /// The quantity in rows that converged, NaN in others.
@@ -43,7 +44,7 @@ std::vector<double> drawn_values(const Table& table, const std::string& quantity
   std::vector<double> values;
   for (std::size_t i = 0; i < table.rows(); ++i)
     values.push_back(std::get<bool>(table.at(i, "converged")) ? factor * number_of(table.at(i, quantity))
-                                                              : no_number);
+                                                              : missing);
   return values;
 }
 
@@ -149,7 +150,7 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
   const MapAxis across = map_axis(x), up = map_axis(y);
   map.x = across.values;
   map.y = up.values;
-  map.values.assign(map.x.size() * map.y.size(), no_number);
+  map.values.assign(map.x.size() * map.y.size(), missing);
   double least = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     map.values[place_in(y.distinct, y.numbers[i]) * map.x.size() + place_in(x.distinct, x.numbers[i])] =

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "study/quantile.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// A name of the summaries' values, and whether a row holds text for it.
 struct ValueColumn {
@@ -44,7 +42,7 @@ Cell cell_of(const SummaryValue& value) {
 
 Cell found_cell(const StudyRow& row, const ValueColumn& column) {
   if (const Entry* found = find_entry(row.values, column.name)) return cell_of(found->value);
-  return column.text ? Cell(std::string()) : Cell(not_there);
+  return column.text ? Cell(std::string()) : Cell(missing);
 }
 
 /// The finite numbers of a column in the rows that converged, in order; empty if it holds text.
@@ -57,7 +55,7 @@ std::vector<double> ordered_values(const Table& table, std::size_t column) {
     const double value = std::visit(
         [](const auto& one) {
           if constexpr (std::is_arithmetic_v<std::decay_t<decltype(one)>>) return static_cast<double>(one);
-          return not_there;
+          return missing;
         },
         cell);
     if (std::isfinite(value)) values.push_back(value);
@@ -75,7 +73,7 @@ void append_outcome(Summary& summary, const StudyOutcome& outcome, const Table& 
   const std::vector<double> seconds = table.empty() ? std::vector<double>() : table.numbers("seconds");
   summary.emplace_back("seconds_of_all_runs", std::accumulate(seconds.begin(), seconds.end(), 0.0));
   summary.emplace_back("runs_per_second",
-                       outcome.wall_seconds > 0.0 ? double(solved) / outcome.wall_seconds : not_there);
+                       outcome.wall_seconds > 0.0 ? double(solved) / outcome.wall_seconds : missing);
 }
 
 std::string status_of(const StudyRecord& record) {

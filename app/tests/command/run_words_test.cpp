@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "plot/unit_prefix.hpp"
 #include "wavebalance/solvers/stability/contact_stiffness.hpp"
 
 namespace wavebalance::app {

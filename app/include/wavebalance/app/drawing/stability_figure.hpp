@@ -12,6 +12,17 @@ struct PlacedPoint {
   double x = 0.0, y = 0.0;
 };
 
+/// The stable and the unstable lines of a curve, each as a series that NaN interrupts.
+struct StabilityParts {
+  Series solid;
+  Series dashed;  ///< its label ends in ", unstable"; without points where all is stable
+};
+
+/// A curve of at least two points, of which `unstable` says which are, cut at its special points: a line is
+/// dashed if one of its ends is unstable; see draw_by_stability().
+StabilityParts parts_by_stability(const Series& curve, const std::vector<bool>& unstable,
+                                  const std::vector<PlacedPoint>& special = {});
+
 /// Adds `curve`, whose points have the stability of `points`, through its special points, which are given in
 /// their order along it: solid, and dashed where it is unstable. The label of the dashed part ends in
 /// ", unstable". Between two special points of one line that are no grazings it is dashed if an end of the

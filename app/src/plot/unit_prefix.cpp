@@ -1,0 +1,51 @@
+#include "plot/unit_prefix.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace wavebalance::app {
+namespace {
+
+struct Prefix {
+  double size;     // of the unit with the prefix
+  double inverse;  // 1 / size, exact where it is a whole number
+  const char* sign;
+};
+
+constexpr std::array<Prefix, 8> prefixes{{{1e9, 1e-9, "G"},
+                                          {1e6, 1e-6, "M"},
+                                          {1e3, 1e-3, "k"},
+                                          {1.0, 1.0, ""},
+                                          {1e-3, 1e3, "m"},
+                                          {1e-6, 1e6, "µ"},
+                                          {1e-9, 1e9, "n"},
+                                          {1e-12, 1e12, "p"}}};
+
+/// The largest prefix up to `most` that `magnitude` reaches, else the one of the size `least`.
+const Prefix& prefix_for(double magnitude, double least, double most) {
+  return *std::find_if(prefixes.begin(), prefixes.end(), [&](const Prefix& one) {
+    return one.size <= least || (one.size <= most && magnitude >= one.size);
+  });
+}
+
+}  // namespace
+
+Scale axis_scale(double largest) {
+  if (!(largest > 0.0)) return {};
+  const Prefix& prefix = prefix_for(largest, 1e-6, 1e6);
+  return {prefix.inverse, prefix.sign};
+}
+
+std::string quantity(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return "not known";
+  constexpr double least = 1e-12;
+  const double magnitude = std::abs(value);
+  if (magnitude < least) return fmt::format("{:.4g} {}", value, unit);
+  const Prefix& prefix = prefix_for(magnitude, least, unit == "N" ? 1e9 : 1.0);
+  return fmt::format("{:.4g} {}{}", value / prefix.size, prefix.sign, unit);
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+namespace wavebalance::app {
+
+/// A factor on values of an axis, and the prefix of its unit that belongs to it.
+struct Scale {
+  double factor = 1.0;
+  std::string prefix;
+};
+
+/// That which makes numbers up to `largest` readable, from micro to mega; none for numbers that are all zero.
+Scale axis_scale(double largest);
+
+/// "1.02 mm", "79.2 kN": four digits with a prefix from pico to giga, of which only forces take those above
+/// one; "not known" for NaN.
+std::string quantity(double value, const std::string& unit);
+
+}  // namespace wavebalance::app
