@@ -13,6 +13,7 @@
 #include "paper_results.hpp"
 #include "references.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::cases {
 namespace {
