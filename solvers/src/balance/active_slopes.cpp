@@ -33,8 +33,9 @@ void ActiveSlopes::set(const PeriodSlopes& slopes, RateMap* rates, double freque
   if (own_alone) return;
   own_ = slopes.displacement(samples_).cwiseQuotient(scale_);
   if (slopes.velocity.size() > 0) of_velocity_ = slopes.velocity(samples_).cwiseQuotient(scale_);
+  std::erase_if(others_, [&](const SlopeEntry& entry) { return scales[entry.force] == 0.0; });
   for (SlopeEntry& entry : others_) {
-    entry.slope = scales[entry.force] != 0.0 ? entry.slope / scales[entry.force] : 0.0;
+    entry.slope /= scales[entry.force];
     const auto at = std::lower_bound(samples_.begin(), samples_.end(), entry.force) - samples_.begin();
     entry.force = static_cast<int>(at);
   }
