@@ -73,8 +73,8 @@ double balance_bytes(const Sizes& s) {
   // Unknowns of the dense system that preconditions GMRES.
   const double coarse = std::min(12.0 * std::cbrt(squared * s.points), s.contacts * s.points);
   return 130.0 * s.contacts * s.points + (150.0 + 32.0 * squared) * s.functions +
-         8.0 * squared * s.points * s.period + 16.0 * s.active * s.active +
-         16.0 * coarse * coarse + 100.0 * s.contacts * coarse;
+         8.0 * squared * s.points * s.period + 16.0 * s.active * s.active + 16.0 * coarse * coarse +
+         100.0 * s.contacts * coarse;
 }
 
 double response_seconds(const Sizes& s) {
@@ -118,8 +118,8 @@ CostEstimate estimate_cost(const Scene& scene) {
   const double reduction =
       scene.structure.kept_modes >= 0 ? 4e-4 * static_cast<double>(structure_dofs(scene)) : 0.0;
   cost.bytes += balance_bytes(sizes);
-  cost.seconds =
-      responses(scene.analysis) * response_seconds(sizes) + modes + reduction + 3e-6 * sizes.contacts * sizes.output_points;
+  cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
+                 3e-6 * sizes.contacts * sizes.output_points;
   return cost;
 }
 

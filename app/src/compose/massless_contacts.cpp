@@ -31,8 +31,8 @@ void make_contacts_massless(StructureModel& model, int modes) {
   solvers::MasslessContacts massless =
       solvers::with_massless_contacts(structure, modes, all.omega, all.shapes);
   model.structure = std::move(massless.structure);
-  model.recovery = model.reduced() ? Eigen::MatrixXd(model.recovery * massless.recovery)
-                                   : std::move(massless.recovery);
+  model.recovery =
+      model.reduced() ? Eigen::MatrixXd(model.recovery * massless.recovery) : std::move(massless.recovery);
 }
 
 }  // namespace wavebalance::app

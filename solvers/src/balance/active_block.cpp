@@ -21,7 +21,8 @@ void ActiveBlock::fill(ContactOperator& contact) {
   const std::vector<int> contacts = contacts_of(slopes_->samples(), contact.problem().points());
   const Eigen::MatrixXd& columns = contact.columns(contacts);
   const int period = contact.problem().pair().shift_period();
-  slopes_->fill(contact.problem().points(), period, columns, slopes_->rates_of(columns, contacts, period), matrix_);
+  slopes_->fill(contact.problem().points(), period, columns, slopes_->rates_of(columns, contacts, period),
+                matrix_);
 }
 
 // x = r - K S z.
@@ -49,7 +50,8 @@ void ActiveBlock::solve(ContactOperator& contact, const Eigen::VectorXd& r, Eige
   complete(contact, r, values, x);
 }
 
-// Eliminating x = r - K S z - b y leaves (I + B K S) z + B b y = B r and -(S K^T c).z + (d - c.b) y = s - c.r.
+// Eliminating x = r - K S z - b y leaves (I + B K S) z + B b y = B r and -(S K^T c).z + (d - c.b) y = s -
+// c.r.
 bool ActiveBlock::factorize_bordered(ContactOperator& contact, ActiveSlopes& slopes, const Eigen::VectorXd& b,
                                      const Eigen::VectorXd& c, double d) {
   slopes_ = &slopes;

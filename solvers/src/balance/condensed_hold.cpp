@@ -30,8 +30,8 @@ Eigen::VectorXd CondensedProblem::rigid_position(const Eigen::VectorXd& unknown,
 Eigen::VectorXd CondensedProblem::held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
                                              const Eigen::VectorXd& flexibility) const {
   if (!is_free()) return force;
-  const Eigen::VectorXd springs =
-      hold_->match * hold_->held.stiffness * (rigid_directions() * rigid_position(unknown, force, flexibility));
+  const Eigen::VectorXd springs = hold_->match * hold_->held.stiffness *
+                                  (rigid_directions() * rigid_position(unknown, force, flexibility));
   Eigen::VectorXd held = force;
   for (int c = 0; c < contacts(); ++c) held.segment(c * points(), points()).array() -= springs[c];
   return held;

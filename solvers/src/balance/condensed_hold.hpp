@@ -8,8 +8,7 @@ namespace wavebalance::solvers {
 
 /// What a problem has of a structure that is free to move.
 struct CondensedProblem::Hold {
-  explicit Hold(const LinearStructure& structure, const TimePair& pair)
-      : held(solvers::hold(structure)) {
+  explicit Hold(const LinearStructure& structure, const TimePair& pair) : held(solvers::hold(structure)) {
     // A force of 1 that is constant in time, and the coefficient of a displacement of 1, at k = 0.
     Eigen::VectorXcd constant = Eigen::VectorXcd::Zero(pair.points() / 2 + 1), projection;
     constant[0] = pair.points();

@@ -54,8 +54,7 @@ void require_massless_rigid_contacts(const LinearStructure& structure, const Con
   std::string names;
   for (const int c : rigid) names += (names.empty() ? "" : ", ") + std::to_string(c);
   throw std::invalid_argument(
-      "a rigid law needs contacts without mass, but contacts with mass have one (rigid: " +
-      names +
+      "a rigid law needs contacts without mass, but contacts with mass have one (rigid: " + names +
       "). A continuum of motions satisfies both without a law of impact; expected rows of zeros in the mass at "
       "these contacts, the mass redistributed, or a stiff linear law");
 }

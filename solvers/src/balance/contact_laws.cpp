@@ -69,7 +69,8 @@ bool ContactLaws::depend_on_velocity() const {
 }
 
 bool ContactLaws::act_over_period() const {
-  return std::any_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.acts_over_period(); });
+  return std::any_of(laws_.begin(), laws_.end(),
+                     [](const AnyContactLaw& law) { return law.acts_over_period(); });
 }
 
 ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
@@ -96,7 +97,8 @@ void ContactLaws::evaluate(int contacts, const Eigen::VectorXd& displacement, co
   forces.slopes.others.clear();
   forces.pieces.setZero(act_over_period() ? displacement.size() : 0);
   const int points = static_cast<int>(displacement.size()) / contacts;
-  for (int c = 0; c < contacts; c += (*this)[c].rows()) evaluate_law(c, points, displacement, velocity, forces);
+  for (int c = 0; c < contacts; c += (*this)[c].rows())
+    evaluate_law(c, points, displacement, velocity, forces);
 }
 
 void ContactLaws::evaluate_law(int row, int points, const Eigen::VectorXd& displacement,

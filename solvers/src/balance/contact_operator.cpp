@@ -50,8 +50,7 @@ Eigen::MatrixXcd ContactOperator::harmonic_response(int n) {
   const int k = n % pair.functions(), contacts = problem_->contacts();
   const bool mirrored = k >= pair.spectrum_size();
   const double scale = double(pair.functions()) / pair.points() / pair.points();
-  const std::complex<double> bases =
-      scale * std::conj(pair.weight_spectrum()[n]) * pair.trial_spectrum()[n];
+  const std::complex<double> bases = scale * std::conj(pair.weight_spectrum()[n]) * pair.trial_spectrum()[n];
   Eigen::MatrixXcd compliance =
       kernel().row(mirrored ? pair.functions() - k : k).reshaped(contacts, contacts);
   if (mirrored) compliance = compliance.conjugate().eval();

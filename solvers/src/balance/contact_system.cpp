@@ -122,7 +122,8 @@ ForceSlopes ContactSystem::side_of(int sample, const LawKink& kink, bool beyond)
 void ContactSystem::add_velocity_slope(Eigen::VectorXd& slope) {
   if (!rates_) return;
   // At fixed samples the velocities f V u grow like the frequency.
-  operator_.apply(forces_.slopes.velocity.cwiseProduct(velocity_) / operator_.problem().frequency(), product_);
+  operator_.apply(forces_.slopes.velocity.cwiseProduct(velocity_) / operator_.problem().frequency(),
+                  product_);
   slope += product_;
 }
 

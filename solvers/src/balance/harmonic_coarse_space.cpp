@@ -190,7 +190,8 @@ void HarmonicCoarseSpace::fill(const PeriodSlopes& slopes, double frequency, Eig
   largest_sum_ = directions_.empty() ? 0 : 2 * directions_.back().n;
   tangent_ = harmonics_of(slopes.displacement);
   damping_.resize(0, 0);
-  if (slopes.velocity.size() > 0) damping_ = 2.0 * std::numbers::pi * frequency * harmonics_of(slopes.velocity);
+  if (slopes.velocity.size() > 0)
+    damping_ = 2.0 * std::numbers::pi * frequency * harmonics_of(slopes.velocity);
   forwards_.resize(contacts_, basis_.cols());
   backwards_.resize(contacts_, basis_.cols());
   for (Eigen::Index first = 0, count = 0; first < basis_.cols(); first += count) {

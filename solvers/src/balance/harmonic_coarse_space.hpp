@@ -55,9 +55,9 @@ class HarmonicCoarseSpace {
   void analyse(const Eigen::VectorXd& samples, Eigen::VectorXd& coefficients);
   /// U g. O(C N log N + C size()).
   void synthesise(const Eigen::VectorXd& coefficients, Eigen::VectorXd& samples);
-  /// I + V D U in the leading block of `matrix`, D the slopes by the displacement and the velocity of the same
-  /// sample at a frequency in Hz, those by a harmonic's velocity as of its exact derivative. O(C N log N + C
-  /// size()^2).
+  /// I + V D U in the leading block of `matrix`, D the slopes by the displacement and the velocity of the
+  /// same sample at a frequency in Hz, those by a harmonic's velocity as of its exact derivative. O(C N log N
+  /// + C size()^2).
   void fill(const PeriodSlopes& slopes, double frequency, Eigen::MatrixXd& matrix);
 
  private:
@@ -80,10 +80,10 @@ class HarmonicCoarseSpace {
   std::vector<Direction> directions_;   // by harmonic
   Eigen::MatrixXcd basis_, responses_;  // C x directions: of each harmonic q_n and H(n)^* q_n
   std::unique_ptr<spectral::RealFft> fft_;
-  Eigen::MatrixXcd spectra_;                              // N/2 + 1 x C, of samples
-  int largest_sum_ = 0;                                   // K
-  // C x 2 K + 1, Fourier coefficients from -K on of the slopes by displacement and, times 2 pi f, by velocity;
-  // the latter empty where there are none.
+  Eigen::MatrixXcd spectra_;  // N/2 + 1 x C, of samples
+  int largest_sum_ = 0;       // K
+  // C x 2 K + 1, Fourier coefficients from -K on of the slopes by displacement and, times 2 pi f, by
+  // velocity; the latter empty where there are none.
   Eigen::MatrixXcd tangent_, damping_;
   Eigen::MatrixXcd forwards_, backwards_, ahead_, back_;  // C or r_n x directions, work of fill()
 };

@@ -30,9 +30,9 @@ void JacobianSolver::choose(const ContactOperator& contact, const PeriodSlopes& 
   active_.set(slopes, rates_, contact.problem().frequency());
   // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
   const bool decays = contact.regularization().size() == 0;
-  const Eigen::Index limit = !decays                   ? largest_dense
+  const Eigen::Index limit = !decays                             ? largest_dense
                              : contact.problem().contacts() == 1 ? crossover
-                                                       : crossover_of_several;
+                                                                 : crossover_of_several;
   const bool large = active_.count() > limit;
   const bool given_up = krylov_failures_ >= most_failures && active_.count() <= largest_dense;
   const bool krylov =
@@ -85,7 +85,8 @@ bool JacobianSolver::factorize_bordered(ContactOperator& contact, const PeriodSl
   border_column_ = b;
   border_row_ = c;
   border_corner_ = d;
-  return krylov_.factorize_bordered(compliance_of(contact), active_, slopes, contact.problem().frequency(), b, c, d);
+  return krylov_.factorize_bordered(compliance_of(contact), active_, slopes, contact.problem().frequency(), b,
+                                    c, d);
 }
 
 bool JacobianSolver::solve_bordered(ContactOperator& contact, const Eigen::VectorXd& r, double s,

@@ -27,8 +27,7 @@ CoarseSize coarse_size(int contacts, const PeriodSlopes& slopes, double frequenc
   };
   return {static_cast<Eigen::Index>(4.0 * std::cbrt(samples)),
           static_cast<Eigen::Index>(12.0 * std::cbrt(samples * contacts)), largest_remainder,
-          largest(slopes.displacement),
-          2.0 * std::numbers::pi * frequency * largest(slopes.velocity)};
+          largest(slopes.displacement), 2.0 * std::numbers::pi * frequency * largest(slopes.velocity)};
 }
 
 }  // namespace
@@ -194,7 +193,8 @@ double KrylovBlock::condition(const ComplianceOperator& compliance) {
   if (active_->count() == 0) return 1.0;
   Unknown unknown;
   Eigen::VectorXd product;
-  const Eigen::ArrayXd samples = Eigen::ArrayXd::LinSpaced(active_->count(), 0.0, double(active_->count()) - 1.0);
+  const Eigen::ArrayXd samples =
+      Eigen::ArrayXd::LinSpaced(active_->count(), 0.0, double(active_->count()) - 1.0);
   const Eigen::VectorXd all_frequencies = samples.square().cos().matrix();
   unknown.z = (1.0 + all_frequencies.array()).matrix();
   multiply(compliance, unknown, product);

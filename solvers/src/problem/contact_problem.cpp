@@ -1,12 +1,13 @@
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/subharmonic_response.hpp"
-#include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -132,8 +133,7 @@ std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const 
   options.stability.stability = stability_options(condensed_);
   options.load_periods = condensed_.periods();
   const auto problems = [&](int periods) {
-    CondensedProblem problem(pairs(periods), structure(),
-                             over_periods(condensed_.load_harmonics(), periods));
+    CondensedProblem problem(pairs(periods), structure(), over_periods(condensed_.load_harmonics(), periods));
     problem.set_threads(condensed_.threads());
     return problem;
   };

@@ -119,7 +119,8 @@ class Sweep {
   CurvePoint first_point(const PeriodicResponse& first) const {
     CurvePoint point;
     point.displacement = first.unknown;
-    point.parameter = parameter_ == SweepParameter::frequency ? first.frequency * problem_.periods() : options_.from;
+    point.parameter =
+        parameter_ == SweepParameter::frequency ? first.frequency * problem_.periods() : options_.from;
     const bool directed = start_ && start_->direction.size() > 0;
     point.displacement_tangent = directed ? start_->direction : Eigen::VectorXd::Zero(first.unknown.size());
     point.parameter_tangent = directed ? 0.0 : options_.to - options_.from;
@@ -192,8 +193,7 @@ class Sweep {
     const Eigen::VectorXd compliance = problem_.contact_compliance();
     for (double length = least; length <= std::ldexp(least, doublings) && length > 0.0; length *= 2.0)
       for (int c = 0; c < problem_.contacts(); ++c)
-        if (!laws_[c].acts_over_period() &&
-            compliance[c] * std::abs(laws_[c].force(length)) > share * length)
+        if (!laws_[c].acts_over_period() && compliance[c] * std::abs(laws_[c].force(length)) > share * length)
           return length;
     return least;
   }

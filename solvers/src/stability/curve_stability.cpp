@@ -111,8 +111,8 @@ class Tracker {
     const double done =
         static_cast<double>(result_.points.size()) / static_cast<double>(curve_.points.size());
     const int count = static_cast<int>(result_.points.size());
-    result_.cancelled = !goes_on(options_.observer,
-                                 {"stability", count, value, unit_of(problem_, curve_.parameter), done});
+    result_.cancelled =
+        !goes_on(options_.observer, {"stability", count, value, unit_of(problem_, curve_.parameter), done});
     return !result_.cancelled;
   }
 

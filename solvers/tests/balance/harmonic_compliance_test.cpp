@@ -20,8 +20,8 @@ class Receptance final : public HarmonicCompliance {
 
   void condense(double frequency, const Eigen::MatrixXcd&, CondensedSpectrum& result) override {
     const Eigen::Index rows = pair_.spectrum_size();
-    for (auto* matrix : {&result.compliance, &result.load_response, &result.compliance_slope,
-                         &result.load_response_slope})
+    for (auto* matrix :
+         {&result.compliance, &result.load_response, &result.compliance_slope, &result.load_response_slope})
       matrix->setZero(rows, 1);
     result.compliance_error.setZero(rows, 1);
     result.load_response_error.setZero(rows, 1);
@@ -30,14 +30,16 @@ class Receptance final : public HarmonicCompliance {
       const std::complex<double> receptance = 1.0 / (1.0 + 0.1 * s + s * s) / pair_.symbol(0)[k];
       result.compliance(k, 0) = receptance;
       result.load_response(k, 0) = load * receptance;
-      result.compliance_slope(k, 0) = -(0.1 * ds + 2.0 * s * ds) * receptance * receptance * pair_.symbol(0)[k];
+      result.compliance_slope(k, 0) =
+          -(0.1 * ds + 2.0 * s * ds) * receptance * receptance * pair_.symbol(0)[k];
       result.load_response_slope(k, 0) = load * result.compliance_slope(k, 0);
     }
     frequency_ = frequency;
   }
   Eigen::VectorXcd recover(int k, const Eigen::VectorXcd& loads, const Eigen::VectorXcd& forces) override {
     const std::complex<double> s(0.0, two_pi * k * frequency_);
-    return Eigen::VectorXcd::Constant(1, (load * loads[0] - forces[0]) / (1.0 + 0.1 * s + s * s) / pair_.symbol(0)[k]);
+    return Eigen::VectorXcd::Constant(
+        1, (load * loads[0] - forces[0]) / (1.0 + 0.1 * s + s * s) / pair_.symbol(0)[k]);
   }
   bool symmetric() const override { return true; }
   double condition() const override { return 1.0; }
@@ -53,7 +55,8 @@ TEST(HarmonicCompliance, InClosedFormGivesTheResponsesOfTheMatrices) {
   const LinearStructure oscillator = testing::unit_oscillator(0.1, Receptance::load);
   const TimePair pair = testing::fourier_pair(63, 256);
   CondensedProblem of_matrices(pair, oscillator, testing::cosine_load());
-  CondensedProblem of_receptance(pair, oscillator, testing::cosine_load(), std::make_unique<Receptance>(pair));
+  CondensedProblem of_receptance(pair, oscillator, testing::cosine_load(),
+                                 std::make_unique<Receptance>(pair));
   const testing::LinearContact stop{10.0, 0.1};
   for (const double frequency : {0.12, 0.2, 0.3}) {
     of_matrices.set_frequency(frequency);

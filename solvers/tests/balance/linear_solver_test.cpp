@@ -87,7 +87,11 @@ class CoarseSpaceTest : public ::testing::Test {
     set({0, 1000, 0.0});
   }
   void set(const CoarseSize& wanted) {
-    space_.set({problem_.contacts(), points, {}, {}, [this](int n) { return ContactOperator(problem_).harmonic_response(n); }},
+    space_.set({problem_.contacts(),
+                points,
+                {},
+                {},
+                [this](int n) { return ContactOperator(problem_).harmonic_response(n); }},
                harmonics, wanted);
   }
   LinearStructure structure() {

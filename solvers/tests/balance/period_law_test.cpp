@@ -1,5 +1,5 @@
-// Laws over a period: of several rows and with memory. Their derivative in Newton's system by LU and by GMRES,
-// and responses of a slider on an elastic tangential contact [Jenkins] against exact values.
+// Laws over a period: of several rows and with memory. Their derivative in Newton's system by LU and by
+// GMRES, and responses of a slider on an elastic tangential contact [Jenkins] against exact values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace wavebalance::solvers {
 namespace {
 
 // A spring in series with a slider that yields at a limit: the force follows the increments of the
-// displacement and is cut at the limit. The map of the force over one period is idempotent, so that the second
-// of two periods is the periodic one.
+// displacement and is cut at the limit. The map of the force over one period is idempotent, so that the
+// second of two periods is the periodic one.
 struct Jenkins {
   double stiffness = 1.0, limit = 1.0;
 
@@ -152,8 +152,8 @@ TEST(PeriodLaw, OfSeveralRowsIsTheLawsOfOneInstantWhereTheseSayTheSame) {
   ForcedResponseOptions displacement;
   displacement.form = ContactForm::displacement;
   const PeriodicResponse together = forced_response(problem, Wedge{3.0, 0.2, 0.0}, displacement);
-  const PeriodicResponse apart = forced_response(
-      problem, ContactLaws({AnyContactLaw(Stop{}), AnyContactLaw()}), displacement);
+  const PeriodicResponse apart =
+      forced_response(problem, ContactLaws({AnyContactLaw(Stop{}), AnyContactLaw()}), displacement);
   ASSERT_TRUE(together.converged() && apart.converged());
   EXPECT_GT(apart.contact_force.maxCoeff(), 0.0);
   EXPECT_LE((together.displacement - apart.displacement).norm(), 1e-12 * apart.displacement.norm());
@@ -168,10 +168,13 @@ struct Slider {
 
 TEST(PeriodLaw, ASliderHasTheAmplitudeOfItsExactMotionInSmoothPairs) {
   const spectral::FourierBasis fourier(63);
-  for (const auto& [load, omega, amplitude] :
-       {Slider{2.0, 1.2, 5.002826509}, {1.5, 1.3, 2.877360723}, {0.5, 1.41, 1.356058056}, {2.0, 0.45, 1.097855263}})
+  for (const auto& [load, omega, amplitude] : {Slider{2.0, 1.2, 5.002826509},
+                                               {1.5, 1.3, 2.877360723},
+                                               {0.5, 1.41, 1.356058056},
+                                               {2.0, 0.45, 1.097855263}})
     for (const TimePair& pair :
-         {testing::fourier_pair(63, 1008), testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, 1024)}) {
+         {testing::fourier_pair(63, 1008),
+          testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, 1024)}) {
       CondensedProblem problem(pair, testing::unit_oscillator(0.05, load), testing::cosine_load());
       problem.set_frequency(omega / (2.0 * std::numbers::pi));
       const PeriodicResponse response = forced_response(problem, Jenkins{}, {});
@@ -217,12 +220,14 @@ TEST(PeriodLaw, SaysThePieceOfEachSample) {
 }
 
 TEST(PeriodLaw, WhatNeedsTheForceOfOneInstantRefusesIt) {
-  EXPECT_EQ(testing::refusal([] { AnyContactLaw(Jenkins{}).force(0.1); }),
-            "a contact law acts over a period, and what was asked for needs the force of one instant; responses "
-            "and sweeps in the displacement form take such laws");
-  EXPECT_EQ(testing::refusal([] { ContactLaws(Wedge{}).require(1); }),
-            "ContactLaws: the laws act along 2 contact directions, but the structure has 1; a law over a period "
-            "takes as many as it has rows");
+  EXPECT_EQ(
+      testing::refusal([] { AnyContactLaw(Jenkins{}).force(0.1); }),
+      "a contact law acts over a period, and what was asked for needs the force of one instant; responses "
+      "and sweeps in the displacement form take such laws");
+  EXPECT_EQ(
+      testing::refusal([] { ContactLaws(Wedge{}).require(1); }),
+      "ContactLaws: the laws act along 2 contact directions, but the structure has 1; a law over a period "
+      "takes as many as it has rows");
   ForcedResponseOptions force;
   force.form = ContactForm::force;
   CondensedProblem problem(testing::fourier_pair(7, 32), testing::unit_oscillator(0.1, 1.0),

@@ -28,7 +28,8 @@ TEST(RepeatedFrequency, HasTheFreeResponseOfAProblemSetOnce) {
 }
 
 TEST(RepeatedFrequency, IsFollowedByTheOperatorOfAForm) {
-  const Eigen::VectorXd form = Eigen::VectorXd::Constant(1, 1e-3), force = Eigen::VectorXd::LinSpaced(16, -1.0, 2.0);
+  const Eigen::VectorXd form = Eigen::VectorXd::Constant(1, 1e-3),
+                        force = Eigen::VectorXd::LinSpaced(16, -1.0, 2.0);
   CondensedProblem problem = unit_problem(0.1);
   problem.set_frequency(0.3);
   ContactOperator followed(problem, form);

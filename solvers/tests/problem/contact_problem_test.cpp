@@ -1,5 +1,5 @@
-// One object for all questions about a structure with its contacts: the answers of the functions that it calls,
-// in any order.
+// One object for all questions about a structure with its contacts: the answers of the functions that it
+// calls, in any order.
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ const testing::LinearContact elastic_stop{10.0, 0.1};
 const LinearStructure impacting_oscillator = testing::unit_oscillator(0.1, 0.8);
 
 ContactProblem stopped(int periods = 1) {
-  return {testing::fourier_pair(62 * periods + 1, 256 * periods), impacting_oscillator, elastic_stop, periods};
+  return {testing::fourier_pair(62 * periods + 1, 256 * periods), impacting_oscillator, elastic_stop,
+          periods};
 }
 
 TEST(ContactProblem, RespondsAsTheFunctionOfItsParts) {
@@ -71,7 +72,8 @@ TEST(ContactProblem, FollowsACurveWhosePointsAreItsResponses) {
   }
   const std::vector<PeriodicResponse> at = problem.responses_at(curve, 0.2);
   ASSERT_EQ(at.size(), 1u);
-  EXPECT_LE((at[0].displacement - problem.respond(0.2).displacement).norm(), 1e-8 * at[0].displacement.norm());
+  EXPECT_LE((at[0].displacement - problem.respond(0.2).displacement).norm(),
+            1e-8 * at[0].displacement.norm());
   const CurveStability stability = problem.stability(curve);
   EXPECT_EQ(stability.points.size(), curve.points.size());
 }
@@ -120,7 +122,8 @@ TEST(ContactProblem, TakesARigidObstacleAtContactsWithoutMass) {
   const double free = open.respond(0.06).displacement.maxCoeff(), gap = 0.5 * free;
   double coarse = 0.0;  // how far the obstacle is passed at the points, an error of the discretisation
   for (const int functions : {63, 255}) {
-    ContactProblem problem(testing::fourier_pair(functions, 4 * functions), massless.structure, testing::Rigid{gap});
+    ContactProblem problem(testing::fourier_pair(functions, 4 * functions), massless.structure,
+                           testing::Rigid{gap});
     const PeriodicResponse response = problem.respond(0.06);
     ASSERT_TRUE(response.converged());
     EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
@@ -130,7 +133,8 @@ TEST(ContactProblem, TakesARigidObstacleAtContactsWithoutMass) {
     coarse = passed;
   }
   const Eigen::VectorXd push = chain.contact_directions.transpose() * Eigen::VectorXd::Ones(1);
-  const Eigen::VectorXd reduced_push = massless.structure.contact_directions.transpose() * Eigen::VectorXd::Ones(1);
+  const Eigen::VectorXd reduced_push =
+      massless.structure.contact_directions.transpose() * Eigen::VectorXd::Ones(1);
   const Eigen::VectorXd whole = Eigen::MatrixXd(chain.stiffness).ldlt().solve(push);
   const Eigen::VectorXd recovered =
       massless.recovery * Eigen::MatrixXd(massless.structure.stiffness).ldlt().solve(reduced_push);

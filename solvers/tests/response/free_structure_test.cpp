@@ -241,7 +241,8 @@ TEST(FreeStructure, HasTheNewtonMatrixOfItsResidual) {
   for (const bool force_form : {false, true})
     for (TimePair& pair : testing::pair_kinds(8, 32)) {
       CondensedProblem problem = problem_of(free_rod(4, 1.0), 0.8, std::move(pair));
-      const Eigen::VectorXd form = force_form ? Eigen::VectorXd(Eigen::Vector2d(0.3, 0.2)) : Eigen::VectorXd();
+      const Eigen::VectorXd form =
+          force_form ? Eigen::VectorXd(Eigen::Vector2d(0.3, 0.2)) : Eigen::VectorXd();
       ContactSystem system(problem, AnyContactLaw(LinearContact{4.0, -0.1}), form);
       const Eigen::VectorXd state = testing::random_vector(problem.samples(), generator),
                             right = testing::random_vector(problem.samples(), generator),

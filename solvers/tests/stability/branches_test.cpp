@@ -163,10 +163,9 @@ TEST(Branches, OfTheBarHaveAFoldWhereTheyTurn) {
   law.start = 1e-4;
   const auto problems = problems_of(bar, 63, 512);
   const TracedBranches traced = trace_branches(problems, bar, law, 2550.0, 3300.0, 2);
-  const auto from_grazing =
-      std::find_if(traced.branches.begin(), traced.branches.end(), [](const Branch& branch) {
-        return std::abs(branch.curve.points.front().frequency - 2734.17) < 0.5;
-      });
+  const auto from_grazing = std::find_if(
+      traced.branches.begin(), traced.branches.end(),
+      [](const Branch& branch) { return std::abs(branch.curve.points.front().frequency - 2734.17) < 0.5; });
   ASSERT_NE(from_grazing, traced.branches.end());
   const auto& points = from_grazing->curve.points;
   const auto lowest = std::min_element(

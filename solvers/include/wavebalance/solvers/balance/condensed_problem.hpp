@@ -190,10 +190,10 @@ class CondensedProblem {
   double frequency_ = 0.0;
   double load_scale_ = 1.0, full_load_ = 1.0;
   std::string load_unit_ = "of the load";
-  double condensed_at_ = 0.0;                // Hz, at which all below is current; 0: none
+  double condensed_at_ = 0.0;  // Hz, at which all below is current; 0: none
   std::uint64_t condensations_ = 0;
-  CondensedSpectrum condensed_;              // load responses to unit loads
-  Eigen::MatrixXcd load_response_;           // to the projected loads, (M/2 + 1) x C
+  CondensedSpectrum condensed_;     // load responses to unit loads
+  Eigen::MatrixXcd load_response_;  // to the projected loads, (M/2 + 1) x C
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
   struct Work;

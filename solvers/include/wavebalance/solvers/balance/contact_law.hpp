@@ -185,7 +185,8 @@ class AnyContactLaw {
     int rows() const override { return 1; }
     bool acts_over_period() const override { return false; }
     void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const override {
-      if (!DependsOnVelocity<Law>) return evaluate(motion.displacement, forces.force, forces.displacement_slope);
+      if (!DependsOnVelocity<Law>)
+        return evaluate(motion.displacement, forces.force, forces.displacement_slope);
       for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
         const ForceSlopes now = at(motion.displacement[i], motion.velocity[i]);
         forces.force[i] = now.force;

@@ -38,8 +38,8 @@ class ContactOperator {
   /// Its transposed product.
   void apply_transposed(const Eigen::VectorXd& values, Eigen::VectorXd& result);
 
-  /// C x C: the parts exp(2 pi i n t) of the unknown that contact forces exp(2 pi i n t) cause, m/N, 0 <= n <=
-  /// N/2. The diagonal over harmonics of the samples, which is all of it for two Fourier bases.
+  /// C x C: the parts exp(2 pi i n t) of the unknown that contact forces exp(2 pi i n t) cause, m/N, 0 <= n
+  /// <= N/2. The diagonal over harmonics of the samples, which is all of it for two Fourier bases.
   Eigen::MatrixXcd harmonic_response(int n);
 
   /// The first p = shift_period() columns of each contact, samples() x C p: column d p + m belongs to a

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "wavebalance/solvers/balance/contact_operator.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/balance/contact_operator.hpp"
 
 namespace wavebalance::solvers {
 
@@ -67,7 +67,8 @@ class ContactSystem {
     return rest_pieces_[static_cast<std::size_t>(sample / operator_.problem().points())];
   }
 
-  /// Computes force, its slopes and residual at `displacement`. Returns relative_residual(). One product with K.
+  /// Computes force, its slopes and residual at `displacement`. Returns relative_residual(). One product with
+  /// K.
   double evaluate(const Eigen::VectorXd& displacement);
   /// The same with every sample kept on one piece of its law, samples() values, which is continued beyond its
   /// kinks by the tangents there. Equal to evaluate() where the pieces are those of `displacement`, and
@@ -78,9 +79,7 @@ class ContactSystem {
   /// CondensedProblem::held_force() of the state: force() where the structure is held.
   Eigen::VectorXd held_force() const;
   /// ContactOperator::unknown_coefficients() of the state.
-  Eigen::MatrixXcd unknown_coefficients() {
-    return operator_.unknown_coefficients(force(), held_force());
-  }
+  Eigen::MatrixXcd unknown_coefficients() { return operator_.unknown_coefficients(force(), held_force()); }
   /// The slopes of each force by the displacement of the same sample, N/m: D of laws that read it alone.
   const Eigen::VectorXd& tangent() const { return forces_.slopes.displacement; }
   /// D.
@@ -152,7 +151,7 @@ class ContactSystem {
   Eigen::VectorXd residual_, product_;
   Eigen::VectorXd state_;                    // of a free structure
   std::unique_ptr<RigidPosition> position_;  // of a free structure
-  std::unique_ptr<RateMap> rates_;  // null where no law depends on the velocity
+  std::unique_ptr<RateMap> rates_;           // null where no law depends on the velocity
   std::unique_ptr<JacobianSolver> jacobian_;
 };
 

@@ -36,8 +36,8 @@ struct PeriodForces {
 /// along the rows oppose positive displacements. A law of one instant, ContactLaw, is the case of one row
 /// whose force depends on the motion of the same sample alone.
 template <class Law>
-concept PeriodLaw = std::copy_constructible<Law> && requires(const Law& law, const PeriodKinematics& motion,
-                                                             PeriodForces& forces) {
+concept PeriodLaw = std::copy_constructible<Law> &&
+    requires(const Law& law, const PeriodKinematics& motion, PeriodForces& forces) {
   { law.rows() } -> std::convertible_to<int>;  // consecutive contact directions, at least 1
   law.evaluate(motion, forces);                // any displacements that are finite
 };

@@ -42,7 +42,7 @@ struct BranchOptions {
   int largest_period = 2;  ///< Branch::periods at most; 1 leaves period doublings out
   int max_branches = 16;
   int load_periods = 1;  ///< in a period of the main curve, CondensedProblem::periods()
-  Observer observer;  ///< called after each point of a branch
+  Observer observer;     ///< called after each point of a branch
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

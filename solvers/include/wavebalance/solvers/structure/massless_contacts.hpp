@@ -13,13 +13,13 @@ struct MasslessContacts {
 
 /// The structure in its lowest modes and contacts without mass, which deflect beside these modes by the
 /// residual flexibility of the omitted ones [R. H. MacNeal, Comput. Struct. 1, 1971, 581-601; massless
-/// boundaries: C. Monjaraz-Tec, J. Gross, M. Krack, J. Sound Vib. 526, 2022]: what a rigid obstacle needs. The
-/// lowest `modes` frequencies without contact and the static deflections under contact forces are those of the
-/// structure; the inertia of the omitted modes is neglected. Displacements of contacts become the last degrees
-/// of freedom, one for obstacles on both sides. `modes` is at most the size less the number of contacts;
-/// `omega` (rad/s) and `shapes` are all modes of the symmetric part of the stiffness, normalised by the mass.
-/// Throws std::invalid_argument if modes < 1, or if the omitted modes do not move the contacts independently
-/// of one another. O(n^3).
+/// boundaries: C. Monjaraz-Tec, J. Gross, M. Krack, J. Sound Vib. 526, 2022]: what a rigid obstacle needs.
+/// The lowest `modes` frequencies without contact and the static deflections under contact forces are those
+/// of the structure; the inertia of the omitted modes is neglected. Displacements of contacts become the last
+/// degrees of freedom, one for obstacles on both sides. `modes` is at most the size less the number of
+/// contacts; `omega` (rad/s) and `shapes` are all modes of the symmetric part of the stiffness, normalised by
+/// the mass. Throws std::invalid_argument if modes < 1, or if the omitted modes do not move the contacts
+/// independently of one another. O(n^3).
 MasslessContacts with_massless_contacts(LinearStructure structure, int modes, const Eigen::VectorXd& omega,
                                         const Eigen::MatrixXd& shapes);
 /// The same with as many modes as the contacts leave, which are computed. Throws std::invalid_argument also
