@@ -16,12 +16,13 @@ namespace wavebalance::solvers {
 struct PhaseMotion::Parts {
   detail::PhaseModel model;
   detail::PhaseIterate iterate;
+  detail::LegendreNodes nodes;
   detail::PanelForces tangent, damping;  // slopes of the laws, N/m and N s/m
 };
 
 namespace {
 
-using detail::Influence, detail::Layout, detail::LegendreNodes, detail::PanelForces, detail::PhaseIterate,
+using detail::ContactMotion, detail::Layout, detail::LegendreNodes, detail::PanelForces, detail::PhaseIterate,
     detail::PhaseModel, detail::PhaseNewtonResult;
 
 // At least so many instants at which the motion found is held against its phases.
@@ -41,13 +42,13 @@ Eigen::MatrixXd slopes_of(const Eigen::MatrixXd& samples) {
 PhasesStatus refusal(const PhasesProblem& problem) {
   const ContactDynamics& dynamics = problem.dynamics;
   if (dynamics.structurally_damped()) return PhasesStatus::structural_damping;
-  if (dynamics.holding() > 0.0) return PhasesStatus::free_structure;
-  if (!problem.laws.have_finite_force()) return PhasesStatus::rigid_contact;
+  for (const int c : problem.laws.rigid(dynamics.contacts()))
+    if (dynamics.holding() > 0.0 || !(dynamics.constant()(c, c) > 0.0)) return PhasesStatus::rigid_contact;
   if (problem.laws.depend_on_velocity() && !dynamics.constant().isZero(0.0))
     return PhasesStatus::velocity_and_no_mass;
-  constexpr double least_decay = 1e-9;  // in a period
+  constexpr double least = 1e-9;
   for (const ContactPole& pole : dynamics.poles())
-    if (!(-pole.exponent.real() / problem.frequency > least_decay)) return PhasesStatus::undamped;
+    if (!(std::abs(1.0 - std::exp(pole.exponent / problem.frequency)) > least)) return PhasesStatus::resonant;
   return PhasesStatus::converged;
 }
 
@@ -67,21 +68,52 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start) {
                                 " Hz; it must be positive and finite");
 }
 
-// The last two Legendre coefficients of each panel at its nodes, n, N: what the next ones are not larger
-// than.
-Eigen::VectorXd last_parts(const PanelForces& forces, const LegendreNodes& nodes) {
-  const Eigen::MatrixXd& coefficients = forces.coefficients();
-  const Index q = coefficients.rows();
-  const Eigen::MatrixXd values = detail::legendre_values(nodes.points, q).rightCols(2);
-  return (values * coefficients.bottomRows(2)).reshaped();
+void require_start_force(const ContactLaws& laws, const Eigen::MatrixXd& start,
+                         const Eigen::MatrixXd& start_force) {
+  const bool rigid = !laws.have_finite_force();
+  if (start_force.size() == 0 && !rigid) return;
+  if (start_force.rows() == start.rows() && start_force.cols() == start.cols()) return;
+  throw std::invalid_argument("contact_phases: start_force is " + std::to_string(start_force.rows()) + " x " +
+                              std::to_string(start_force.cols()) + "; it must be as large as start" +
+                              (rigid ? ", since a law is rigid" : ", or empty"));
 }
 
-// The rms displacement at the nodes that those parts make, over that of the motion.
-double error_of(const PhaseNewtonResult& solved, const LegendreNodes& nodes, double motion_rms) {
-  const Eigen::VectorXd parts = last_parts(solved.iterate.forces, nodes);
-  if (parts.size() == 0) return 0.0;
-  const double rms = (solved.displacement * parts).norm() / std::sqrt(double(parts.size()));
-  return rms / motion_rms;
+// The last two Legendre coefficients of each panel at its nodes, n, N.
+Eigen::VectorXd last_parts(const PanelForces& forces, const LegendreNodes& nodes) {
+  const Eigen::MatrixXd& coefficients = forces.coefficients();
+  return (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
+}
+
+// The factor from one Legendre coefficient to the next, of the panel where they decay slowest among those
+// with last ones above a ten-thousandth of the largest of these.
+double decay_of(const PanelForces& forces) {
+  const Eigen::MatrixXd& coefficients = forces.coefficients();
+  const Index q = coefficients.rows(), middle = q / 2 - 1;
+  const double limit = 1e-4 * coefficients.bottomRows(2).cwiseAbs().maxCoeff();
+  double slowest = 0.1;
+  for (Index p = 0; p < coefficients.cols(); ++p) {
+    const auto own = coefficients.col(p).cwiseAbs();
+    const double last = own.tail(2).maxCoeff(), before = own.segment(middle, 2).maxCoeff();
+    if (last > limit) slowest = std::max(slowest, std::pow(last / before, 1.0 / double(q - 2 - middle)));
+  }
+  return slowest;
+}
+
+// Relative rms errors of the displacements at the nodes: by the next two coefficients, if these go on to
+// decay as the last ones do, and by the residual of the forces.
+struct EstimatedError {
+  double resolution = 0.0, residual = 0.0;
+
+  double all() const { return resolution + residual; }
+};
+
+EstimatedError error_of(const PhaseNewtonResult& solved, const LegendreNodes& nodes, double motion_rms) {
+  if (solved.force_error.size() == 0) return {};
+  const auto rms = [&](const Eigen::VectorXd& forces) {
+    return (solved.displacement * forces).norm() / std::sqrt(double(forces.size())) / motion_rms;
+  };
+  const double decay = std::min(1.0, decay_of(solved.iterate.forces));
+  return {decay * decay * rms(last_parts(solved.iterate.forces, nodes)), rms(solved.force_error)};
 }
 
 double rms_of(const Eigen::MatrixXd& values) { return values.norm() / std::sqrt(double(values.size())); }
@@ -113,7 +145,7 @@ bool divide(PhaseIterate& iterate, double share) {
 // One solution of the equations for a list of phases, and the motion that belongs to it.
 struct Found {
   PhaseNewtonResult newton;
-  Influence motion;
+  ContactMotion motion, reach;
   Layout phases_of_motion;
 
   bool agrees() const {
@@ -126,37 +158,64 @@ class Search {
   Search(const PhaseModel& model, const ContactPhasesOptions& options, Index samples)
       : model_(model),
         options_(options),
-        times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))) {}
+        times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))),
+        free_(model.free_motion(times_)) {}
 
-  PhaseMotion run(const Influence& start) {
+  PhaseMotion run(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_force) {
     PhaseMotion result;
-    Found found = at(start, result);
+    Found found = at(reach({start, slopes_of(start)}, start_force), result);
     for (; !found.agrees() && result.changes < options_.max_changes; ++result.changes)
-      found = at(found.motion, result);
+      found = at(found.reach, result);
     if (found.agrees()) refine(found, result);
+    if (found.agrees()) {
+      const Eigen::MatrixXd own =
+          found.motion.displacement(Eigen::all, Eigen::seqN(0, start.cols(), times_.size() / start.cols()));
+      result.start_error = (start - own).norm() / own.norm();
+    }
     return describe(found, std::move(result));
   }
 
  private:
-  Found solved(PhaseIterate iterate, const LegendreNodes& nodes, PhaseMotion& result) const {
-    Found found{detail::solve_phases(model_, std::move(iterate), nodes, options_.max_iterations), {}, {}};
+  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) const {
+    Found found;
+    found.newton =
+        detail::solve_phases(model_, std::move(iterate), nodes_, {options_.max_iterations, tolerance});
     result.iterations += found.newton.iterations;
-    found.motion = model_.motion(found.newton.iterate.forces, times_);
-    found.phases_of_motion = detail::layout_of(model_.laws, found.motion.displacement, found.motion.velocity);
+    found.motion = model_.response.motion(found.newton.iterate.forces.grid(),
+                                          found.newton.iterate.forces.coefficients(), nodes_, times_);
+    found.motion.displacement = free_.displacement - found.motion.displacement;
+    found.motion.velocity = free_.velocity - found.motion.velocity;
+    const bool rigid =
+        std::any_of(model_.laws.begin(), model_.laws.end(), [](const auto& l) { return l.rigid(); });
+    found.reach = reach(found.motion, rigid ? detail::force_at(found.newton.iterate.forces, model_, times_)
+                                            : Eigen::MatrixXd());
+    found.phases_of_motion = detail::layout_of(model_.laws, found.reach.displacement, found.reach.velocity);
     return found;
+  }
+
+  // A motion with what each rigid contact would yield to its force at once, were it not held: beyond the gap
+  // while there is contact.
+  ContactMotion reach(ContactMotion motion, const Eigen::MatrixXd& force) const {
+    for (Index c = 0; c < force.rows(); ++c) {
+      const detail::LawPieces& law = model_.laws[static_cast<std::size_t>(c)];
+      if (!law.rigid()) continue;
+      motion.displacement.row(c) += force.row(c) / law.stiffness();
+      motion.velocity.row(c) = slopes_of(motion.displacement.row(c));
+    }
+    return motion;
   }
 
   // Stiff contact does not fit the panels at first: with the passages held they are refined until they
   // roughly resolve its force.
-  Found at(const Influence& motion, PhaseMotion& result) {
-    constexpr double rough = 0.03;
+  Found at(const ContactMotion& motion, PhaseMotion& result) {
+    constexpr double rough = 0.03, start_of_newton = 1e-4;
     constexpr Index many_nodes = 12;
     Layout layout = detail::layout_of(model_.laws, motion.displacement, motion.velocity);
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
     for (int level = 0; level < 6; ++level) {
       PhaseNewtonResult held =
-          detail::solve_forces(model_, iterate, nodes_, options_.max_iterations, rough * rough);
+          detail::solve_forces(model_, iterate, nodes_, {options_.max_iterations, rough});
       result.iterations += held.iterations;
       if (!held.converged) break;
       iterate = std::move(held.iterate);
@@ -169,20 +228,32 @@ class Search {
       else
         divide(iterate, rough);
     }
-    return solved(std::move(iterate), nodes_, result);
+    return solved(std::move(iterate), start_of_newton, result);
+  }
+
+  // So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, or
+  // divided panels. False where neither is left.
+  bool make_finer(PhaseIterate& iterate, double error) {
+    constexpr double margin = 0.3;
+    const Index q = nodes_.count();
+    if (q == options_.max_nodes)
+      return static_cast<int>(iterate.forces.panels().size()) < options_.max_panels &&
+             divide(iterate, 0.1 * options_.tolerance);
+    const double digits = std::log(error / (margin * options_.tolerance)), decay = decay_of(iterate.forces);
+    const double more = decay < 1.0 ? std::ceil(digits / -std::log(decay)) : options_.max_nodes;
+    nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, q + std::max<Index>(1, Index(more))));
+    return true;
   }
 
   void refine(Found& found, PhaseMotion& result) {
-    for (;;) {
-      result.estimated_error = error_of(found.newton, nodes_, rms_of(found.motion.displacement));
-      if (result.estimated_error <= options_.tolerance) return;
+    constexpr double part = 0.05, rounding = 1e-14;
+    for (bool tight = false;; tight = true) {
+      const EstimatedError error = error_of(found.newton, nodes_, rms_of(found.motion.displacement));
+      result.estimated_error = error.all();
       PhaseIterate finer = found.newton.iterate;
-      if (nodes_.count() < options_.max_nodes)
-        nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, nodes_.count() + nodes_.count() / 2));
-      else if (static_cast<int>(finer.forces.panels().size()) > options_.max_panels ||
-               !divide(finer, 0.1 * options_.tolerance))
-        return;
-      Found better = solved(std::move(finer), nodes_, result);
+      const bool finest = error.resolution <= options_.tolerance || !make_finer(finer, error.resolution);
+      if (finest && (tight || error.residual <= part * options_.tolerance)) return;
+      Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
       if (!better.agrees()) return;
       found = std::move(better);
     }
@@ -197,21 +268,24 @@ class Search {
     result.status = result.estimated_error <= options_.tolerance ? PhasesStatus::converged
                                                                  : PhasesStatus::tolerance_missed;
     for (const detail::Phase& phase : iterate.layout.phases) {
+      if (!model_.laws[static_cast<std::size_t>(phase.contact)].exerts(phase.piece)) continue;
       const double begin = iterate.layout.begin(phase), whole = std::floor(begin);
       result.phases.push_back({phase.contact, phase.piece, begin - whole, iterate.layout.end(phase) - whole});
     }
     std::sort(result.phases.begin(), result.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
       return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
     });
-    const detail::LawSlopes slopes = detail::slopes_along(model_, iterate, nodes_);
+    const detail::CellGrid& grid = iterate.forces.grid();
     result.parts = std::make_shared<PhaseMotion::Parts>(
-        PhaseMotion::Parts{model_, iterate, slopes.tangent, slopes.damping});
+        PhaseMotion::Parts{model_, iterate, nodes_, PanelForces(grid, nodes_, found.newton.tangent),
+                           PanelForces(grid, nodes_, found.newton.damping)});
     return result;
   }
 
   const PhaseModel& model_;
   const ContactPhasesOptions& options_;
   Eigen::VectorXd times_;  // l / N
+  ContactMotion free_;     // without contact, there
   LegendreNodes nodes_{options_.nodes};
 };
 
@@ -233,43 +307,44 @@ std::string_view to_string(PhasesStatus status) {
                                         {tolerance_missed, "tolerance_missed"},
                                         {rigid_contact, "rigid_contact"},
                                         {velocity_and_no_mass, "velocity_and_no_mass"},
-                                        {free_structure, "free_structure"},
-                                        {undamped, "undamped"},
+                                        {resonant, "resonant"},
                                         {structural_damping, "structural_damping"}},
                                        status);
 }
 
 Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {
-  return parts->model.motion(parts->iterate.forces, times).displacement;
+  return parts->model.motion(parts->iterate.forces, parts->nodes, times).displacement;
 }
 
 Eigen::MatrixXd PhaseMotion::velocity(const Eigen::VectorXd& times) const {
-  return parts->model.frequency * parts->model.motion(parts->iterate.forces, times).velocity;
+  return parts->model.frequency * parts->model.motion(parts->iterate.forces, parts->nodes, times).velocity;
 }
 
 Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd forces(parts->model.response.contacts(), times.size());
-  for (Index k = 0; k < times.size(); ++k)
-    for (Index c = 0; c < forces.rows(); ++c)
-      forces(c, k) = parts->iterate.forces.at(static_cast<int>(c), times[k]);
+  Eigen::MatrixXd forces = detail::force_at(parts->iterate.forces, parts->model, times);
+  if (parts->model.holding() > 0.0) forces += parts->model.holding() * displacement(times);
   return forces;
 }
 
 bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
 
-double PhaseMotion::tangent(int contact, double time) const { return parts->tangent.at(contact, time); }
+double PhaseMotion::tangent(int contact, double time) const {
+  return parts->tangent.at(contact, time) + parts->model.holding();
+}
 
 double PhaseMotion::damping(int contact, double time) const { return parts->damping.at(contact, time); }
 
 PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                           const ContactPhasesOptions& options) {
+                           const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {
   options.validate();
   require_sizes(problem, start);
   PhaseMotion result;
   result.status = refusal(problem);
   if (!result.converged()) return result;
+  require_start_force(problem.laws, start, start_force);
   const PhaseModel model(problem, start.cwiseAbs().maxCoeff());
-  return Search(model, options, std::max(least_samples, start.cols())).run({start, slopes_of(start)});
+  const Index finer = (least_samples + start.cols() - 1) / start.cols();
+  return Search(model, options, finer * start.cols()).run(start, start_force);
 }
 
 }  // namespace wavebalance::solvers

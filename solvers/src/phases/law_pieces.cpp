@@ -6,8 +6,17 @@
 
 namespace wavebalance::solvers::detail {
 
-LawPieces::LawPieces(AnyContactLaw law, double length)
-    : law_(std::move(law)), breakpoints_(law_.breakpoints()) {
+LawPieces::LawPieces(AnyContactLaw law, double length, double holding, double stiffness)
+    : law_(std::move(law)),
+      rigid_(law_.is_rigid()),
+      holding_(holding),
+      stiffness_(stiffness),
+      breakpoints_(law_.breakpoints()) {
+  if (rigid_) {
+    breakpoints_ = {law_.gap()};
+    exerts_ = {false, true};
+    return;
+  }
   std::erase_if(breakpoints_, [](double at) { return !std::isfinite(at); });
   const auto force_at = [&](double displacement) {
     for (const double velocity : {0.0, -length, length}) {
@@ -22,7 +31,7 @@ LawPieces::LawPieces(AnyContactLaw law, double length)
                  high = last ? low + 4.0 * length : breakpoint(piece);
     bool acts = false;
     for (const double share : {0.1, 0.5, 0.9}) acts = acts || force_at(low + share * (high - low));
-    acts_.push_back(acts);
+    exerts_.push_back(acts);
   }
 }
 
@@ -42,9 +51,14 @@ double LawPieces::inside(int piece, double displacement) const {
 }
 
 ForceSlopes LawPieces::at(int piece, double displacement, double velocity) const {
+  if (rigid_) {
+    if (!exerts(piece)) return {};
+    return {.force = stiffness_ * (displacement - law_.gap()), .tangent = stiffness_};
+  }
   const double within = inside(piece, displacement);
   ForceSlopes value = law_.at(within, velocity);
-  value.force += value.tangent * (displacement - within);
+  value.force += value.tangent * (displacement - within) - holding_ * displacement;
+  value.tangent -= holding_;
   return value;
 }
 

@@ -9,8 +9,10 @@ namespace wavebalance::solvers::detail {
 /// ends, by a line, so that Newton's method may leave it.
 class LawPieces {
  public:
-  /// `length`, m: that the motion has, by which the pieces are sampled.
-  LawPieces(AnyContactLaw law, double length);
+  /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that
+  /// holds the contact in its compliance, so that the law takes it back. `stiffness`, N/m: what the contact
+  /// yields at once to a force, by which a rigid law becomes an equation for it.
+  LawPieces(AnyContactLaw law, double length, double holding, double stiffness);
 
   int count() const { return static_cast<int>(breakpoints_.size()) + 1; }
   /// At a breakpoint the piece above it.
@@ -18,15 +20,24 @@ class LawPieces {
   /// The breakpoint above piece `piece` < count() - 1.
   double breakpoint(int piece) const { return breakpoints_[static_cast<std::size_t>(piece)]; }
   /// Whether the law has a force there.
-  bool acts(int piece) const { return acts_[static_cast<std::size_t>(piece)]; }
+  bool exerts(int piece) const { return exerts_[static_cast<std::size_t>(piece)]; }
+  /// Whether there is one in the equations: that, or the one which takes the spring back.
+  bool acts(int piece) const { return holding_ > 0.0 || exerts(piece); }
+  bool rigid() const { return rigid_; }
+  double holding() const { return holding_; }
+  double stiffness() const { return stiffness_; }
+  /// Without holding the law's. Of a rigid law in contact: the spring `stiffness` beyond the gap, which is to
+  /// have no deflection.
   ForceSlopes at(int piece, double displacement, double velocity) const;
 
  private:
   double inside(int piece, double displacement) const;
 
   AnyContactLaw law_;
+  bool rigid_;
+  double holding_, stiffness_;
   std::vector<double> breakpoints_;
-  std::vector<bool> acts_;
+  std::vector<bool> exerts_;
 };
 
 }  // namespace wavebalance::solvers::detail

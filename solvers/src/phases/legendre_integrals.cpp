@@ -11,12 +11,19 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// (exp(w) - 1) / w with exp(w) given, by its series where that cancels.
-Complex mean_exponential(Complex w, Complex exponential) {
-  if (std::norm(w) > 0.25) return (exponential - 1.0) / w;
-  Complex sum = 1.0, term = 1.0;
+// (exp(w) - 1) / w by its series, |w| < 1/2.
+template <class Scalar>
+Scalar mean_exponential(Scalar w) {
+  Scalar sum = 1.0, term = 1.0;
   for (int n = 2; n < 17; ++n) sum += term *= w * (1.0 / n);
   return sum;
+}
+
+// Without the cost of what is below the least number.
+template <class Scalar>
+Scalar decayed(Scalar w) {
+  constexpr double negligible = -300.0;
+  return std::real(w) < negligible ? Scalar(0.0) : std::exp(w);
 }
 
 // Up to which k the recurrence is followed upwards, and where the boundary value problem ends.
@@ -49,10 +56,12 @@ Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Index count) {
   return values;
 }
 
-ExponentialIntegrals::ExponentialIntegrals(const Eigen::VectorXd& points, Index count)
+template <class Scalar>
+ExponentialIntegrals<Scalar>::ExponentialIntegrals(const Eigen::VectorXd& points, Index count)
     : points_(points), count_(count), decay_(points.size()) {}
 
-void ExponentialIntegrals::reserve(Index last) {
+template <class Scalar>
+void ExponentialIntegrals<Scalar>::reserve(Index last) {
   if (last < jumps_.cols()) return;
   const Index columns = last + 1 + last / 2;
   const Eigen::MatrixXd values = legendre_values(points_, columns + 1);
@@ -62,14 +71,16 @@ void ExponentialIntegrals::reserve(Index last) {
   inverse_.resize(columns);
 }
 
-void ExponentialIntegrals::compute(Complex z) {
+template <class Scalar>
+void ExponentialIntegrals<Scalar>::compute(Scalar z) {
   const auto [upwards, last] = ranges_of(z, count_);
   reserve(last);
-  const Complex one_over = upwards > 0 ? 1.0 / z : 0.0;
+  const double size = std::abs(z);
+  const Scalar one_over = size > 0.0 ? 1.0 / z : Scalar(0.0);
   for (Index i = 0; i < points_.size(); ++i) {
     const double reach = points_[i] + 1.0;
-    decay_[i] = std::polar(std::exp(z.real() * reach), z.imag() * reach);
-    y_(i, 0) = reach * mean_exponential(z * reach, decay_[i]);
+    decay_[i] = decayed(z * reach);
+    y_(i, 0) = size * reach < 0.5 ? reach * mean_exponential(z * reach) : (decay_[i] - 1.0) * one_over;
     if (upwards > 0) y_(i, 1) = (y_(i, 0) - points_[i] - decay_[i]) * one_over;
   }
   for (Index k = 1; k < upwards; ++k)
@@ -78,11 +89,12 @@ void ExponentialIntegrals::compute(Complex z) {
 }
 
 // The columns k in (from, last] of the solution with column `from` given and column last + 1 zero.
-void ExponentialIntegrals::solve_downwards(Complex z, Index from, Index last) {
+template <class Scalar>
+void ExponentialIntegrals<Scalar>::solve_downwards(Scalar z, Index from, Index last) {
   inverse_[last] = 1.0 / double(2 * last + 1);
-  y_.col(last) = jumps_.col(last).cast<Complex>();
+  y_.col(last) = jumps_.col(last).cast<Scalar>();
   for (Index k = last - 1; k > from; --k) {
-    const Complex factor = z * inverse_[k + 1];
+    const Scalar factor = z * inverse_[k + 1];
     inverse_[k] = 1.0 / (double(2 * k + 1) + factor * z);
     y_.col(k) = jumps_.col(k) + factor * y_.col(k + 1);
   }
@@ -90,11 +102,67 @@ void ExponentialIntegrals::solve_downwards(Complex z, Index from, Index last) {
     y_.col(k) = inverse_[k] * y_.col(k) - (inverse_[k] * z) * y_.col(k - 1);
 }
 
+template class ExponentialIntegrals<double>;
+template class ExponentialIntegrals<Complex>;
+
+std::vector<Complex> exponential_series(Complex z) {
+  constexpr double rounding = 1e-17, tiny = 1e-300;
+  const double size = std::abs(z);
+  if (size < rounding) return {1.0};
+  const double turns = std::abs(z.imag());
+  const auto last =
+      static_cast<std::size_t>(turns + 8.0 * std::cbrt(turns) + 9.0 * std::sqrt(std::abs(z.real())) + 16.0);
+  std::vector<Complex> series(last + 1);
+  const double inverse_re = z.real() / (size * size), inverse_im = -z.imag() / (size * size);
+  double above_re = 0.0, above_im = 0.0, re = tiny, im = 0.0, sum_re = 0.0, sum_im = 0.0;
+  for (std::size_t n = last;; --n) {
+    const double weight = double(2 * n + 1), sign = n % 2 == 0 ? 1.0 : -1.0;
+    series[n] = {weight * re, weight * im};
+    sum_re += sign * weight * re;
+    sum_im += sign * weight * im;
+    if (n == 0) break;
+    const double a = weight * inverse_re, b = weight * inverse_im;
+    const double below_re = above_re + a * re - b * im, below_im = above_im + a * im + b * re;
+    above_re = re;
+    above_im = im;
+    re = below_re;
+    im = below_im;
+  }
+  // exp(z (x + 1)) is 1 at x = -1.
+  const Complex scale = 1.0 / Complex(sum_re, sum_im);
+  for (Complex& coefficient : series)
+    coefficient = {coefficient.real() * scale.real() - coefficient.imag() * scale.imag(),
+                   coefficient.real() * scale.imag() + coefficient.imag() * scale.real()};
+  while (series.size() > 1 && std::norm(series.back()) < rounding * rounding) series.pop_back();
+  return series;
+}
+
+// The recurrence is stable at and below the diagonal; above it the columns follow by symmetry.
+Eigen::MatrixXd convolution(const Eigen::VectorXd& kernel, Index count) {
+  const Index rows = kernel.size() + count, work = rows + count + 1;
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(work, count);
+  const auto coefficient = [&](Index k) { return k < kernel.size() ? kernel[k] : 0.0; };
+  b(0, 0) = coefficient(0) - coefficient(1) / 3.0;
+  for (Index k = 1; k <= kernel.size(); ++k)
+    b(k, 0) = coefficient(k - 1) / double(2 * k - 1) - coefficient(k + 1) / double(2 * k + 3);
+  for (Index n = 1; n < count; ++n) {
+    const double factor = double(2 * n - 1);
+    for (Index k = n; k <= kernel.size() + n; ++k) {
+      const double own = n > 1 ? b(k, n - 2) : -b(k, 0);
+      b(k, n) = factor * (b(k - 1, n - 1) / double(2 * k - 1) - b(k + 1, n - 1) / double(2 * k + 3)) + own;
+    }
+    for (Index k = 0; k < n; ++k)
+      b(k, n) = ((k + n) % 2 == 0 ? 1.0 : -1.0) * double(2 * k + 1) / double(2 * n + 1) * b(n, k);
+  }
+  return b.topRows(rows);
+}
+
 LegendreNodes::LegendreNodes(Index count) {
+  constexpr Index longest_series = 128;
   const QuadratureRule rule = gauss_rule(static_cast<int>(count));
   points = 2.0 * rule.points.array() - 1.0;
-  const Eigen::MatrixXd values = legendre_values(points, count);
-  coefficients = values.transpose() * (2.0 * rule.weights).asDiagonal();
+  values = legendre_values(points, count + longest_series);
+  coefficients = values.leftCols(count).transpose() * (2.0 * rule.weights).asDiagonal();
   for (Index k = 0; k < count; ++k) coefficients.row(k) *= 0.5 * double(2 * k + 1);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <complex>
+#include <vector>
 
 #include "linalg/index.hpp"
 
@@ -15,28 +16,45 @@ Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Index count);
 /// Integration by parts gives z y_(k-1) + (2 k + 1) y_k - z y_(k+1) = P_(k+1)(x) - P_(k-1)(x), whose solution
 /// wanted neither grows nor decays with k below |z| and decays beyond. The recurrence is followed upwards
 /// where that is stable, and beyond solved as a boundary value problem [F. W. J. Olver, J. Res. NBS 71B,
-/// 1967].
+/// 1967]. Scalar is double or std::complex<double>.
+template <class Scalar>
 class ExponentialIntegrals {
  public:
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
   ExponentialIntegrals(const Eigen::VectorXd& points, Index count);
 
   /// For one z. O(points (count + |z|)).
-  void compute(std::complex<double> z);
+  void compute(Scalar z);
   /// points x count.
-  Eigen::Ref<const Eigen::MatrixXcd> values() const { return y_.leftCols(count_); }
+  Eigen::Ref<const Matrix> values() const { return y_.leftCols(count_); }
   /// exp(z (x + 1)) at the points.
-  const Eigen::VectorXcd& decay() const { return decay_; }
+  const Vector& decay() const { return decay_; }
 
  private:
   void reserve(Index last);
-  void solve_downwards(std::complex<double> z, Index from, Index last);
+  void solve_downwards(Scalar z, Index from, Index last);
 
   Eigen::VectorXd points_;
   Index count_;
   Eigen::MatrixXd jumps_;  // points x K: P_(k+1) - P_(k-1) in column k
-  Eigen::MatrixXcd y_;     // points x K
-  Eigen::VectorXcd decay_, inverse_;
+  Matrix y_;               // points x K
+  Vector decay_, inverse_;
 };
+
+extern template class ExponentialIntegrals<double>;
+extern template class ExponentialIntegrals<std::complex<double>>;
+
+/// The Legendre coefficients of exp(z (x + 1)) on [-1, 1] for Re z <= 0, down to rounding of 1: (2 n + 1)
+/// exp(z) i_n(z) with the modified spherical Bessel functions i_n, by their recurrence downwards [J. C. P.
+/// Miller]. O(|z|).
+std::vector<std::complex<double>> exponential_series(std::complex<double> z);
+
+/// Takes the Legendre coefficients of f to those of the integral of k(x - s - 1) f(s) over s from -1 to x,
+/// for the Legendre coefficients of a kernel k, N, and of f, q: (N + q) x q [N. Hale, A. Townsend, SIAM J.
+/// Sci. Comput. 36, 2014, doi:10.1137/130941473]. O((N + q) q).
+Eigen::MatrixXd convolution(const Eigen::VectorXd& kernel, Index count);
 
 /// Gauss and Legendre's nodes on [-1, 1] and what leads from values there to Legendre coefficients.
 struct LegendreNodes {
@@ -44,6 +62,7 @@ struct LegendreNodes {
 
   Index count() const { return points.size(); }
   Eigen::VectorXd points;        ///< q, ascending
+  Eigen::MatrixXd values;        ///< q x K: Legendre's polynomials there, more than any series here needs
   Eigen::MatrixXd coefficients;  ///< q x q: of values at the nodes
 };
 

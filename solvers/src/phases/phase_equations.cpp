@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
@@ -14,16 +15,18 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double turn = 2.0 * std::numbers::pi;
 
-// Sums of harmonics at instants, each times (2 pi i n)^derivative.
+// Sums of harmonics at instants, each times (2 pi i n)^derivative, by Horner's rule.
 Eigen::VectorXd sum_of_harmonics(const Eigen::MatrixXcd& amplitudes, const std::vector<Instant>& instants,
                                  int derivative) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(Index(instants.size()));
+  Eigen::VectorXd values(Index(instants.size()));
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    const Complex step = std::polar(1.0, turn * instants[i].time);
-    Complex wave = 1.0, sum = 0.0;
-    for (Index n = 0; n < amplitudes.cols(); ++n, wave *= step)
-      sum +=
-          wave * amplitudes(instants[i].contact, n) * (derivative > 0 ? Complex(0.0, turn * double(n)) : 1.0);
+    const double re = std::cos(turn * instants[i].time), im = std::sin(turn * instants[i].time);
+    Complex sum = 0.0;
+    for (Index n = amplitudes.cols() - 1; n >= 0; --n) {
+      Complex own = amplitudes(instants[i].contact, n);
+      if (derivative > 0) own = turn * double(n) * Complex(-own.imag(), own.real());
+      sum = {sum.real() * re - sum.imag() * im + own.real(), sum.real() * im + sum.imag() * re + own.imag()};
+    }
     values[Index(i)] = sum.real();
   }
   return values;
@@ -41,13 +44,13 @@ double interpolated(const Eigen::MatrixXd& values, const Eigen::MatrixXd& slopes
 
 // One evaluation of the equations: n forces, then m passages.
 struct Evaluation {
-  std::vector<Panel> panels;
-  Eigen::VectorXd force;             // n, N
-  Influence influence;               // (n + m) x n
+  CellGrid grid;
+  Eigen::VectorXd force;  // n, N
+  Influence influence;
   Eigen::VectorXd residual;          // n + m
   Eigen::VectorXd tangent, damping;  // n: by displacement and by velocity per period
+  Eigen::VectorXd own;               // n: of the residual by its force; 0 for a rigid law
   Eigen::VectorXd passing;           // m, m per period
-  Eigen::VectorXd slope;             // n, of the residual by time, N per period
   double force_size = 0.0, displacement_size = 0.0;
 
   double force_error() const {
@@ -60,103 +63,87 @@ struct Evaluation {
   }
 };
 
+const Panel& panel_of(const CellGrid& grid, Index node, const LegendreNodes& nodes) {
+  return grid.panels[static_cast<std::size_t>(node / nodes.count())];
+}
+
 Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes) {
   constexpr double tiny = 1e-300;
   Evaluation result;
-  result.panels = at.layout.panels();
-  std::vector<Instant> instants = instants_of(result.panels, nodes);
+  result.grid = at.layout.grid();
+  std::vector<Instant> instants = instants_of(result.grid.panels, nodes), passages;
   const auto n = Index(instants.size()), m = Index(at.layout.passages.size());
   result.force.resize(n);
   for (Index i = 0; i < n; ++i)
-    result.force[i] = at.forces.in_phase(result.panels[static_cast<std::size_t>(i / nodes.count())].phase,
-                                         instants[static_cast<std::size_t>(i)].time);
-  for (const Passage& passage : at.layout.passages) instants.push_back({passage.contact, passage.time});
-  result.influence = model.response.influence(result.panels, nodes, instants, true);
-  const Eigen::VectorXd u = model.free_displacement(instants) - result.influence.displacement * result.force,
-                        v = model.free_velocity(instants) - result.influence.velocity * result.force;
-  result.passing = v.tail(m);
+    result.force[i] =
+        at.forces.in_phase(panel_of(result.grid, i, nodes).phase, instants[static_cast<std::size_t>(i)].time);
+  for (const Passage& passage : at.layout.passages) passages.push_back({passage.contact, passage.time});
+  result.influence = model.response.influence(result.grid, nodes, model.velocity);
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(n);
+  if (model.velocity)
+    v = model.free_velocity(instants) - result.influence.node_velocity.leftCols(n) * result.force;
+  instants.insert(instants.end(), passages.begin(), passages.end());
+  const Eigen::VectorXd u =
+      model.free_displacement(instants) - result.influence.displacement.leftCols(n) * result.force;
+  result.passing = model.free_velocity(passages) - result.influence.mark_velocity * result.force;
   result.residual.resize(n + m);
   result.tangent.resize(n);
   result.damping.resize(n);
-  result.slope.resize(n);
-  const PanelForces forces(result.panels, nodes, result.force);
+  result.own.resize(n);
+  double largest_law = 0.0;
   for (Index i = 0; i < n; ++i) {
-    const Panel& panel = result.panels[static_cast<std::size_t>(i / nodes.count())];
+    const Panel& panel = panel_of(result.grid, i, nodes);
     const int piece = at.layout.phases[static_cast<std::size_t>(panel.phase)].piece;
     const ForceSlopes law =
         model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u[i], model.frequency * v[i]);
-    result.residual[i] = result.force[i] - law.force;
+    const bool rigid = model.laws[static_cast<std::size_t>(panel.contact)].rigid();
+    result.residual[i] = rigid ? -law.force : result.force[i] - law.force;
+    result.own[i] = rigid ? 0.0 : 1.0;
     result.tangent[i] = law.tangent;
+    largest_law = std::max(largest_law, std::abs(law.force));
     result.damping[i] = model.frequency * law.damping;
-    result.slope[i] =
-        forces.slope_in_phase(panel.phase, instants[static_cast<std::size_t>(i)].time) - law.tangent * v[i];
   }
   for (Index i = 0; i < m; ++i)
     result.residual[n + i] = u[n + i] - at.layout.passages[static_cast<std::size_t>(i)].breakpoint;
-  result.force_size = std::max(tiny, n > 0 ? result.force.cwiseAbs().maxCoeff() : 0.0);
+  result.force_size = std::max({tiny, largest_law, n > 0 ? result.force.cwiseAbs().maxCoeff() : 0.0});
   result.displacement_size = std::max(tiny, u.size() > 0 ? u.cwiseAbs().maxCoeff() : 0.0);
   return result;
 }
 
-// What an end that comes later adds to the force of its phase, as an impulse: columns of displacement and
-// velocity of all equations' instants, by the passages.
-Influence by_passages(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
-                      const LegendreNodes& nodes) {
-  std::vector<Instant> instants = instants_of(now.panels, nodes), passages;
-  for (const Passage& passage : at.layout.passages) passages.push_back({passage.contact, passage.time});
-  instants.insert(instants.end(), passages.begin(), passages.end());
-  const PanelForces forces(now.panels, nodes, now.force);
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(Index(passages.size()));
+// What an end that comes later adds to the force of its phase, as an impulse, N: by the passages.
+Eigen::VectorXd added_by_passages(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes) {
+  const PanelForces forces(now.grid, nodes, now.force);
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(now.passing.size());
   for (std::size_t p = 0; p < at.layout.phases.size(); ++p) {
     const Phase& phase = at.layout.phases[p];
     if (phase.begin < 0) continue;
     added[phase.end] += forces.in_phase(static_cast<int>(p), at.layout.end(phase));
     added[phase.begin] -= forces.in_phase(static_cast<int>(p), at.layout.begin(phase));
   }
-  Influence result = model.response.impulses(passages, instants, model.velocity);
-  result.displacement = result.displacement * added.asDiagonal();
-  if (model.velocity) result.velocity = result.velocity * added.asDiagonal();
-  return result;
+  return added;
 }
 
-// The nodes move with the ends of their panels, where the residual has a slope.
-void add_drift(Eigen::Ref<Eigen::MatrixXd> by_passages, const Evaluation& now, const LegendreNodes& nodes) {
-  for (Index i = 0; i < now.force.size(); ++i) {
-    const Panel& panel = now.panels[static_cast<std::size_t>(i / nodes.count())];
-    const double share = 0.5 * (1.0 + nodes.points[i % nodes.count()]);
-    const auto add = [&](const Drift& drift, double part) {
-      if (drift.first >= 0) by_passages(i, drift.first) += part * drift.by_first * now.slope[i];
-      if (drift.second >= 0) by_passages(i, drift.second) += part * drift.by_second * now.slope[i];
-    };
-    add(panel.begin_drift, 1.0 - share);
-    add(panel.end_drift, share);
-  }
-}
-
+// The derivative of the residual by forces and passages. The nodes move with the ends of their panels; since
+// the residual is nearly zero along a phase, not only at its nodes, that has no part in it.
 Eigen::MatrixXd jacobian(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
                          const LegendreNodes& nodes) {
-  const Index n = now.force.size(), m = now.residual.size() - n;
-  const Influence passages = by_passages(model, at, now, nodes);
+  const Index n = now.force.size(), m = now.passing.size();
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(n + m);
+  scale.tail(m) = added_by_passages(at, now, nodes);
   Eigen::MatrixXd result(n + m, n + m);
-  result.topLeftCorner(n, n) = now.tangent.asDiagonal() * now.influence.displacement.topRows(n);
-  result.topRightCorner(n, m) = now.tangent.asDiagonal() * passages.displacement.topRows(n);
-  if (model.velocity) {
-    result.topLeftCorner(n, n) += now.damping.asDiagonal() * now.influence.velocity.topRows(n);
-    result.topRightCorner(n, m) += now.damping.asDiagonal() * passages.velocity.topRows(n);
-  }
-  result.topLeftCorner(n, n).diagonal().array() += 1.0;
-  add_drift(result.topRightCorner(n, m), now, nodes);
-  result.bottomLeftCorner(m, n) = -now.influence.displacement.bottomRows(m);
-  result.bottomRightCorner(m, m) = -passages.displacement.bottomRows(m);
-  result.bottomRightCorner(m, m).diagonal() += now.passing;
+  result.topRows(n) = now.tangent.asDiagonal() * now.influence.displacement.topRows(n);
+  if (model.velocity) result.topRows(n) += now.damping.asDiagonal() * now.influence.node_velocity;
+  result.bottomRows(m) = -now.influence.displacement.bottomRows(m);
+  result = result * scale.asDiagonal();
+  result.diagonal().head(n) += now.own;
+  result.diagonal().tail(m) += now.passing;
   return result;
 }
 
-// By all unknowns, or by the first `count`. Not finite where the matrix is singular.
-Eigen::VectorXd newton_step(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
-                            const LegendreNodes& nodes, Index count) {
-  const Lu<double> factor(jacobian(model, at, now, nodes).topLeftCorner(count, count));
-  return factor.solve(Eigen::VectorXd(-now.residual.head(count)));
+// Newton's matrix of the first `count` unknowns.
+Lu<double> factor_of(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
+                     const LegendreNodes& nodes, Index count) {
+  return Lu<double>(jacobian(model, at, now, nodes).topLeftCorner(count, count));
 }
 
 // The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
@@ -189,7 +176,9 @@ PhaseModel::PhaseModel(const PhasesProblem& problem, double length)
     : response(problem.dynamics, 1.0 / problem.frequency),
       contact_free(problem.contact_free),
       frequency(problem.frequency) {
-  for (int c = 0; c < problem.dynamics.contacts(); ++c) laws.emplace_back(problem.laws[c], length);
+  const Eigen::MatrixXd& at_once = problem.dynamics.constant();
+  for (int c = 0; c < problem.dynamics.contacts(); ++c)
+    laws.emplace_back(problem.laws[c], length, problem.dynamics.holding(), 1.0 / at_once(c, c));
   velocity = problem.laws.depend_on_velocity();
 }
 
@@ -201,15 +190,31 @@ Eigen::VectorXd PhaseModel::free_velocity(const std::vector<Instant>& instants) 
   return sum_of_harmonics(contact_free, instants, 1);
 }
 
-Influence PhaseModel::motion(const PanelForces& forces, const Eigen::VectorXd& times) const {
-  Influence result = response.motion(forces.panels(), forces.coefficients(), times);
-  Eigen::MatrixXcd waves(contact_free.cols(), times.size());
-  for (Index l = 0; l < times.size(); ++l)
-    for (Index n = 0; n < waves.rows(); ++n) waves(n, l) = std::polar(1.0, turn * double(n) * times[l]);
-  Eigen::MatrixXcd rates = contact_free;
-  for (Index n = 0; n < rates.cols(); ++n) rates.col(n) *= Complex(0.0, turn * double(n));
-  result.displacement = (contact_free * waves).real() - result.displacement;
-  result.velocity = (rates * waves).real() - result.velocity;
+ContactMotion PhaseModel::free_motion(const Eigen::VectorXd& times) const {
+  ContactMotion result{Eigen::MatrixXd(response.contacts(), times.size()),
+                       Eigen::MatrixXd(response.contacts(), times.size())};
+  std::vector<Instant> instants(static_cast<std::size_t>(times.size()));
+  for (int c = 0; c < response.contacts(); ++c) {
+    for (Index l = 0; l < times.size(); ++l) instants[static_cast<std::size_t>(l)] = {c, times[l]};
+    result.displacement.row(c) = free_displacement(instants).transpose();
+    result.velocity.row(c) = free_velocity(instants).transpose();
+  }
+  return result;
+}
+
+ContactMotion PhaseModel::motion(const PanelForces& forces, const LegendreNodes& nodes,
+                                 const Eigen::VectorXd& times) const {
+  ContactMotion result = free_motion(times);
+  const ContactMotion forced = response.motion(forces.grid(), forces.coefficients(), nodes, times);
+  result.displacement -= forced.displacement;
+  result.velocity -= forced.velocity;
+  return result;
+}
+
+Eigen::MatrixXd force_at(const PanelForces& forces, const PhaseModel& model, const Eigen::VectorXd& times) {
+  Eigen::MatrixXd result(model.response.contacts(), times.size());
+  for (Index k = 0; k < times.size(); ++k)
+    for (Index c = 0; c < result.rows(); ++c) result(c, k) = forces.at(static_cast<int>(c), times[k]);
   return result;
 }
 
@@ -221,50 +226,50 @@ std::vector<Instant> instants_of(const std::vector<Panel>& panels, const Legendr
 }
 
 PanelForces forces_along(const PhaseModel& model, const Layout& layout, const LegendreNodes& nodes,
-                         const Influence& motion) {
-  const std::vector<Panel> panels = layout.panels();
-  const std::vector<Instant> instants = instants_of(panels, nodes);
+                         const ContactMotion& motion) {
+  CellGrid grid = layout.grid();
+  const std::vector<Instant> instants = instants_of(grid.panels, nodes);
   Eigen::VectorXd values(Index(instants.size()));
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(motion.velocity.rows(), motion.velocity.cols());
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    const Panel& panel = panels[i / static_cast<std::size_t>(nodes.count())];
+    const Panel& panel = panel_of(grid, Index(i), nodes);
     const int piece = layout.phases[static_cast<std::size_t>(panel.phase)].piece;
     const double u = interpolated(motion.displacement, motion.velocity, instants[i]),
                  v = model.frequency * interpolated(motion.velocity, none, instants[i]);
     values[Index(i)] = model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u, v).force;
   }
-  return {panels, nodes, values};
-}
-
-LawSlopes slopes_along(const PhaseModel& model, const PhaseIterate& iterate, const LegendreNodes& nodes) {
-  const Evaluation at = evaluate(model, iterate, nodes);
-  return {PanelForces(at.panels, nodes, at.tangent),
-          PanelForces(at.panels, nodes, at.damping / model.frequency)};
+  return {std::move(grid), nodes, values};
 }
 
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               int max_iterations) {
-  constexpr double rounding = 1e-12, enough = 1e-9;
+                               const NewtonLimits& limits) {
+  constexpr double enough = 1e-9;
   PhaseNewtonResult result;
   result.iterate = std::move(start);
   double before = std::numeric_limits<double>::infinity();
+  std::optional<Lu<double>> factor;
   for (;; ++result.iterations) {
-    const Evaluation now = evaluate(model, result.iterate, nodes);
+    Evaluation now = evaluate(model, result.iterate, nodes);
     result.residual = now.error();
-    result.iterate.forces = PanelForces(now.panels, nodes, now.force);
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     const bool stands = result.residual < enough && result.residual > 0.5 * before;
-    if (result.residual < rounding || stands) {
+    if (result.residual < limits.tolerance || stands) {
       result.converged = true;
-      result.displacement = now.influence.displacement.topRows(now.force.size());
+      result.displacement = now.influence.displacement.topLeftCorner(now.force.size(), now.force.size());
+      if (!factor) factor = factor_of(model, result.iterate, now, nodes, now.residual.size());
+      result.force_error = factor->solve(now.residual).head(now.force.size());
+      result.tangent = std::move(now.tangent);
+      result.damping = now.damping / model.frequency;
       return result;
     }
     before = result.residual;
-    if (result.iterations == max_iterations || !std::isfinite(result.residual)) return result;
-    const Eigen::VectorXd step = newton_step(model, result.iterate, now, nodes, now.residual.size());
+    if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
+    factor = factor_of(model, result.iterate, now, nodes, now.residual.size());
+    const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
     const Index n = now.force.size(), m = step.size() - n;
     const double part = admissible_part(result.iterate.layout, step.tail(m));
-    result.iterate.forces = PanelForces(now.panels, nodes, now.force + part * step.head(n));
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force + part * step.head(n));
     for (Index i = 0; i < m; ++i)
       result.iterate.layout.passages[static_cast<std::size_t>(i)].time += part * step[n + i];
     result.collapsed = has_collapsed(result.iterate.layout);
@@ -273,19 +278,20 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
 }
 
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               int max_iterations, double tolerance) {
+                               const NewtonLimits& limits) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
   for (;; ++result.iterations) {
     const Evaluation now = evaluate(model, result.iterate, nodes);
     result.residual = now.force_error();
-    result.converged = result.residual < tolerance;
-    result.iterate.forces = PanelForces(now.panels, nodes, now.force);
-    if (result.converged || result.iterations == max_iterations || !std::isfinite(result.residual))
+    result.converged = result.residual < limits.tolerance;
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force);
+    if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual))
       return result;
-    const Eigen::VectorXd step = newton_step(model, result.iterate, now, nodes, now.force.size());
+    const Lu<double> factor = factor_of(model, result.iterate, now, nodes, now.force.size());
+    const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
     if (!step.allFinite()) return result;
-    result.iterate.forces = PanelForces(now.panels, nodes, now.force + step);
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force + step);
   }
 }
 

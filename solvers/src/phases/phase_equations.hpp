@@ -8,6 +8,12 @@
 
 namespace wavebalance::solvers::detail {
 
+/// Where and when a displacement or a velocity is wanted.
+struct Instant {
+  int contact = 0;
+  double time = 0.0;  ///< periods
+};
+
 /// What does not change while a motion is sought.
 struct PhaseModel {
   PhaseModel(const PhasesProblem& problem, double length);
@@ -18,11 +24,16 @@ struct PhaseModel {
   double frequency;               // Hz
   bool velocity = false;          // whether a force depends on it
 
+  /// N/m, of the springs that hold a structure which is free to move.
+  double holding() const { return laws.empty() ? 0.0 : laws.front().holding(); }
+
   /// Displacement (m) and velocity (m per period) without contact at instants.
   Eigen::VectorXd free_displacement(const std::vector<Instant>& instants) const;
   Eigen::VectorXd free_velocity(const std::vector<Instant>& instants) const;
   /// Displacement (m) and velocity (m per period) of all contacts at K times, C x K.
-  Influence motion(const PanelForces& forces, const Eigen::VectorXd& times) const;
+  ContactMotion free_motion(const Eigen::VectorXd& times) const;
+  ContactMotion motion(const PanelForces& forces, const LegendreNodes& nodes,
+                       const Eigen::VectorXd& times) const;
 };
 
 /// An iterate: the instants of the phases and the forces within them.
@@ -37,26 +48,30 @@ struct PhaseNewtonResult {
   int iterations = 0;
   double residual = 0.0;
   PhaseIterate iterate;
-  Eigen::MatrixXd displacement;  ///< K x n: influence of the nodes' forces on the displacements at the nodes
+  Eigen::MatrixXd displacement;      ///< n x n: at the nodes, by forces at the nodes
+  Eigen::VectorXd force_error;       ///< n, N: by the residual that is left
+  Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)
 };
 
-/// Newton's method on the forces at q nodes of each panel and the instants of all passages.
+struct NewtonLimits {
+  int max_iterations;
+  double tolerance;  ///< of the residual, relative to the largest force and displacement
+};
+
+/// Newton's method on the forces at q nodes of each panel and the instants of all passages. A residual below
+/// 1e-9 that falls no more is converged, too.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               int max_iterations);
-/// The same on the forces alone, to `tolerance` of the largest.
+                               const NewtonLimits& limits);
+/// The same on the forces alone.
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               int max_iterations, double tolerance);
+                               const NewtonLimits& limits);
 
 /// The forces of the laws along a motion that is sampled at times l / N, C x N, at the nodes of a layout.
 PanelForces forces_along(const PhaseModel& model, const Layout& layout, const LegendreNodes& nodes,
-                         const Influence& motion);
+                         const ContactMotion& motion);
 
-/// The slopes of the laws by displacement (N/m) and by velocity (N s/m) along the motion of an iterate, as
-/// polynomials on its panels.
-struct LawSlopes {
-  PanelForces tangent, damping;
-};
-LawSlopes slopes_along(const PhaseModel& model, const PhaseIterate& iterate, const LegendreNodes& nodes);
+/// The forces of all contacts at K times in periods, C x K, N.
+Eigen::MatrixXd force_at(const PanelForces& forces, const PhaseModel& model, const Eigen::VectorXd& times);
 
 /// The instants of q nodes of each panel, by panel.
 std::vector<Instant> instants_of(const std::vector<Panel>& panels, const LegendreNodes& nodes);

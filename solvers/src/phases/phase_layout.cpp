@@ -100,6 +100,32 @@ void append_phases(Layout& layout, int contact, const LawPieces& law, const std:
   }
 }
 
+constexpr double together = 1e-12;  // periods: instants nearer to each other are one
+
+// Those of different contacts that pass together are one boundary.
+std::vector<double> boundaries_among(std::vector<double> times) {
+  for (double& time : times) time -= std::floor(time);
+  std::sort(times.begin(), times.end());
+  const auto last =
+      std::unique(times.begin(), times.end(), [](double a, double b) { return b - a < together; });
+  times.erase(last, times.end());
+  if (times.size() > 1 && times.front() + 1.0 - times.back() < together) times.pop_back();
+  return times;
+}
+
+int boundary_near(const std::vector<double>& boundaries, double time) {
+  const auto count = static_cast<int>(boundaries.size());
+  const double within = time - std::floor(time);
+  const auto above =
+      static_cast<int>(std::lower_bound(boundaries.begin(), boundaries.end(), within) - boundaries.begin());
+  const int after = above == count ? 0 : above, before = above == 0 ? count - 1 : above - 1;
+  const auto distance = [&](int j) {
+    const double d = boundaries[static_cast<std::size_t>(j)] - within;
+    return std::abs(d - std::round(d));
+  };
+  return distance(before) < distance(after) ? before : after;
+}
+
 }  // namespace
 
 double Layout::begin(const Phase& phase) const {
@@ -110,38 +136,38 @@ double Layout::end(const Phase& phase) const {
   return phase.end < 0 ? 1.0 : passages[static_cast<std::size_t>(phase.end)].time + phase.turns;
 }
 
-std::vector<Panel> Layout::panels() const {
-  std::vector<Panel> result;
+CellGrid Layout::grid() const {
+  std::vector<double> times;
+  for (const Passage& passage : passages) times.push_back(passage.time);
+  for (const Phase& phase : phases) {
+    const double from = begin(phase), length = end(phase) - from;
+    if (phase.begin < 0) times.push_back(from);
+    for (const double cut : phase.cuts) times.push_back(from + cut * length);
+  }
+  CellGrid grid{boundaries_among(std::move(times)), {}, {}};
   for (std::size_t p = 0; p < phases.size(); ++p) {
     const Phase& phase = phases[p];
-    const double from = begin(phase), length = end(phase) - from;
-    Edge before{0.0, {phase.begin, -1, 1.0, 0.0}};
-    for (const Edge& edge : edges_of(phase)) {
-      result.push_back({phase.contact, static_cast<int>(p), from + before.share * length,
-                        from + edge.share * length, before.drift, edge.drift});
-      before = edge;
-    }
+    double time = begin(phase);
+    int cell = boundary_near(grid.boundaries, time);
+    const int last = boundary_near(grid.boundaries, end(phase));
+    if (cell == last && end(phase) - time < 0.5) continue;  // without length
+    do {
+      const double length = grid.length(cell);
+      grid.panels.push_back({phase.contact, static_cast<int>(p), cell, time, time + length});
+      time += length;
+      cell = grid.next(cell);
+    } while (cell != last);
   }
-  return result;
-}
-
-// Where panels of a phase end: at its own cuts and, unless one is near, where other contacts pass a
-// breakpoint.
-std::vector<Layout::Edge> Layout::edges_of(const Phase& phase) const {
-  constexpr double close = 1e-3;  // of the phase: cuts nearer to each other are one
-  const double from = begin(phase), length = end(phase) - from;
-  std::vector<Edge> edges;
-  for (const double cut : phase.cuts) edges.push_back({cut, {phase.begin, phase.end, 1.0 - cut, cut}});
   for (std::size_t i = 0; i < passages.size(); ++i) {
-    if (passages[i].contact == phase.contact) continue;
-    const double share = (passages[i].time - from - std::floor(passages[i].time - from)) / length;
-    if (!(share > close && share < 1.0 - close)) continue;
-    std::erase_if(edges, [&](const Edge& edge) { return std::abs(edge.share - share) < close; });
-    edges.push_back({share, {static_cast<int>(i), -1, 1.0, 0.0}});
+    const auto number = static_cast<int>(i);
+    const bool ends =
+                   std::any_of(phases.begin(), phases.end(), [&](const Phase&p) { return p.end == number; }),
+               begins = std::any_of(phases.begin(), phases.end(),
+                                    [&](const Phase&p) { return p.begin == number; });
+    grid.marks.push_back(
+        {passages[i].contact, boundary_near(grid.boundaries, passages[i].time), ends && begins});
   }
-  edges.push_back({1.0, {phase.end, -1, 1.0, 0.0}});
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.share < b.share; });
-  return edges;
+  return grid;
 }
 
 Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
@@ -175,12 +201,12 @@ bool same_phases(const Layout& a, const Layout& b) {
          std::all_of(a.phases.begin(), a.phases.end(), has_phase);
 }
 
-PanelForces::PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values)
-    : panels_(std::move(panels)),
-      coefficients_(nodes.coefficients * values.reshaped(nodes.count(), Index(panels_.size()))) {}
+PanelForces::PanelForces(CellGrid grid, const LegendreNodes& nodes, const Eigen::VectorXd& values)
+    : grid_(std::move(grid)),
+      coefficients_(nodes.coefficients * values.reshaped(nodes.count(), Index(grid_.panels.size()))) {}
 
 double PanelForces::value(std::size_t panel, double time) const {
-  const Panel& at = panels_[panel];
+  const Panel& at = grid_.panels[panel];
   const double x = 2.0 * (time - at.begin) / at.length() - 1.0;
   double before = 1.0, now = x, sum = coefficients_(0, Index(panel));
   for (Index k = 1; k < coefficients_.rows(); ++k) {
@@ -194,42 +220,25 @@ double PanelForces::value(std::size_t panel, double time) const {
 
 // The panel of the phase that holds the time, or the one next to it.
 std::size_t PanelForces::panel_of(int phase, double time) const {
-  std::size_t nearest = panels_.size();
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    if (panels_[p].phase != phase) continue;
-    if (nearest == panels_.size() || time > panels_[p].begin) nearest = p;
+  std::size_t nearest = grid_.panels.size();
+  for (std::size_t p = 0; p < grid_.panels.size(); ++p) {
+    if (grid_.panels[p].phase != phase) continue;
+    if (nearest == grid_.panels.size() || time > grid_.panels[p].begin) nearest = p;
   }
   return nearest;
 }
 
 double PanelForces::in_phase(int phase, double time) const {
   const std::size_t panel = panel_of(phase, time);
-  return panel == panels_.size() ? 0.0 : value(panel, time);
-}
-
-// P_k' = x P_(k-1)' + k P_(k-1).
-double PanelForces::slope_in_phase(int phase, double time) const {
-  const std::size_t panel = panel_of(phase, time);
-  if (panel == panels_.size()) return 0.0;
-  const Panel& at = panels_[panel];
-  const double x = 2.0 * (time - at.begin) / at.length() - 1.0;
-  double before = 1.0, now = x, slope = 1.0, sum = 0.0;
-  for (Index k = 1; k < coefficients_.rows(); ++k) {
-    sum += coefficients_(k, Index(panel)) * slope;
-    slope = x * slope + double(k + 1) * now;
-    const double next = (double(2 * k + 1) * x * now - double(k) * before) / double(k + 1);
-    before = now;
-    now = next;
-  }
-  return 2.0 / at.length() * sum;
+  return panel == grid_.panels.size() ? 0.0 : value(panel, time);
 }
 
 double PanelForces::at(int contact, double time) const {
   constexpr double rounding = 1e-13;
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    if (panels_[p].contact != contact) continue;
-    const double after = time - panels_[p].begin - std::floor(time - panels_[p].begin + rounding);
-    if (after <= panels_[p].length() + rounding) return value(p, panels_[p].begin + after);
+  for (std::size_t p = 0; p < grid_.panels.size(); ++p) {
+    if (grid_.panels[p].contact != contact) continue;
+    const double after = time - grid_.panels[p].begin - std::floor(time - grid_.panels[p].begin + rounding);
+    if (after <= grid_.panels[p].length() + rounding) return value(p, grid_.panels[p].begin + after);
   }
   return 0.0;
 }

@@ -29,16 +29,9 @@ struct Layout {
 
   double begin(const Phase& phase) const;
   double end(const Phase& phase) const;
-  /// The panels of all phases, by phase: cut at the phase's own cuts and where other contacts pass a
-  /// breakpoint.
-  std::vector<Panel> panels() const;
-
- private:
-  struct Edge {
-    double share;  // of the phase
-    Drift drift;
-  };
-  std::vector<Edge> edges_of(const Phase& phase) const;
+  /// The cells of the period, between all passages and cuts of all contacts, and the panels of the phases, by
+  /// phase.
+  CellGrid grid() const;
 };
 
 /// The phases of a motion that is sampled at times l / N: displacements, m, and velocities, m per period, C x
@@ -54,13 +47,12 @@ class PanelForces {
  public:
   PanelForces() = default;
   /// `values`: of q nodes each, by panel.
-  PanelForces(std::vector<Panel> panels, const LegendreNodes& nodes, const Eigen::VectorXd& values);
+  PanelForces(CellGrid grid, const LegendreNodes& nodes, const Eigen::VectorXd& values);
 
-  const std::vector<Panel>& panels() const { return panels_; }
+  const CellGrid& grid() const { return grid_; }
+  const std::vector<Panel>& panels() const { return grid_.panels; }
   /// The force of a phase at a time in its own periods, continued beyond the ends of the phase.
   double in_phase(int phase, double time) const;
-  /// The slope of in_phase() by time, N per period.
-  double slope_in_phase(int phase, double time) const;
   /// The force of a contact at any time; zero outside its panels.
   double at(int contact, double time) const;
   /// q x panels, N.
@@ -70,7 +62,7 @@ class PanelForces {
   std::size_t panel_of(int phase, double time) const;
   double value(std::size_t panel, double time) const;
 
-  std::vector<Panel> panels_;
+  CellGrid grid_;
   Eigen::MatrixXd coefficients_;
 };
 

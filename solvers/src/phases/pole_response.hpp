@@ -2,44 +2,58 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "phases/legendre_integrals.hpp"
+#include "phases/cell_waves.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers::detail {
 
-/// How an instant moves with those of two passages; -1 for none.
-struct Drift {
-  int first = -1, second = -1;
-  double by_first = 0.0, by_second = 0.0;
-};
-
-/// An interval on which the force of a contact is one polynomial, in periods: begin < end <= begin + 1.
+/// An interval on which the force of a contact is one polynomial: a part of a phase, and as long as a cell of
+/// the period. Times are in periods, those of its phase: begin < end.
 struct Panel {
-  int contact = 0;
-  int phase = 0;  ///< the phase of contact that it is a part of
+  int contact = 0, phase = 0, cell = 0;
   double begin = 0.0, end = 0.0;
-  Drift begin_drift = {}, end_drift = {};
 
   double length() const { return end - begin; }
   /// The time of a point x in [-1, 1].
   double time(double x) const { return 0.5 * (begin + end) + 0.5 * length() * x; }
 };
 
-/// Where and when displacement and velocity are wanted.
-struct Instant {
-  int contact = 0;
-  double time = 0.0;  ///< periods
+/// The cells of a period, within each of which all forces are polynomials, and what happens where they meet.
+struct CellGrid {
+  /// A passage of a contact, which lies at a boundary.
+  struct Mark {
+    int contact = 0, boundary = 0;
+    bool acts_before_and_after = false;
+  };
+
+  /// Ascending within one period. Cell j begins at boundary j; the last one ends at the first.
+  std::vector<double> boundaries;
+  std::vector<Panel> panels;
+  std::vector<Mark> marks;
+
+  int cells() const { return static_cast<int>(boundaries.size()); }
+  double length(int cell) const;
+  int next(int cell) const { return cell + 1 == cells() ? 0 : cell + 1; }
+  int before(int cell) const { return cell == 0 ? cells() - 1 : cell - 1; }
 };
 
-/// Displacements (m) and velocities (m per period) at K instants, by each of n unknowns.
+/// How the contacts move where contact forces act periodically: displacements (m) and velocities (m per
+/// period) at the n nodes of all panels and at the m marks, by forces of 1 N at the nodes and by impulses of
+/// 1 N times a period at the marks.
 struct Influence {
-  Eigen::MatrixXd displacement;  ///< K x n
-  Eigen::MatrixXd velocity;      ///< K x n; empty where not asked for
+  Eigen::MatrixXd displacement;   ///< (n + m) x (n + m)
+  Eigen::MatrixXd node_velocity;  ///< n x (n + m); empty where not asked for
+  Eigen::MatrixXd mark_velocity;  ///< m x n
 };
 
-/// How the contacts move where contact forces act periodically, by the poles r and residues R of their
-/// compliance: the periodic solutions of y' = r y + f for each pole, and u = -sum R y - constant f. The
-/// integrals are exact for forces that are polynomials in time.
+/// Displacements (m) and velocities (m per period) of all contacts at K times, C x K each.
+struct ContactMotion {
+  Eigen::MatrixXd displacement, velocity;
+};
+
+/// The compliance of the contacts by its poles r and residues R: the periodic solutions of y' = r y + f for
+/// each pole, and u = -sum R y - constant f. The integrals are exact for forces that are polynomials in time.
+/// The sign of a force is that of one which moves the contact towards its obstacle.
 ///
 /// Immutable; may be shared between threads.
 class PoleResponse {
@@ -48,26 +62,36 @@ class PoleResponse {
   PoleResponse(const ContactDynamics& dynamics, double period);
 
   int contacts() const { return static_cast<int>(constant_.rows()); }
+  const Eigen::MatrixXd& constant() const { return constant_; }
 
-  /// By forces at the nodes of the panels: columns p q + j belong to a force of 1 N at node j of panel p. The
-  /// sign is that of a force which moves the contact towards its obstacle. O(K P (poles q + q^2)).
-  Influence influence(const std::vector<Panel>& panels, const LegendreNodes& nodes,
-                      const std::vector<Instant>& instants, bool velocity) const;
-  /// Displacement (m) and velocity (m per period) of all contacts at K times in periods, C x K each, by
-  /// forces with these Legendre coefficients, q x P, N. O(K poles (P + C) + P poles q^2).
-  Influence motion(const std::vector<Panel>& panels, const Eigen::MatrixXd& coefficients,
-                   const Eigen::VectorXd& times) const;
-  /// By impulses of 1 N times a period: one column each. O(K impulses poles).
-  Influence impulses(const std::vector<Instant>& impulses, const std::vector<Instant>& instants,
-                     bool velocity) const;
+  /// Node j of panel p has number p q + j. O((n + m)^2 poles).
+  Influence influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
+  /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
+  /// (poles + C q)).
+  ContactMotion motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients, const LegendreNodes& nodes,
+                       const Eigen::VectorXd& times) const;
 
  private:
-  struct View;   // instants seen from a panel
-  struct Waves;  // the states of all poles by one panel
+  struct Cell;
+  struct Rows;
+  struct Sources;
 
-  Waves waves(const Panel& panel, const View& view, Eigen::Index count, bool velocity) const;
+  std::vector<Cell> cells_of(const CellGrid& grid, const LegendreNodes& nodes) const;
+  std::vector<Rows> rows_of(const CellGrid& grid, const std::vector<Cell>& cells, Index count,
+                            bool velocity) const;
+  std::vector<Sources> sources_of(const CellGrid& grid, const std::vector<Cell>& cells,
+                                  const LegendreNodes& nodes) const;
+  void add_within_cells(const CellGrid& grid, const std::vector<Cell>& cells, const LegendreNodes& nodes,
+                        bool velocity, Eigen::MatrixXd& all) const;
+  Eigen::MatrixXcd states_at_boundaries(const CellGrid& grid, const std::vector<Cell>& cells,
+                                        const Eigen::MatrixXd& coefficients) const;
+  ContactMotion free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const;
+  ContactMotion forced_flight(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
+                              const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& since) const;
+  Eigen::VectorXcd weights(int displaced, int forced) const;
 
-  Eigen::VectorXcd exponents_;      // per period, one for each pair
+  Eigen::VectorXcd exponents_;      // per period, one for each pair, by rising decay
+  Eigen::VectorXcd periodic_;       // 1 / (1 - exp(exponent))
   Eigen::MatrixXcd shapes_, left_;  // C x poles; weight, residue and period are in shapes_
   Eigen::MatrixXd constant_;        // C x C, m/N
   Eigen::MatrixXd jump_;  // C x C: of the velocity, m per period, by a force of 1 N; zero with masses

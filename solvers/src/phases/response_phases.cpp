@@ -4,21 +4,52 @@
 #include <cmath>
 #include <numbers>
 
-#include "period/contact_free_motion.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/structure/condensation.hpp"
+#include "wavebalance/solvers/structure/periodic_force.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-// Amplitudes over the period of the problem of a motion that is known over that of its load.
-Eigen::MatrixXcd amplitudes_of(const ContactFreeMotion& motion) {
-  const Eigen::MatrixXcd& of_load = motion.responses();
-  const Eigen::Index repeats = motion.load_periods();
-  Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(of_load.rows(), repeats * (of_load.cols() - 1) + 1);
-  for (Eigen::Index n = 0; n < of_load.cols(); ++n)
-    amplitudes.col(repeats * n) =
-        std::polar(1.0, -2.0 * std::numbers::pi * double(n) * motion.start()) * of_load.col(n);
+// The loads of a structure by harmonics of their period, L x (H + 1): the columns of load_shapes().
+Eigen::MatrixXcd loads_of(const CondensedProblem& problem, int repeats) {
+  const LinearStructure& structure = problem.structure();
+  const Eigen::VectorXcd& harmonics = problem.load_harmonics();
+  std::vector<Eigen::VectorXcd> series{
+      harmonics(Eigen::seqN(0, (harmonics.size() + repeats - 1) / repeats, repeats))};
+  for (const PeriodicForce& force : structure.forces)
+    series.push_back(force.amplitudes(repeats * problem.frequency()));
+  Eigen::Index count = 1;
+  for (const auto& load : series) count = std::max(count, load.size());
+  Eigen::MatrixXcd loads = Eigen::MatrixXcd::Zero(Eigen::Index(series.size()), count);
+  for (std::size_t l = 0; l < series.size(); ++l)
+    loads.row(Eigen::Index(l)).head(series[l].size()) = series[l].transpose();
+  loads.rightCols(count - 1) *= problem.load_factor();
+  return loads;
+}
+
+// C x (H + 1), m: the motion without contact over the period of the problem.
+Eigen::MatrixXcd contact_free_amplitudes(const CondensedProblem& problem, double holding) {
+  constexpr int largest_dense = 200;
+  LinearStructure structure = problem.structure();
+  if (holding > 0.0) {
+    const Eigen::SparseMatrix<double> springs =
+        holding * structure.contact_directions.transpose() * structure.contact_directions;
+    structure.stiffness += springs;
+    structure.rigid_modes = {};
+  }
+  Condensation condensation(
+      structure, structure.size() > largest_dense ? CondensationMethod::sparse : CondensationMethod::dense);
+  const int repeats = load_periods(problem), contacts = problem.contacts();
+  const Eigen::MatrixXcd loads = loads_of(problem, repeats);
+  Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(contacts, repeats * (loads.cols() - 1) + 1);
+  for (Eigen::Index n = 0; n < loads.cols(); ++n) {
+    if (loads.col(n).isZero(0.0)) continue;
+    const std::complex<double> rate(0.0, 2.0 * std::numbers::pi * repeats * problem.frequency() * double(n));
+    const CondensedPoint point = condensation.dynamic_compliance({rate * rate, rate, 1.0}, {});
+    amplitudes.col(repeats * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
+  }
   return amplitudes;
 }
 
@@ -35,12 +66,13 @@ ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaw
   constexpr int least_points = 256, most_points = 1024;  // a start needs no more
   const int points = std::clamp(problem.points(), least_points, most_points);
   const Motion balance = contact_motion(problem, response, laws, points);
-  const PhasesProblem phases{dynamics, laws, amplitudes_of(ContactFreeMotion(problem, 0)),
+  const PhasesProblem phases{dynamics, laws, contact_free_amplitudes(problem, dynamics.holding()),
                              problem.frequency()};
-  ResponsePhases result{contact_phases(phases, balance.displacement, options), missing, missing};
+  ResponsePhases result{contact_phases(phases, balance.displacement, options, balance.force), missing,
+                        missing};
   if (result.motion.parts == nullptr) return result;
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
-  result.displacement_error = relative_distance(balance.displacement, result.motion.displacement(times));
+  result.displacement_error = result.motion.start_error;
   result.force_error = relative_distance(balance.force, result.motion.force(times));
   return result;
 }

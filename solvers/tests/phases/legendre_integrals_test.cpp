@@ -1,4 +1,4 @@
-#include "phases/legendre_integrals.hpp"
+#include "phases/cell_waves.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(ExponentialIntegrals, AreThoseOfAQuadratureAtEveryRateAndDegree) {
       for (const double degrees : {90.0, 92.0, 100.0, 107.0, 120.0, 150.0, 180.0}) {
         const double angle = degrees * std::numbers::pi / 180.0;
         const Complex z(std::min(0.0, size * std::cos(angle)), size * std::sin(angle));
-        ExponentialIntegrals integrals(points, count);
+        ExponentialIntegrals<std::complex<double>> integrals(points, count);
         integrals.compute(z);
         const Eigen::MatrixXcd exact = by_quadrature(z, points, count);
         EXPECT_LT((integrals.values() - exact).cwiseAbs().maxCoeff(), 2e-12 * exact.cwiseAbs().maxCoeff())
@@ -41,9 +41,38 @@ TEST(ExponentialIntegrals, AreThoseOfAQuadratureAtEveryRateAndDegree) {
       }
 }
 
+TEST(CellWaves, OfSlowAndFastPolesAreTheIntegralsOfEach) {
+  const LegendreNodes nodes(12);
+  Eigen::VectorXd points(13);
+  points << nodes.points, 1.0;
+  for (const std::complex<double> z : {std::complex<double>(0.0, 0.0),
+                                       {-1e-9, 1e-7},
+                                       {-0.3, 2.0},
+                                       {-1e-3, 31.0},
+                                       {-1e-3, 33.0},
+                                       {-63.0, 5.0},
+                                       {-65.0, 0.0},
+                                       {-20.0, 0.0},
+                                       {-900.0, 0.0}}) {
+    const CellWaves waves(Eigen::VectorXcd::Constant(1, z), nodes);
+    EXPECT_EQ(waves.fast().empty(), std::abs(z.imag()) < 32.0 && z.real() > -64.0);
+    ExponentialIntegrals<std::complex<double>> each(points, 12);
+    each.compute(z);
+    const Eigen::MatrixXcd expected = each.values();
+    const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
+    const Eigen::MatrixXd real = waves.up_to_nodes(one),
+                          imag = waves.up_to_nodes(std::complex<double>(0.0, -1.0) * one);
+    EXPECT_LT((real - expected.topRows(12).real()).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((imag - expected.topRows(12).imag()).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((waves.at_end().row(0) - expected.row(12)).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((waves.at_nodes().col(0) - each.decay().head(12)).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT(std::abs(waves.decay()[0] - std::exp(2.0 * z)), 100 * eps);
+  }
+}
+
 TEST(ExponentialIntegrals, OfAFastDecayAreTheFunctionOverTheRate) {
   const Eigen::VectorXd points{{-0.5, 0.3, 0.9}};
-  ExponentialIntegrals integrals(points, 8);
+  ExponentialIntegrals<std::complex<double>> integrals(points, 8);
   integrals.compute(-1e9);
   EXPECT_LT((1e9 * integrals.values() - legendre_values(points, 8).cast<Complex>()).cwiseAbs().maxCoeff(),
             1e-7);

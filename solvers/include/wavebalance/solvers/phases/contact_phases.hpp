@@ -23,13 +23,13 @@ struct ContactPhase {
 
 enum class PhasesStatus {
   converged,
-  no_motion_near,        ///< the equations have no solution near the start: it is not near a motion of the
-                         ///< structure
-  tolerance_missed,      ///< the error is estimated above the tolerance at the largest number of unknowns
-  rigid_contact,         ///< a law has no finite stiffness
+  no_motion_near,    ///< the equations have no solution near the start: it is not near a motion of the
+                     ///< structure
+  tolerance_missed,  ///< the error is estimated above the tolerance at the largest number of unknowns
+  /// a law has no finite stiffness at a contact with mass, or at a structure that is free to move
+  rigid_contact,
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
-  free_structure,        ///< the structure has rigid motions, which have no periodic compliance
-  undamped,              ///< an exponent of the structure has no damping to speak of in a period
+  resonant,              ///< the structure without contact has a motion of this period of its own
   structural_damping     ///< it has no equation in time
 };
 
@@ -39,7 +39,8 @@ std::string_view to_string(PhasesStatus status);
 struct PhasesProblem {
   const ContactDynamics& dynamics;  ///< must outlive what refers to it
   ContactLaws laws;
-  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods.
+  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods. Of a structure that is free to
+  /// move it is the motion with the springs ContactDynamics::holding().
   Eigen::MatrixXcd contact_free;
   double frequency = 0.0;  ///< 1 / period, Hz
 };
@@ -47,8 +48,8 @@ struct PhasesProblem {
 struct ContactPhasesOptions {
   /// Relative rms error of the displacements of the contacts that the estimate may have.
   double tolerance = 1e-9;
-  int nodes = 8;  ///< of a panel, at first
-  int max_nodes = 24;
+  int nodes = 12;  ///< of a panel, at first
+  int max_nodes = 32;
   int max_panels = 400;
   int max_iterations = 20;  ///< of Newton's method, each time
   int max_changes = 12;     ///< of the phases
@@ -67,8 +68,9 @@ class PhaseMotion {
   std::vector<ContactPhase> phases;  ///< by contact, then by begin
   int unknowns = 0, iterations = 0, changes = 0;
   double residual = 0.0;  ///< of the equations, relative to the largest force and displacement
-  double estimated_error =
-      0.0;  ///< relative rms error of the displacements, by the last Legendre coefficients
+  /// Relative rms error of the displacements, by the last Legendre coefficients and the residual.
+  double estimated_error = 0.0;
+  double start_error = 0.0;  ///< relative rms distance of the start's displacements from the motion
 
   bool converged() const { return status == PhasesStatus::converged; }
   /// Whether a force depends on the velocity.
@@ -90,19 +92,21 @@ class PhaseMotion {
 };
 
 /// The motion near a start: displacements of the contacts, C x N, m, at the times l / N, of a balance or of
-/// an integration. Solves
+/// an integration, and with rigid laws the forces of the contacts, C x N, N. Solves
 ///
 ///   u(t) = u_0(t) - integral of G(t - s) f(s) ds - R_0 f(t),   f(t) = f_c(u(t), v(t)) within phases, 0
 ///   elsewhere,
 ///
 /// G the periodic Green function of the contacts, by collocation of f at Gauss nodes of the panels and
-/// u = kink at the ends of the phases, whose instants are unknowns. Panels are cut where another contact
-/// changes its phase, and divided where the last Legendre coefficients are above the tolerance. Phases that
-/// the motion found does not have are removed, and those that it has are inserted, until both agree.
+/// u = kink at the ends of the phases, whose instants are unknowns. In rigid contact u = gap takes the place
+/// of the law, which R_0 > 0 of a contact without mass makes an equation for f. Panels are cut where another
+/// contact changes its phase, and divided where the last Legendre coefficients are above the tolerance.
+/// Phases that the motion found does not have are removed, and those that it has are inserted, until both
+/// agree.
 ///
 /// Throws std::invalid_argument for sizes that do not fit. A Newton step costs O(n^3 + n^2 poles) for n
 /// unknowns.
 PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                           const ContactPhasesOptions& options = {});
+                           const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 
 }  // namespace wavebalance::solvers

@@ -1,0 +1,45 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "phases/legendre_integrals.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// exp(z_r (x + 1)) of P poles on a cell, x in [-1, 1], and what polynomial forces there make of them. The
+/// slow ones are sums of Legendre's polynomials, so that what many poles make together is one such sum; the
+/// few fast ones are taken one by one.
+class CellWaves {
+ public:
+  /// z: exponents times half the length of the cell, Re z <= 0. O(P (q^2 + |z|)).
+  CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes);
+
+  const Eigen::VectorXcd& decay() const { return decay_; }        ///< P: exp(2 z)
+  const Eigen::MatrixXcd& at_nodes() const { return at_nodes_; }  ///< q x P
+  /// P x q: the integrals of exp(z (1 - s)) P_k(s) over the cell.
+  const Eigen::MatrixXcd& at_end() const { return at_end_; }
+  /// q x q: takes Legendre coefficients of a force to what the poles, weighted by w, make of it up to each
+  /// node: Re sum of w_r times the integral of exp(z_r (x - s)) f(s) over s from -1 to x. O(N q (q + P / q)).
+  Eigen::MatrixXd up_to_nodes(const Eigen::VectorXcd& weights) const;
+
+  /// Legendre coefficients of Re sum w_r exp(z_r (x + 1)) over the slow poles.
+  Eigen::VectorXd slow_series(const Eigen::VectorXcd& weights) const;
+  Index series_length() const { return series_real_.rows(); }  ///< N
+  const std::vector<Index>& fast() const { return fast_; }     ///< numbers of poles
+
+ private:
+  template <class Scalar>
+  void add_fast(Index pole, Scalar z, ExponentialIntegrals<Scalar>& integrals);
+
+  const LegendreNodes& nodes_;
+  Eigen::VectorXcd decay_;
+  Eigen::MatrixXcd at_nodes_, at_end_;
+  Eigen::MatrixXd series_real_, series_imag_;  // N x P, zero for fast poles
+  std::vector<Index> fast_;
+  struct Integrals {
+    Eigen::MatrixXd real, imag;  // q x q; imag is empty where z is real
+  };
+  std::vector<Integrals> fast_integrals_;
+};
+
+}  // namespace wavebalance::solvers::detail
