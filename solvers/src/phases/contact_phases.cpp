@@ -27,6 +27,7 @@ using detail::ContactMotion, detail::Layout, detail::LegendreNodes, detail::Pane
 
 // At least so many instants at which the motion found is held against its phases.
 constexpr Index least_samples = 256;
+constexpr double tiny = 1e-300;
 
 // Slopes at times l / N of the cubic spline through periodic samples that central differences of fourth order
 // give, per period.
@@ -42,8 +43,7 @@ Eigen::MatrixXd slopes_of(const Eigen::MatrixXd& samples) {
 PhasesStatus refusal(const PhasesProblem& problem) {
   const ContactDynamics& dynamics = problem.dynamics;
   if (dynamics.structurally_damped()) return PhasesStatus::structural_damping;
-  for (const int c : problem.laws.rigid(dynamics.contacts()))
-    if (dynamics.holding() > 0.0 || !(dynamics.constant()(c, c) > 0.0)) return PhasesStatus::rigid_contact;
+  if (!problem.laws.have_finite_force() && dynamics.holding() > 0.0) return PhasesStatus::rigid_contact;
   if (problem.laws.depend_on_velocity() && !dynamics.constant().isZero(0.0))
     return PhasesStatus::velocity_and_no_mass;
   constexpr double least = 1e-9;
@@ -147,9 +147,14 @@ struct Found {
   PhaseNewtonResult newton;
   ContactMotion motion, reach;
   Layout phases_of_motion;
+  std::vector<bool> complementary;  // of each contact, where its force jumps: whether it is where it must be
 
   bool agrees() const {
-    return newton.converged && detail::same_phases(newton.iterate.layout, phases_of_motion);
+    bool same = newton.converged;
+    for (std::size_t c = 0; c < complementary.size() && same; ++c)
+      same = complementary[c] ||
+             detail::same_phases(newton.iterate.layout, phases_of_motion, static_cast<int>(c));
+    return same;
   }
 };
 
@@ -186,21 +191,41 @@ class Search {
     found.motion.displacement = free_.displacement - found.motion.displacement;
     found.motion.velocity = free_.velocity - found.motion.velocity;
     const bool rigid =
-        std::any_of(model_.laws.begin(), model_.laws.end(), [](const auto& l) { return l.rigid(); });
-    found.reach = reach(found.motion, rigid ? detail::force_at(found.newton.iterate.forces, model_, times_)
-                                            : Eigen::MatrixXd());
+        std::any_of(model_.laws.begin(), model_.laws.end(), [](const auto& law) { return law.rigid(); });
+    const Eigen::MatrixXd force =
+        rigid ? detail::force_at(found.newton.iterate.forces, model_, times_) : Eigen::MatrixXd();
+    found.reach = reach(found.motion, force);
     found.phases_of_motion = detail::layout_of(model_.laws, found.reach.displacement, found.reach.velocity);
+    for (const detail::LawPieces& law : model_.laws) {
+      const auto c = Index(found.complementary.size());
+      found.complementary.push_back(
+          law.jumps() && is_complementary(found.motion.displacement.row(c), force.row(c), law.breakpoint(0)));
+    }
     return found;
   }
 
+  // Whether a rigid contact pushes only, and does not pass the gap.
+  static bool is_complementary(const Eigen::RowVectorXd& displacement, const Eigen::RowVectorXd& force,
+                               double gap) {
+    constexpr double small = 1e-4;
+    const double length = small * displacement.cwiseAbs().maxCoeff(), push = force.cwiseAbs().maxCoeff();
+    return (displacement.array() < gap + length).all() && (force.array() >= -small * push).all();
+  }
+
   // A motion with what each rigid contact would yield to its force at once, were it not held: beyond the gap
-  // while there is contact.
+  // while there is contact. Where the force jumps there is no slope to interpolate by.
   ContactMotion reach(ContactMotion motion, const Eigen::MatrixXd& force) const {
     for (Index c = 0; c < force.rows(); ++c) {
       const detail::LawPieces& law = model_.laws[static_cast<std::size_t>(c)];
       if (!law.rigid()) continue;
-      motion.displacement.row(c) += force.row(c) / law.stiffness();
-      motion.velocity.row(c) = slopes_of(motion.displacement.row(c));
+      const double softness = law.jumps() ? motion.displacement.row(c).cwiseAbs().maxCoeff() /
+                                                std::max(force.row(c).cwiseAbs().maxCoeff(), tiny)
+                                          : law.yielding().displacement;
+      motion.displacement.row(c) += softness * force.row(c);
+      if (law.jumps())
+        motion.velocity.row(c).setZero();
+      else
+        motion.velocity.row(c) = slopes_of(motion.displacement.row(c));
     }
     return motion;
   }
@@ -328,6 +353,11 @@ Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
 
 bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
 
+bool PhaseMotion::is_rigid() const {
+  return parts != nullptr && std::any_of(parts->model.laws.begin(), parts->model.laws.end(),
+                                         [](const detail::LawPieces& law) { return law.rigid(); });
+}
+
 double PhaseMotion::tangent(int contact, double time) const {
   return parts->tangent.at(contact, time) + parts->model.holding();
 }
@@ -341,8 +371,15 @@ PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& 
   PhaseMotion result;
   result.status = refusal(problem);
   if (!result.converged()) return result;
-  require_start_force(problem.laws, start, start_force);
   const PhaseModel model(problem, start.cwiseAbs().maxCoeff());
+  const bool with_mass = std::any_of(model.laws.begin(), model.laws.end(), [](const detail::LawPieces& law) {
+    return law.jumps() && !(law.yielding().velocity > 0.0);
+  });
+  if (with_mass) {
+    result.status = PhasesStatus::rigid_contact;
+    return result;
+  }
+  require_start_force(problem.laws, start, start_force);
   const Index finer = (least_samples + start.cols() - 1) / start.cols();
   return Search(model, options, finer * start.cols()).run(start, start_force);
 }

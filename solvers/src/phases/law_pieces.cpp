@@ -6,11 +6,11 @@
 
 namespace wavebalance::solvers::detail {
 
-LawPieces::LawPieces(AnyContactLaw law, double length, double holding, double stiffness)
+LawPieces::LawPieces(AnyContactLaw law, double length, double holding, const Yielding& yielding)
     : law_(std::move(law)),
       rigid_(law_.is_rigid()),
       holding_(holding),
-      stiffness_(stiffness),
+      yielding_(yielding),
       breakpoints_(law_.breakpoints()) {
   if (rigid_) {
     breakpoints_ = {law_.gap()};
@@ -53,7 +53,9 @@ double LawPieces::inside(int piece, double displacement) const {
 ForceSlopes LawPieces::at(int piece, double displacement, double velocity) const {
   if (rigid_) {
     if (!exerts(piece)) return {};
-    return {.force = stiffness_ * (displacement - law_.gap()), .tangent = stiffness_};
+    if (jumps()) return {.force = velocity / yielding_.velocity, .damping = 1.0 / yielding_.velocity};
+    return {.force = (displacement - law_.gap()) / yielding_.displacement,
+            .tangent = 1.0 / yielding_.displacement};
   }
   const double within = inside(piece, displacement);
   ForceSlopes value = law_.at(within, velocity);

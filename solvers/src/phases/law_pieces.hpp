@@ -5,14 +5,20 @@
 
 namespace wavebalance::solvers::detail {
 
+/// How a contact without mass yields to a unit force at once: a displacement, m/N, or where dashpots prevent that
+/// a velocity, m/(N s). Both are zero with mass.
+struct Yielding {
+  double displacement = 0.0, velocity = 0.0;
+};
+
 /// A contact law by its analytic pieces, which meet at its breakpoints. Each is continued smoothly beyond its
 /// ends, by a line, so that Newton's method may leave it.
 class LawPieces {
  public:
-  /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that
-  /// holds the contact in its compliance, so that the law takes it back. `stiffness`, N/m: what the contact
-  /// yields at once to a force, by which a rigid law becomes an equation for it.
-  LawPieces(AnyContactLaw law, double length, double holding, double stiffness);
+  /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that holds
+  /// the contact in its compliance, so that the law takes it back. `yielding`, by which a rigid law becomes an
+  /// equation for the force.
+  LawPieces(AnyContactLaw law, double length, double holding, const Yielding& yielding);
 
   int count() const { return static_cast<int>(breakpoints_.size()) + 1; }
   /// At a breakpoint the piece above it.
@@ -24,10 +30,12 @@ class LawPieces {
   /// Whether there is one in the equations: that, or the one which takes the spring back.
   bool acts(int piece) const { return holding_ > 0.0 || exerts(piece); }
   bool rigid() const { return rigid_; }
+  /// Whether rigid contact is an equation for the velocity, where the force jumps as it begins.
+  bool jumps() const { return rigid_ && !(yielding_.displacement > 0.0); }
   double holding() const { return holding_; }
-  double stiffness() const { return stiffness_; }
-  /// Without holding the law's. Of a rigid law in contact: the spring `stiffness` beyond the gap, which is to
-  /// have no deflection.
+  const Yielding& yielding() const { return yielding_; }
+  /// Without holding the law's. In rigid contact the force that would have displaced the contact beyond the
+  /// gap, or moved it, at once; it is to be zero.
   ForceSlopes at(int piece, double displacement, double velocity) const;
 
  private:
@@ -35,7 +43,8 @@ class LawPieces {
 
   AnyContactLaw law_;
   bool rigid_;
-  double holding_, stiffness_;
+  double holding_;
+  Yielding yielding_;
   std::vector<double> breakpoints_;
   std::vector<bool> exerts_;
 };

@@ -51,8 +51,10 @@ struct Evaluation {
   Eigen::VectorXd tangent, damping;  // n: by displacement and by velocity per period
   Eigen::VectorXd own;               // n: of the residual by its force; 0 for a rigid law
   Eigen::VectorXd passing;           // m, m per period
+  std::vector<int> released;         // m: the panel at whose end the force is zero instead, or -1
   double force_size = 0.0, displacement_size = 0.0;
 
+  double softness() const { return displacement_size / force_size; }
   double force_error() const {
     return force.size() > 0 ? residual.head(force.size()).cwiseAbs().maxCoeff() / force_size : 0.0;
   }
@@ -65,6 +67,27 @@ struct Evaluation {
 
 const Panel& panel_of(const CellGrid& grid, Index node, const LegendreNodes& nodes) {
   return grid.panels[static_cast<std::size_t>(node / nodes.count())];
+}
+
+// Where rigid contact is an equation for the velocity, the displacement stays at the gap, and contact ends with
+// the force.
+std::vector<int> released_panels(const PhaseModel& model, const Layout& layout, const CellGrid& grid) {
+  std::vector<int> released(layout.passages.size(), -1);
+  for (std::size_t p = 0; p < grid.panels.size(); ++p) {
+    const Panel& panel = grid.panels[p];
+    const Phase& phase = layout.phases[static_cast<std::size_t>(panel.phase)];
+    const bool last = p + 1 == grid.panels.size() || grid.panels[p + 1].phase != panel.phase;
+    if (last && phase.end >= 0 && model.laws[static_cast<std::size_t>(panel.contact)].jumps())
+      released[static_cast<std::size_t>(phase.end)] = static_cast<int>(p);
+  }
+  return released;
+}
+
+// The value at the end of a panel, and its slope by x, of a polynomial with values 1 at one node.
+Eigen::VectorXd end_values(const LegendreNodes& nodes) { return nodes.coefficients.colwise().sum(); }
+Eigen::VectorXd end_slopes(const LegendreNodes& nodes) {
+  const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(nodes.count(), 0.0, double(nodes.count() - 1));
+  return nodes.coefficients.transpose() * (0.5 * k * (k + 1.0)).matrix();
 }
 
 Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes) {
@@ -103,10 +126,16 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
     largest_law = std::max(largest_law, std::abs(law.force));
     result.damping[i] = model.frequency * law.damping;
   }
-  for (Index i = 0; i < m; ++i)
-    result.residual[n + i] = u[n + i] - at.layout.passages[static_cast<std::size_t>(i)].breakpoint;
   result.force_size = std::max({tiny, largest_law, n > 0 ? result.force.cwiseAbs().maxCoeff() : 0.0});
   result.displacement_size = std::max(tiny, u.size() > 0 ? u.cwiseAbs().maxCoeff() : 0.0);
+  result.released = released_panels(model, at.layout, result.grid);
+  for (Index i = 0; i < m; ++i) {
+    const int panel = result.released[static_cast<std::size_t>(i)];
+    result.residual[n + i] =
+        panel < 0 ? u[n + i] - at.layout.passages[static_cast<std::size_t>(i)].breakpoint
+                  : result.softness() * end_values(nodes).dot(result.force.segment(nodes.count() * panel,
+                                                                                   nodes.count()));
+  }
   return result;
 }
 
@@ -137,6 +166,15 @@ Eigen::MatrixXd jacobian(const PhaseModel& model, const PhaseIterate& at, const 
   result = result * scale.asDiagonal();
   result.diagonal().head(n) += now.own;
   result.diagonal().tail(m) += now.passing;
+  for (Index i = 0; i < m; ++i) {
+    const int p = now.released[static_cast<std::size_t>(i)];
+    if (p < 0) continue;
+    const Index first = nodes.count() * p;
+    result.row(n + i).setZero();
+    result.row(n + i).segment(first, nodes.count()) = now.softness() * end_values(nodes).transpose();
+    const double slope = end_slopes(nodes).dot(now.force.segment(first, nodes.count()));
+    result(n + i, n + i) = now.softness() * 2.0 / now.grid.panels[static_cast<std::size_t>(p)].length() * slope;
+  }
   return result;
 }
 
@@ -176,10 +214,12 @@ PhaseModel::PhaseModel(const PhasesProblem& problem, double length)
     : response(problem.dynamics, 1.0 / problem.frequency),
       contact_free(problem.contact_free),
       frequency(problem.frequency) {
-  const Eigen::MatrixXd& at_once = problem.dynamics.constant();
-  for (int c = 0; c < problem.dynamics.contacts(); ++c)
-    laws.emplace_back(problem.laws[c], length, problem.dynamics.holding(), 1.0 / at_once(c, c));
-  velocity = problem.laws.depend_on_velocity();
+  for (int c = 0; c < problem.dynamics.contacts(); ++c) {
+    const Yielding yielding{response.displacement_at_once(c), frequency * response.velocity_at_once(c)};
+    laws.emplace_back(problem.laws[c], length, problem.dynamics.holding(), yielding);
+  }
+  velocity = problem.laws.depend_on_velocity() ||
+             std::any_of(laws.begin(), laws.end(), [](const LawPieces& law) { return law.jumps(); });
 }
 
 Eigen::VectorXd PhaseModel::free_displacement(const std::vector<Instant>& instants) const {

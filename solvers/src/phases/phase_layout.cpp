@@ -165,7 +165,7 @@ CellGrid Layout::grid() const {
                begins = std::any_of(phases.begin(), phases.end(),
                                     [&](const Phase&p) { return p.begin == number; });
     grid.marks.push_back(
-        {passages[i].contact, boundary_near(grid.boundaries, passages[i].time), ends && begins});
+        {passages[i].contact, boundary_near(grid.boundaries, passages[i].time), ends, begins});
   }
   return grid;
 }
@@ -181,24 +181,27 @@ Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& disp
   return layout;
 }
 
-bool same_phases(const Layout& a, const Layout& b) {
+bool same_phases(const Layout& a, const Layout& b, int contact) {
   constexpr double near = 1e-3;  // periods: far more than the error of a cubic between samples
-  if (a.passages.size() != b.passages.size() || a.phases.size() != b.phases.size()) return false;
   const auto close = [](double s, double t) { return std::abs(s - t - std::round(s - t)) < near; };
-  const auto has_passage = [&](const Passage& at) {
-    return std::any_of(b.passages.begin(), b.passages.end(), [&](const Passage& other) {
-      return other.contact == at.contact && other.breakpoint == at.breakpoint && close(other.time, at.time);
+  const auto same_passage = [&](const Passage& p, const Passage& q) {
+    return q.contact == p.contact && q.breakpoint == p.breakpoint && close(q.time, p.time);
+  };
+  const auto same_phase = [&](const Phase& p, const Phase& q) {
+    return q.contact == p.contact && q.piece == p.piece && (q.begin < 0) == (p.begin < 0) &&
+           close(b.begin(q), a.begin(p)) && close(b.end(q), a.end(p));
+  };
+  const auto all_have = [contact](const auto& from, const auto& among, const auto& same) {
+    const auto of_contact = [contact](const auto& one) { return one.contact == contact; };
+    if (std::count_if(from.begin(), from.end(), of_contact) !=
+        std::count_if(among.begin(), among.end(), of_contact))
+      return false;
+    return std::all_of(from.begin(), from.end(), [&](const auto& one) {
+      return one.contact != contact ||
+             std::any_of(among.begin(), among.end(), [&](const auto& other) { return same(one, other); });
     });
   };
-  const auto has_phase = [&](const Phase& phase) {
-    return std::any_of(b.phases.begin(), b.phases.end(), [&](const Phase& other) {
-      return other.contact == phase.contact && other.piece == phase.piece &&
-             (other.begin < 0) == (phase.begin < 0) && close(b.begin(other), a.begin(phase)) &&
-             close(b.end(other), a.end(phase));
-    });
-  };
-  return std::all_of(a.passages.begin(), a.passages.end(), has_passage) &&
-         std::all_of(a.phases.begin(), a.phases.end(), has_phase);
+  return all_have(a.passages, b.passages, same_passage) && all_have(a.phases, b.phases, same_phase);
 }
 
 PanelForces::PanelForces(CellGrid grid, const LegendreNodes& nodes, const Eigen::VectorXd& values)

@@ -39,8 +39,8 @@ struct Layout {
 Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity);
 
-/// Whether both have the same phases at about the same instants, in any order.
-bool same_phases(const Layout& a, const Layout& b);
+/// Whether a contact has the same phases at about the same instants in both, in any order.
+bool same_phases(const Layout& a, const Layout& b, int contact);
 
 /// Contact forces that are polynomials on panels.
 class PanelForces {

@@ -76,6 +76,9 @@ PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : con
   }
   periodic_ = (1.0 - exponents_.array().exp()).inverse();
   jump_ = (shapes_ * left_.transpose()).real();
+  constexpr double rounding = 1e-9;
+  const Eigen::MatrixXd size = shapes_.cwiseAbs() * left_.cwiseAbs().transpose();
+  jump_ = (jump_.array().abs() > rounding * size.array()).select(jump_, 0.0);
 }
 
 Eigen::VectorXcd PoleResponse::weights(int displaced, int forced) const {
@@ -183,9 +186,10 @@ void PoleResponse::add_within_cells(const CellGrid& grid, const std::vector<Cell
   const Eigen::RowVectorXd at_end = nodes.coefficients.colwise().sum();  // P_k(1) = 1
   for (Index i = 0; i < m; ++i) {
     const CellGrid::Mark& mark = grid.marks[static_cast<std::size_t>(i)];
+    if (!mark.acts_before) all(n + i, n + i) -= jump_(mark.contact, mark.contact);  // it has acted before only
     for (const std::size_t p : cells[static_cast<std::size_t>(grid.before(mark.boundary))].panels) {
       const int forced = grid.panels[p].contact;
-      if (forced == mark.contact && !mark.acts_before_and_after) continue;
+      if (forced == mark.contact && !mark.acts_after) continue;  // its force ends with zero
       all.block(n + i, count * Index(p), 1, count) += constant_(mark.contact, forced) * at_end;
       all.block(n + m + i, count * Index(p), 1, count) += jump_(mark.contact, forced) * at_end;
     }

@@ -23,7 +23,7 @@ struct CellGrid {
   /// A passage of a contact, which lies at a boundary.
   struct Mark {
     int contact = 0, boundary = 0;
-    bool acts_before_and_after = false;
+    bool acts_before = false, acts_after = false;
   };
 
   /// Ascending within one period. Cell j begins at boundary j; the last one ends at the first.
@@ -62,7 +62,10 @@ class PoleResponse {
   PoleResponse(const ContactDynamics& dynamics, double period);
 
   int contacts() const { return static_cast<int>(constant_.rows()); }
-  const Eigen::MatrixXd& constant() const { return constant_; }
+  /// What contact c does at once by a force of 1 N: the displacement, m, and without mass the velocity, m per
+  /// period.
+  double displacement_at_once(int c) const { return constant_(c, c); }
+  double velocity_at_once(int c) const { return jump_(c, c); }
 
   /// Node j of panel p has number p q + j. O((n + m)^2 poles).
   Influence influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;

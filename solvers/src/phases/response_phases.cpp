@@ -85,6 +85,10 @@ PeriodicStiffness contact_stiffness(const PhaseMotion& motion) {
   }
   for (const ContactPhase& phase : motion.phases)
     result.intervals.push_back({phase.contact, phase.begin, phase.end});
+  if (motion.is_rigid()) {
+    result.status = StabilityStatus::no_finite_stiffness;
+    return result;
+  }
   result.tangent = [motion](int contact, double time) { return motion.tangent(contact, time); };
   if (!motion.depends_on_velocity()) return result;
   result.damping = [motion](int contact, double time) { return motion.damping(contact, time); };

@@ -8,6 +8,7 @@
 #include "constants.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::solvers {
@@ -46,6 +47,22 @@ TEST(RigidReference, OfAnObstacleThatIsNotReachedIsTheLinearResponse) {
   EXPECT_TRUE(found.instants.empty());
   EXPECT_TRUE(found.contact_force.isZero(0.0));
   EXPECT_LE((found.displacement - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(RigidReference, IsTheMotionThatTheContactPhasesFind) {
+  const LinearStructure chain = chain_with_massless_tip();
+  const double gap = 0.4 * free_motion(chain, 512).maxCoeff();
+  const RigidReference joined = rigid_reference(chain, gap, driven, 256);
+  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
+  problem.set_frequency(driven);
+  const testing::Rigid law{gap};
+  const PeriodicResponse response = forced_response(problem, law, {});
+  ASSERT_TRUE(response.converged());
+  const PhaseMotion phases = response_phases(problem, law, response, ContactDynamics(chain), {}).motion;
+  ASSERT_TRUE(phases.converged());
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(256, 0.0, 1.0 - 1.0 / 256);
+  EXPECT_LE((phases.displacement(times).transpose() - joined.displacement).norm(),
+            1e-8 * joined.displacement.norm());
 }
 
 // A balance of 511 functions errs by its truncation, like 1 / 511^2 at the jumps of the velocity.

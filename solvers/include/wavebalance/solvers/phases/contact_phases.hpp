@@ -75,6 +75,8 @@ class PhaseMotion {
   bool converged() const { return status == PhasesStatus::converged; }
   /// Whether a force depends on the velocity.
   bool depends_on_velocity() const;
+  /// Whether a law is rigid, so that it has no slopes.
+  bool is_rigid() const;
   /// C x K displacements (m) and velocities (m/s) of the contacts at K times in periods. O(K panels poles).
   Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
   Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
