@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <vector>
 
+#include "campaign.hpp"
 #include "draw.hpp"
 #include "random_structures.hpp"
 #include "wavebalance/contact/linear_law.hpp"
@@ -55,12 +55,6 @@ struct Outcomes {
   }
 };
 
-/// WAVEBALANCE_STABILITY_SEEDS structures, or `usual` ones. 2000 take some minutes.
-int seeds(int usual) {
-  const char* asked = std::getenv("WAVEBALANCE_STABILITY_SEEDS");
-  return asked ? std::atoi(asked) : usual;
-}
-
 // Stops of 0.3 to 10 times the static stiffness in the way of the contact-free response.
 solvers::ContactLaws draw_stops(std::uint64_t seed, const solvers::ContactDynamics& dynamics,
                                 const solvers::CondensedProblem& problem) {
@@ -82,7 +76,7 @@ TEST(RandomStability, CountsOfResponsesAreThoseOfTheMonodromy) {
   options.fallbacks = false;
   options.newton.max_operations = 1e9;
   Outcomes outcomes;
-  const int count = seeds(60);
+  const int count = campaign_seeds(60, 2000);
   for (int seed = 1; seed <= count; ++seed) {
     const auto drawn = extremes::random_structure(static_cast<std::uint64_t>(seed));
     const solvers::ContactDynamics dynamics(drawn.structure);
@@ -122,7 +116,7 @@ solvers::PeriodicStiffness draw_stiffness(std::uint64_t seed, const solvers::Con
 
 TEST(RandomStability, CountsOfPrescribedStiffnessAreThoseOfTheMonodromy) {
   Outcomes outcomes;
-  const int count = seeds(60);
+  const int count = campaign_seeds(60, 2000);
   for (int seed = 1; seed <= count; ++seed) {
     const extremes::RandomStructure drawn = extremes::random_structure(static_cast<std::uint64_t>(seed));
     const solvers::ContactDynamics dynamics(drawn.structure);
