@@ -4,7 +4,11 @@ import os
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
+import scipy.sparse
+
+import wavebalance as wb
 
 SCENES = Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
 
@@ -28,6 +32,29 @@ BAR = {
 def bar():
     """A bar against a stop, as a dictionary that a test may change."""
     return {section: dict(keys) for section, keys in BAR.items()}
+
+
+@pytest.fixture
+def oscillator():
+    """Makes a mass of 1 kg on a spring of 1 N/m with a contact, of which a test may change each number."""
+
+    def make(load=1.0, damping=0.1, mass=1.0, stiffness=1.0, **more):
+        return wb.Structure([[mass]], [[damping]], [[stiffness]], [load], contacts=[0], **more)
+
+    return make
+
+
+@pytest.fixture
+def chain():
+    """Makes mass, damping, stiffness and load of masses between springs, fixed at both ends and driven at the first."""
+
+    def make(size=6):
+        stiffness = 1e4 * scipy.sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(size, size))
+        load = np.zeros(size)
+        load[0] = 10.0
+        return scipy.sparse.identity(size), 1e-4 * stiffness, stiffness, load
+
+    return make
 
 
 @pytest.fixture

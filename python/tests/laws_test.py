@@ -1,0 +1,74 @@
+"""Contact laws of the catalogue: their values, their classes and their scenes."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import wavebalance as wb
+
+LAWS = [
+    wb.NoContact(),
+    wb.Penalty(5.0, 0.1),
+    wb.Exponential(2.0, 3.0, 0.1),
+    wb.Rigid(0.1),
+    wb.Bilinear(1.0, 3.0, 0.1),
+    wb.Cubic(2.0),
+    wb.Polynomial([1.0, 0.0, 2.0]),
+    wb.Clearance(5.0, 0.1, gap_below=0.2),
+    wb.HuntCrossley(5.0, 0.2, 0.1),
+    wb.KelvinVoigt(5.0, 0.2, 0.1),
+]
+WITH_A_FORCE = [
+    *(law for law in LAWS if not isinstance(law, (wb.NoContact, wb.Rigid))),
+    wb.Table([-1.0, 0.0, 1.0], [-1.0, 0.0, 2.0]),
+]
+
+
+@pytest.mark.parametrize("law", WITH_A_FORCE, ids=lambda law: type(law).__name__)
+def test_tangent_and_potential_belong_to_the_force(law):
+    u = np.array([-0.7, -0.05, 0.05, 0.33, 0.8])
+    step = 1e-6
+    np.testing.assert_allclose((law.force(u + step) - law.force(u - step)) / (2 * step), law.tangent(u), atol=1e-6)
+    np.testing.assert_allclose((law.potential(u + step) - law.potential(u - step)) / (2 * step), law.force(u), atol=1e-6)
+    assert law.force(0.8) > 0.0 and repr(law).startswith(type(law).__name__)
+
+
+def test_every_law_of_the_catalogue_has_a_class_that_takes_its_parameters():
+    classes = {one._row: one for one in wb.Law.__subclasses__() if one._row}
+    rows = {row["name"]: {one["name"] for one in row["parameters"]} for row in wb._core.law_catalogue()}
+    assert classes.keys() == rows.keys()
+    for law in LAWS:
+        keys = law.scene_keys()
+        assert set(keys) - {"law"} <= rows[keys["law"]]
+
+
+def test_a_class_made_from_a_row_is_that_law():
+    row = next(one for one in wb._core.law_catalogue() if one["name"] == "kelvin_voigt")
+    made, written = wb.laws._class_of(row), wb.KelvinVoigt(5.0, 0.2, 0.1)
+    assert made.__name__ == "KelvinVoigt" and "damping`, N s/m: " in made.__doc__
+    assert str(inspect.signature(made)) == "(stiffness, damping, damping_depth=0.0, gap=0.0)"
+    law = made(5.0, damping=0.2, gap=0.1)
+    assert law.force(0.3, 1.0) == written.force(0.3, 1.0)
+    assert law.scene_keys() == {"law": "kelvin_voigt", "stiffness": 5.0, "damping": 0.2, "damping_depth": 0.0, "gap": 0.1}
+    with pytest.raises(TypeError, match="stiffness"):
+        made()
+
+
+def test_values_that_make_no_law_are_refused_with_parameter_value_and_range():
+    with pytest.raises(ValueError, match='the law "linear": stiffness is -1; it must be a number in N/m, finite and above 0'):
+        wb.Penalty(-1.0)
+    with pytest.raises(ValueError, match="cubic_stiffness is 0; it must be a number in N/m\\^3, finite and not zero"):
+        wb.Cubic(0.0)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_a_response_has_the_digits_of_the_scene_of_the_same_structure(law):
+    matrix = np.array([[5.0, -2.0], [-2.0, 2.0]])
+    contacts = np.array([[0.0, 1.0]]) if law.is_rigid else np.array([[1.0, -1.0], [0.0, 1.0]])
+    mass = "redistribute" if law.is_rigid else "keep"
+    structure = wb.Structure(np.diag([1.0, 0.5]), 1e-2 * matrix, matrix, [0.0, 1.0], contacts, contact_mass=mass)
+    record = wb.run(structure.scene(law, frequency=0.1))
+    motion = wb.forced_response(structure, law, 0.1).motion(1024)
+    assert record.converged
+    assert record.summary["max_displacement_m"] == motion.displacement.max()
