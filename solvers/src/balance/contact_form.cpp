@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "linalg/enum_table.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::solvers {
@@ -37,15 +38,9 @@ Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
 }  // namespace
 
 std::string_view to_string(ContactForm form) {
-  switch (form) {
-    case ContactForm::automatic:
-      return "automatic";
-    case ContactForm::displacement:
-      return "displacement";
-    case ContactForm::force:
-      return "force";
-  }
-  return "unknown";
+  using enum ContactForm;
+  return detail::name_in<ContactForm>(
+      {{automatic, "automatic"}, {displacement, "displacement"}, {force, "force"}}, form);
 }
 
 void require_massless_rigid_contacts(const LinearStructure& structure, const ContactLaws& laws) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "linalg/damped_newton.hpp"
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
 #include "wavebalance/solvers/balance/newton.hpp"
@@ -11,25 +12,16 @@
 namespace wavebalance::solvers {
 
 std::string_view to_string(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::converged:
-      return "converged";
-    case SolveStatus::stalled:
-      return "stalled";
-    case SolveStatus::iteration_limit:
-      return "iteration_limit";
-    case SolveStatus::effort_limit:
-      return "effort_limit";
-    case SolveStatus::singular:
-      return "singular";
-    case SolveStatus::unbalanced:
-      return "unbalanced";
-    case SolveStatus::inaccurate:
-      return "inaccurate";
-    case SolveStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  using enum SolveStatus;
+  return detail::name_in<SolveStatus>({{converged, "converged"},
+                                       {stalled, "stalled"},
+                                       {iteration_limit, "iteration_limit"},
+                                       {effort_limit, "effort_limit"},
+                                       {singular, "singular"},
+                                       {unbalanced, "unbalanced"},
+                                       {inaccurate, "inaccurate"},
+                                       {cancelled, "cancelled"}},
+                                      status);
 }
 
 void NewtonOptions::validate() const {

@@ -6,33 +6,24 @@
 #include <optional>
 
 #include "continuation/milestones.hpp"
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
 
 std::string_view to_string(SweepStatus status) {
-  switch (status) {
-    case SweepStatus::reached_end:
-      return "reached_end";
-    case SweepStatus::returned:
-      return "returned";
-    case SweepStatus::no_start:
-      return "no_start";
-    case SweepStatus::closed:
-      return "closed";
-    case SweepStatus::lost:
-      return "lost";
-    case SweepStatus::unbounded:
-      return "unbounded";
-    case SweepStatus::point_limit:
-      return "point_limit";
-    case SweepStatus::ended:
-      return "ended";
-    case SweepStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  using enum SweepStatus;
+  return detail::name_in<SweepStatus>({{reached_end, "reached_end"},
+                                       {returned, "returned"},
+                                       {no_start, "no_start"},
+                                       {closed, "closed"},
+                                       {lost, "lost"},
+                                       {unbounded, "unbounded"},
+                                       {point_limit, "point_limit"},
+                                       {ended, "ended"},
+                                       {cancelled, "cancelled"}},
+                                      status);
 }
 
 namespace {

@@ -2,28 +2,21 @@
 
 #include <utility>
 
+#include "linalg/enum_table.hpp"
+
 namespace wavebalance::solvers {
 
 std::string_view to_string(Strategy strategy) {
-  switch (strategy) {
-    case Strategy::none:
-      return "none";
-    case Strategy::newton:
-      return "newton";
-    case Strategy::gap_continuation:
-      return "gap_continuation";
-    case Strategy::load_continuation:
-      return "load_continuation";
-    case Strategy::settling:
-      return "settling";
-    case Strategy::recurrence:
-      return "recurrence";
-    case Strategy::residual_homotopy:
-      return "residual_homotopy";
-    case Strategy::perturbation:
-      return "perturbation";
-  }
-  return "unknown";
+  using enum Strategy;
+  return detail::name_in<Strategy>({{none, "none"},
+                                    {newton, "newton"},
+                                    {gap_continuation, "gap_continuation"},
+                                    {load_continuation, "load_continuation"},
+                                    {settling, "settling"},
+                                    {recurrence, "recurrence"},
+                                    {residual_homotopy, "residual_homotopy"},
+                                    {perturbation, "perturbation"}},
+                                   strategy);
 }
 
 PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "response/error_estimate.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
@@ -341,19 +342,13 @@ class Refinement {
 }  // namespace
 
 std::string_view to_string(RefinementStatus status) {
-  switch (status) {
-    case RefinementStatus::converged:
-      return "converged";
-    case RefinementStatus::size_limit:
-      return "size_limit";
-    case RefinementStatus::not_converged:
-      return "not_converged";
-    case RefinementStatus::stagnated:
-      return "stagnated";
-    case RefinementStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  using enum RefinementStatus;
+  return detail::name_in<RefinementStatus>({{converged, "converged"},
+                                            {size_limit, "size_limit"},
+                                            {not_converged, "not_converged"},
+                                            {stagnated, "stagnated"},
+                                            {cancelled, "cancelled"}},
+                                           status);
 }
 
 void RefinementOptions::validate() const {

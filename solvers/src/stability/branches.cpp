@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/branch_arrival.hpp"
 #include "stability/perturbation.hpp"
@@ -251,29 +252,18 @@ class Branches {
 }  // namespace
 
 std::string_view to_string(BranchEnd end) {
-  switch (end) {
-    case BranchEnd::special_point:
-      return "special_point";
-    case BranchEnd::parent_curve:
-      return "parent_curve";
-    case BranchEnd::from_end:
-      return "frequency_from";
-    case BranchEnd::to_end:
-      return "frequency_to";
-    case BranchEnd::no_start:
-      return "no_start";
-    case BranchEnd::closed:
-      return "closed";
-    case BranchEnd::lost:
-      return "lost";
-    case BranchEnd::unbounded:
-      return "unbounded";
-    case BranchEnd::point_limit:
-      return "point_limit";
-    case BranchEnd::cancelled:
-      return "interrupted";
-  }
-  return "unknown";
+  using enum BranchEnd;
+  return detail::name_in<BranchEnd>({{special_point, "special_point"},
+                                     {parent_curve, "parent_curve"},
+                                     {from_end, "frequency_from"},
+                                     {to_end, "frequency_to"},
+                                     {no_start, "no_start"},
+                                     {closed, "closed"},
+                                     {lost, "lost"},
+                                     {unbounded, "unbounded"},
+                                     {point_limit, "point_limit"},
+                                     {cancelled, "interrupted"}},
+                                    end);
 }
 
 void BranchOptions::validate() const {

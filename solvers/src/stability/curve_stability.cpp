@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/stability_checks.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
@@ -269,21 +270,14 @@ class Tracker {
 }  // namespace
 
 std::string_view to_string(SpecialPointType type) {
-  switch (type) {
-    case SpecialPointType::fold:
-      return "fold";
-    case SpecialPointType::period_doubling:
-      return "period_doubling";
-    case SpecialPointType::neimark_sacker:
-      return "neimark_sacker";
-    case SpecialPointType::grazing:
-      return "grazing";
-    case SpecialPointType::branch:
-      return "branch";
-    case SpecialPointType::krein_collision:
-      return "krein_collision";
-  }
-  return "unknown";
+  using enum SpecialPointType;
+  return detail::name_in<SpecialPointType>({{fold, "fold"},
+                                            {period_doubling, "period_doubling"},
+                                            {neimark_sacker, "neimark_sacker"},
+                                            {grazing, "grazing"},
+                                            {branch, "branch"},
+                                            {krein_collision, "krein_collision"}},
+                                           type);
 }
 
 StabilityStatus CurveStability::status() const {
