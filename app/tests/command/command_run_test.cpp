@@ -228,14 +228,15 @@ TEST(CommandRun, InterruptLeavesNothing) {
 TEST(CommandRun, InterruptedSweepLeavesItsPoints) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("case.toml", bar_scene);
+  Terminal terminal;
   Command command(folder,
                   {"run", scene, "--output", folder / "out", "--set", "analysis.type=frequency_sweep",
                    "--set", "analysis.frequency_from=100", "--set", "analysis.frequency_to=200", "--set",
                    "analysis.first_step=1e-4", "--set", "analysis.largest_step=1e-4", "--set",
                    "analysis.max_points=1000000"},
-                  WAVEBALANCE_COMMAND);
-  ASSERT_TRUE(wait_until(
-      [&] { return read_file(folder / "stderr").find("frequency sweep: step ") != std::string::npos; }));
+                  WAVEBALANCE_COMMAND, &terminal);
+  ASSERT_TRUE(
+      wait_until([&] { return terminal.text().find("frequency sweep: step ") != std::string::npos; }));
   command.send(SIGINT);
   const Outcome outcome = command.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;

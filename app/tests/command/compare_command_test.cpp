@@ -131,11 +131,12 @@ TEST(CommandCompare, ReplacesNoFileThatNoRecordListsAndNotItsScene) {
 
 TEST(CommandCompare, InterruptedWritesWhatWasMeasuredSoFar) {
   const TemporaryFolder folder;
+  Terminal terminal;
   Command command(
       folder,
       {"compare", folder.write("case.toml", bar_scene), "--output", folder / "out", "--budget", "600"},
-      WAVEBALANCE_COMMAND);
-  for (int i = 0; i < 1200 && read_file(folder / "stderr").find(" functions") == std::string::npos; ++i)
+      WAVEBALANCE_COMMAND, &terminal);
+  for (int i = 0; i < 1200 && terminal.text().find(" functions") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   command.send(SIGINT);
   const Outcome outcome = command.wait();
@@ -149,12 +150,13 @@ TEST(CommandCompare, InterruptedWritesWhatWasMeasuredSoFar) {
 
 TEST(CommandCompare, OfSweepsOnTwoThreadsInterruptedWritesWhatWasMeasuredSoFar) {
   const TemporaryFolder folder;
+  Terminal terminal;
   Command command(folder,
                   {"compare", folder.write("case.toml", bar_scene), "--output", folder / "out", "--budget",
                    "600", "--threads", "2", "--set", "analysis.type=frequency_sweep", "--set",
                    "analysis.frequency_from=100", "--set", "analysis.frequency_to=110"},
-                  WAVEBALANCE_COMMAND);
-  for (int i = 0; i < 1200 && read_file(folder / "stderr").find(" functions") == std::string::npos; ++i)
+                  WAVEBALANCE_COMMAND, &terminal);
+  for (int i = 0; i < 1200 && terminal.text().find("64 functions") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   command.send(SIGINT);
   const Outcome outcome = command.wait();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "temporary_folder.hpp"
+#include "terminal.hpp"
 #include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {
@@ -23,11 +24,15 @@ struct Outcome {
   std::string errors;
 };
 
-/// The command with its streams in files of `folder`.
+/// The command with its streams in files of `folder`, or with its errors on a terminal, where progress shows
+/// after half a second rather than five.
 class Command {
  public:
-  Command(const TemporaryFolder& folder, std::vector<std::string> arguments, const std::string& program)
-      : output_(folder / "stdout"), errors_(folder / "stderr") {
+  Command(const TemporaryFolder& folder, std::vector<std::string> arguments, const std::string& program,
+          Terminal* terminal = nullptr)
+      : output_(folder / "stdout"),
+        errors_(terminal ? std::filesystem::path(terminal->path()) : folder / "stderr"),
+        terminal_(terminal) {
     arguments.insert(arguments.begin(), program);
     std::vector<char*> pointers;
     for (auto& argument : arguments) pointers.push_back(argument.data());
@@ -35,7 +40,8 @@ class Command {
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_addopen(&actions, 1, output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::posix_spawn_file_actions_addopen(&actions, 2, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::posix_spawn_file_actions_addopen(&actions, 2, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY,
+                                       0644);
     EXPECT_EQ(::posix_spawnp(&child_, pointers[0], &actions, nullptr, pointers.data(), environ), 0);
     ::posix_spawn_file_actions_destroy(&actions);
   }
@@ -51,14 +57,16 @@ class Command {
   }
 
   Outcome wait() {
+    const std::string shown = terminal_ ? terminal_->whole_text() : "";  // a full terminal stops the command
     int status = 0;
     ::waitpid(child_, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(output_),
-            read_file(errors_)};
+            terminal_ ? shown : read_file(errors_)};
   }
 
  private:
   std::filesystem::path output_, errors_;
+  Terminal* terminal_;
   pid_t child_ = 0;
 };
 

@@ -271,22 +271,24 @@ TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
   LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(), 1e-4 * stiffness.sparseView(),
                         stiffness.sparseView(), Eigen::Vector3d(0, 0, 50), contact_rows({2}, 3)};
   CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
-  const std::vector<AnyContactLaw> laws{TwoSided{}, TwoSided{1e6, -1e-3}, TwoSided{1e4, 1e-3},
-                                        Cubic{},    Cubic{1e11, -1.0},    Cubic{1e11, 1e-3}};
   int solved = 0;
+  const auto solve = [&](const AnyContactLaw& law, double frequency) {
+    problem.set_frequency(frequency);
+    const PeriodicResponse response = forced_response(problem, law, {});
+    if (!response.converged()) return;
+    ++solved;
+    Eigen::VectorXd force(problem.samples()), tangent(problem.samples()), product;
+    ContactLaws(law).evaluate(1, response.displacement, force, tangent);
+    problem.apply(force, product);
+    EXPECT_LE((response.displacement - problem.contact_free_response() + product).norm(),
+              1e-9 * (problem.contact_free_response().norm() + product.norm()));
+  };
+  const std::vector<AnyContactLaw> laws{TwoSided{}, TwoSided{1e4, 1e-3}, Cubic{}, Cubic{1e11, -1.0},
+                                        Cubic{1e11, 1e-3}};
   for (const AnyContactLaw& law : laws)
-    for (const double frequency : {10.0, 20.0, 30.0}) {
-      problem.set_frequency(frequency);
-      const PeriodicResponse response = forced_response(problem, law, {});
-      if (!response.converged()) continue;
-      ++solved;
-      Eigen::VectorXd force(problem.samples()), tangent(problem.samples()), product;
-      ContactLaws(law).evaluate(1, response.displacement, force, tangent);
-      problem.apply(force, product);
-      EXPECT_LE((response.displacement - problem.contact_free_response() + product).norm(),
-                1e-9 * (problem.contact_free_response().norm() + product.norm()));
-    }
-  EXPECT_GE(solved, 12);
+    for (const double frequency : {10.0, 20.0, 30.0}) solve(law, frequency);
+  EXPECT_GE(solved, 13) << "of 15";
+  solve(TwoSided{1e6, -1e-3}, 30.0);  // no strategy converges, which takes them all and a second
 }
 
 }  // namespace

@@ -79,11 +79,12 @@ SettledMotion settled(CondensedProblem& problem, const ContactLaws& laws) {
   return settle(problem, laws, options);
 }
 
-// Between its period doublings at 2.2062 and 2.9737 rad/s the motion of one period is unstable. Both have
-// errors of second order in their steps, 2e-6 here.
+// Between its period doublings at 2.2062 and 2.9737 rad/s the motion of one period is unstable. Near both of
+// them the motion of two periods is nearest to it, and settles most slowly. The balance and the steps have
+// errors of second order, 2e-6 here.
 TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheMotionThatItSettlesTo) {
   const ContactDynamics dynamics(driven_oscillator);
-  for (const double omega : {2.25, 2.5, 2.7, 2.9}) {
+  for (const double omega : {2.25, 2.9}) {
     auto problem = problem_of(testing::fourier_pair(253, 2048), driven_oscillator, 2, omega / two_pi);
     const auto response = subharmonic_response(problem, hard_stop, &dynamics, {});
     ASSERT_TRUE(response.converged());
@@ -115,15 +116,13 @@ TEST(SubharmonicResponse, IsFoundFromAPerturbationWhereItIsUnstable) {
   testing::ExponentialLaw law = testing::jl14_case_2.law;
   law.start = 1e-4;
   const ContactDynamics dynamics(bar);
-  for (const double frequency : {2845.0, 2850.0}) {
-    auto problem = problem_of(testing::fourier_pair(125, 1024), bar, 2, frequency);
-    const auto response = subharmonic_response(problem, law, &dynamics, {});
-    ASSERT_TRUE(response.converged());
-    EXPECT_EQ(motion_periods(problem, response), 2) << frequency;
-    EXPECT_EQ(response.strategy, Strategy::perturbation);
-    EXPECT_NE(response.attractor_periods, 2);
-    EXPECT_EQ(unstable_multipliers(dynamics, problem, law, response).count, 1);
-  }
+  auto problem = problem_of(testing::fourier_pair(125, 1024), bar, 2, 2850.0);
+  const auto response = subharmonic_response(problem, law, &dynamics, {});
+  ASSERT_TRUE(response.converged());
+  EXPECT_EQ(motion_periods(problem, response), 2);
+  EXPECT_EQ(response.strategy, Strategy::perturbation);
+  EXPECT_NE(response.attractor_periods, 2);
+  EXPECT_EQ(unstable_multipliers(dynamics, problem, law, response).count, 1);
 }
 
 // No motion of three periods is near: what is found is that of one period, and its record can say so.
