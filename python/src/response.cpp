@@ -34,7 +34,7 @@ solvers::PeriodicResponse singular_response(int samples, double frequency) {
   response.residual = solvers::missing;
   response.displacement = Eigen::VectorXd::Constant(samples, response.residual);
   response.contact_force = response.displacement;
-  response.held_force = response.displacement;
+  response.force_on_held_structure = response.displacement;
   return response;
 }
 

@@ -147,12 +147,12 @@ double law_or_obstacle_violation(const Scene& scene, const solvers::Motion& cont
 /// In the force form the law holds at w = v - f / epsilon, and v - u is f / epsilon for all weighting
 /// functions.
 double complementarity(const Scene& scene, const app::Response& response) {
-  if (response.regularization.size() == 0) return law_or_obstacle_violation(scene, response.contacts);
+  if (response.series_flexibility.size() == 0) return law_or_obstacle_violation(scene, response.contacts);
   const solvers::TimePair pair = app::make_pair(scene.time);
   const Eigen::MatrixXcd unknown = response.unknown_coefficients.transpose(),
                          motion = coefficients(pair, response.contacts.displacement);
   const Eigen::MatrixXcd yielded =
-      response.regularization.asDiagonal() * projected(pair, response.contacts.force);
+      response.series_flexibility.asDiagonal() * projected(pair, response.contacts.force);
   double worst = 0.0, scale = 0.0;
   for (int k = 0; k < pair.solved_size(); ++k) {
     const auto symbol = pair.symbol(0)[k];
@@ -164,7 +164,7 @@ double complementarity(const Scene& scene, const app::Response& response) {
   solvers::Motion held = response.contacts;
   solvers::MotionEvaluator evaluate(pair.trial(), static_cast<int>(held.points()));
   held.displacement = evaluate(response.unknown_coefficients, scene.forcing.frequency).displacement -
-                      response.regularization.asDiagonal() * held.force;
+                      response.series_flexibility.asDiagonal() * held.force;
   return std::max(scale > 0.0 ? worst / scale : 0.0, law_or_obstacle_violation(scene, held));
 }
 

@@ -37,7 +37,7 @@ struct Misses {
       const int contact = l / other.points();
       const double force = response.contact_force[l];
       double held = response.unknown[l];
-      if (response.regularization.size() > 0) held -= response.regularization[contact] * force;
+      if (response.series_flexibility.size() > 0) held -= response.series_flexibility[contact] * force;
       law = std::max({law, force - drawn.laws[contact].force(held + near),
                       drawn.laws[contact].force(held - near) - force});
     }

@@ -131,7 +131,7 @@ class Oracle {
     for (int c = 0; c < gaps.size(); ++c) {
       const Eigen::VectorXd force = rigid.contact_force.segment(c * points, points);
       const Eigen::VectorXd held =
-          rigid.unknown.segment(c * points, points) - rigid.regularization[c] * force;
+          rigid.unknown.segment(c * points, points) - rigid.series_flexibility[c] * force;
       const auto law = solvers::complementarity(held, force, Eigen::VectorXd::Constant(1, gaps[c]));
       EXPECT_LE(law.max_penetration, tolerance * size);
       EXPECT_GE(law.min_force, 0.0);

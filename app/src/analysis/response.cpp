@@ -49,7 +49,7 @@ void solve_law(const Scene& scene, const StructureModel& model, const ResponseOp
   solver.stay_near_guess = options.stay_near_guess;
   solvers::ContactProblem problem = compose_problem(scene, model);
   const auto found = problem.respond(scene.forcing.frequency, solver, {options.guess, options.guess_force});
-  note_solution(result, problem.condensed(), found, scene, model);
+  copy_solution(result, problem.condensed(), found, scene, model);
   result.start_distance = relative_distance(found.displacement, options.guess);
   note_motion(problem, found, scene, model, options, result);
 }
@@ -124,7 +124,7 @@ solvers::ShootingResult shot(const Scene& scene, const StructureModel& model,
 
 }  // namespace
 
-void note_solution(Response& result, solvers::CondensedProblem& problem,
+void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model) {
   result.converged = result.moves = found.converged();
   result.status = to_string(found.status);
@@ -135,11 +135,11 @@ void note_solution(Response& result, solvers::CondensedProblem& problem,
   result.periods = solvers::load_periods(problem);
   result.motion_periods = solvers::motion_periods(problem, found);
   if (result.periods > 1) result.change_after_one = solvers::change_after(problem, found, 1);
-  const bool force_form = found.regularization.size() > 0;
+  const bool force_form = found.series_flexibility.size() > 0;
   result.form = to_string(force_form ? solvers::ContactForm::force : solvers::ContactForm::displacement);
   if (force_form) {
     result.unknown_coefficients = found.unknown_coefficients;
-    result.regularization = found.regularization;
+    result.series_flexibility = found.series_flexibility;
   }
   result.condition = std::max(problem.condition(), found.condition);
   result.rounding_error = found.rounding_error;

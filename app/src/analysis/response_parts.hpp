@@ -8,7 +8,7 @@
 namespace wavebalance::app {
 
 /// Sets what `result` says of a response of a scene's problem, motions apart.
-void note_solution(Response& result, solvers::CondensedProblem& problem,
+void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
 
 /// `time` with the pair, functions and points that a response to a tolerance chose.

@@ -41,7 +41,7 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
     return make_problem(sized, model);
   };
   auto found = solvers::response_to_tolerance(make, laws, refinement_options(chosen, options));
-  note_solution(result, *found.problem, found.response, scene, model);
+  copy_solution(result, *found.problem, found.response, scene, model);
   result.converged = found.converged();
   result.status = to_string(found.status);
   result.iterations = 0;

@@ -50,8 +50,8 @@ std::string method_title(const Scene& scene) {
 
 std::string frequency_text(double value) { return cell_text(value) + " Hz"; }
 
-/// The value that closes the period, so that curves end at 1.
-Eigen::VectorXd closed(const Eigen::VectorXd& values) {
+/// With the first value again at the end of the period, so that curves end at 1.
+Eigen::VectorXd with_first_value_repeated(const Eigen::VectorXd& values) {
   Eigen::VectorXd result(values.size() + 1);
   result << values, values[0];
   return result;
@@ -71,7 +71,7 @@ void add_motion(Figure& figure, const std::string& quantity, const std::string& 
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
   const auto points = static_cast<Eigen::Index>(values.size());
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(points + 1, 0.0, 1.0);
-  Series series("", time, closed(scale.factor * values));
+  Series series("", time, with_first_value_repeated(scale.factor * values));
   if (!response.converged) {
     series.colour = Colour::grey;
     series.dash = Dash::dashed;

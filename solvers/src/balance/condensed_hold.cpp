@@ -27,8 +27,9 @@ Eigen::VectorXd CondensedProblem::rigid_position(const Eigen::VectorXd& unknown,
   return rigid_directions().transpose() * mean;
 }
 
-Eigen::VectorXd CondensedProblem::held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
-                                             const Eigen::VectorXd& flexibility) const {
+Eigen::VectorXd CondensedProblem::force_on_held_structure(const Eigen::VectorXd& force,
+                                                          const Eigen::VectorXd& unknown,
+                                                          const Eigen::VectorXd& flexibility) const {
   if (!is_free()) return force;
   const Eigen::VectorXd springs = hold_->match * hold_->held.stiffness *
                                   (rigid_directions() * rigid_position(unknown, force, flexibility));

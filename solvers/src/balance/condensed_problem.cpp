@@ -162,7 +162,9 @@ Eigen::VectorXd CondensedProblem::contact_compliance() const {
   return median_compliance(pair_.solved_size() > 2 ? 3 : 1);
 }
 
-Eigen::VectorXd CondensedProblem::brief_compliance() const { return median_compliance(pair_.solved_size()); }
+Eigen::VectorXd CondensedProblem::high_frequency_compliance() const {
+  return median_compliance(pair_.solved_size());
+}
 
 // Samples of the motions whose coefficients have the columns of `spectra` over translates.
 void CondensedProblem::synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples) {

@@ -54,18 +54,18 @@ void require_massless_rigid_contacts(const LinearStructure& structure, const Con
       "these contacts, the mass redistributed, or a stiff linear law");
 }
 
-Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,
-                                       ContactForm form) {
+Eigen::VectorXd contact_series_flexibility(const CondensedProblem& problem, const ContactLaws& laws,
+                                           ContactForm form) {
   const bool rigid = !laws.have_finite_force();
   if (form == ContactForm::displacement) {
     if (!rigid) return {};
     throw std::invalid_argument(
-        "contact_regularization: a rigid law has no force at a displacement; take the force form");
+        "contact_series_flexibility: a rigid law has no force at a displacement; take the force form");
   }
   if (!laws.have_force_form()) {
     if (form == ContactForm::automatic && !rigid) return {};
     throw std::invalid_argument(
-        "contact_regularization: a law acts below its gap without being monotone, or depends on the velocity; it "
+        "contact_series_flexibility: a law acts below its gap without being monotone, or depends on the velocity; it "
         "is solved in the displacement form, and not beside a rigid law");
   }
   if (rigid) require_massless_rigid_contacts(problem.structure(), laws);
@@ -74,7 +74,7 @@ Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const Co
   for (int c = 0; c < problem.contacts() && !needed && laws.unilateral(); ++c)
     needed = compliance[c] * working_stiffness(laws[c], free_of(problem, c), compliance[c]) > stiff;
   if (!needed) return {};
-  return (2.0 * problem.brief_compliance()).cwiseMin(compliance / relative_epsilon);
+  return (2.0 * problem.high_frequency_compliance()).cwiseMin(compliance / relative_epsilon);
 }
 
 }  // namespace wavebalance::solvers

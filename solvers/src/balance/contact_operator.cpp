@@ -7,15 +7,15 @@
 
 namespace wavebalance::solvers {
 
-ContactOperator::ContactOperator(CondensedProblem& problem, Eigen::VectorXd regularization)
+ContactOperator::ContactOperator(CondensedProblem& problem, Eigen::VectorXd series_flexibility)
     : problem_(&problem),
-      regularization_(std::move(regularization)),
+      series_flexibility_(std::move(series_flexibility)),
       columns_are_current_(static_cast<std::size_t>(problem.contacts()), false) {
-  if (regularization_.size() != 0 && regularization_.size() != problem.contacts())
-    throw std::invalid_argument("ContactOperator: there are " + std::to_string(regularization_.size()) +
+  if (series_flexibility_.size() != 0 && series_flexibility_.size() != problem.contacts())
+    throw std::invalid_argument("ContactOperator: there are " + std::to_string(series_flexibility_.size()) +
                                 " flexibilities; give none or " + std::to_string(problem.contacts()) +
                                 ", one per contact");
-  if (!regularization_.allFinite() || (regularization_.array() < 0.0).any())
+  if (!series_flexibility_.allFinite() || (series_flexibility_.array() < 0.0).any())
     throw std::invalid_argument("ContactOperator: every flexibility must be at least 0 m/N and finite");
 }
 
@@ -29,7 +29,7 @@ void ContactOperator::follow_problem() {
   kernel_ = problem_->compliance();
   for (int c = 0; c < problem_->contacts(); ++c)
     kernel_.col(c + problem_->contacts() * c).head(pair.solved_size()) -=
-        regularization_[c] * pair.symbol(0).head(pair.solved_size()).cwiseInverse();
+        series_flexibility_[c] * pair.symbol(0).head(pair.solved_size()).cwiseInverse();
 }
 
 const Eigen::MatrixXcd& ContactOperator::kernel() {
@@ -83,12 +83,12 @@ const Eigen::MatrixXd& ContactOperator::columns(std::span<const int> wanted) {
 
 Eigen::VectorXd ContactOperator::rigid_position(const Eigen::VectorXd& unknown,
                                                 const Eigen::VectorXd& force) const {
-  return problem_->rigid_position(unknown, force, regularization_);
+  return problem_->rigid_position(unknown, force, series_flexibility_);
 }
 
-Eigen::VectorXd ContactOperator::held_force(const Eigen::VectorXd& force,
-                                            const Eigen::VectorXd& unknown) const {
-  return problem_->held_force(force, unknown, regularization_);
+Eigen::VectorXd ContactOperator::force_on_held_structure(const Eigen::VectorXd& force,
+                                                         const Eigen::VectorXd& unknown) const {
+  return problem_->force_on_held_structure(force, unknown, series_flexibility_);
 }
 
 Eigen::MatrixXcd ContactOperator::unknown_coefficients(const Eigen::VectorXd& force,

@@ -44,8 +44,8 @@ int rest_piece_of(const AnyContactLaw& law, const std::vector<LawKink>& kinks) {
 
 }  // namespace
 
-ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd regularization)
-    : operator_(problem, std::move(regularization)),
+ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd series_flexibility)
+    : operator_(problem, std::move(series_flexibility)),
       laws_(std::move(laws)),
       position_(problem.is_free() ? std::make_unique<RigidPosition>() : nullptr),
       rates_(laws_.depend_on_velocity() ? std::make_unique<RateMap>(problem.pair()) : nullptr),
@@ -56,7 +56,7 @@ ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen:
       throw std::invalid_argument(
           "ContactSystem: the force of a law depends on the velocity or on the whole period; it is solved in the "
           "displacement form");
-    laws_ = laws_.resolvents(operator_.regularization());
+    laws_ = laws_.resolvents(operator_.series_flexibility());
   }
   for (int c = 0; c < problem.contacts(); ++c) {
     kinks_.push_back(kinks_of(laws_[c]));
@@ -149,8 +149,8 @@ double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
 
 void ContactSystem::set_linear_solver(LinearSolver method) { jacobian_->set_method(method); }
 
-Eigen::VectorXd ContactSystem::held_force() const {
-  return position_ ? operator_.held_force(forces_.force, state_) : forces_.force;
+Eigen::VectorXd ContactSystem::force_on_held_structure() const {
+  return position_ ? operator_.force_on_held_structure(forces_.force, state_) : forces_.force;
 }
 
 bool ContactSystem::factorize_position(bool bordered) {

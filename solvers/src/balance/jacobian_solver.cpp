@@ -29,7 +29,7 @@ ComplianceOperator compliance_of(ContactOperator& contact) {
 void JacobianSolver::choose(const ContactOperator& contact, const PeriodSlopes& slopes) {
   active_.set(slopes, rates_, contact.problem().frequency());
   // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
-  const bool decays = contact.regularization().size() == 0;
+  const bool decays = contact.series_flexibility().size() == 0;
   const Eigen::Index limit = !decays                             ? largest_dense
                              : contact.problem().contacts() == 1 ? crossover
                                                                  : crossover_of_several;

@@ -49,8 +49,8 @@ bool is_stiff(const AnyContactLaw& law, double gap, double compliance) {
   return law.unilateral() && law.tangent(law.gap() + 0.1 * gap) * compliance > many_times;
 }
 
-// 1 / epsilon as contact_regularization() has it, from the static compliance of all modes. Newton's method
-// does not find the first contacts of a stiff law in the displacement form.
+// 1 / epsilon as contact_series_flexibility() has it, from the static compliance of all modes. Newton's
+// method does not find the first contacts of a stiff law in the displacement form.
 Eigen::VectorXd flexibility_of(const ModalModel& model, const ContactLaws& laws, ContactForm form) {
   constexpr double relative_epsilon = 30.0;
   const Eigen::VectorXd compliance = model.contact_shapes.cwiseAbs2() * model.omega_squared.cwiseInverse();

@@ -95,7 +95,7 @@ class Crossings {
  public:
   Crossings(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve, double wanted)
       : problem_(problem),
-        system_(problem, laws, curve.regularization),
+        system_(problem, laws, curve.series_flexibility),
         parameter_(curve_parameter(curve.parameter)),
         path_(system_, parameter_, scales_of(curve)),
         wanted_(wanted) {}
@@ -140,7 +140,7 @@ class Crossings {
     response.condition = result.condition;
     response.residual_history = result.residual_history;
     if (response.converged()) response.strategy = Strategy::newton;
-    response.rounding_error = problem_.rounding_error(response.held_force);
+    response.rounding_error = problem_.rounding_error(response.force_on_held_structure);
     return response;
   }
 
@@ -157,7 +157,7 @@ PeriodicResponse curve_response(CondensedProblem& problem, const ContactLaws& la
                                 const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown) {
   require_unknown(problem, unknown);
   set_frequency_of(curve, problem);
-  ContactSystem system(problem, laws, curve.regularization);
+  ContactSystem system(problem, laws, curve.series_flexibility);
   curve_parameter(curve.parameter).set(system, value);
   return response_at(system, unknown);
 }

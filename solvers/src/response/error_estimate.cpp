@@ -104,8 +104,8 @@ double point_compliance(CondensedProblem& problem, int contact) {
 
 double missed_contacts(CondensedProblem& problem, const PeriodicResponse& response, const ContactLaws& laws) {
   const int points = problem.points();
-  const bool force_form = response.regularization.size() > 0;
-  const ContactLaws of_unknown = force_form ? laws.resolvents(response.regularization) : laws;
+  const bool force_form = response.series_flexibility.size() > 0;
+  const ContactLaws of_unknown = force_form ? laws.resolvents(response.series_flexibility) : laws;
   Eigen::VectorXd pulses = Eigen::VectorXd::Zero(problem.samples()), motion;
   for (int contact = 0; contact < problem.contacts(); ++contact) {
     const Eigen::VectorXd u = response.unknown.segment(contact * points, points);

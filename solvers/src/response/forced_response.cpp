@@ -36,8 +36,8 @@ void require_start(const CondensedProblem& problem, const Start& guess) {
 /// What Newton's method ended with in one form.
 struct Candidate {
   NewtonResult newton;
-  Eigen::VectorXd regularization;  // of its form, see ContactOperator
-  Eigen::VectorXd unknown;         // m, samples() values
+  Eigen::VectorXd series_flexibility;  // of its form, see ContactOperator
+  Eigen::VectorXd unknown;             // m, samples() values
   Strategy strategy = Strategy::none;
   int iterations = 0;  // of all attempts so far
 
@@ -65,18 +65,18 @@ struct Task {
   const ContactLaws& laws;
   const ForcedResponseOptions& options;
 
-  ContactSystem system(const Eigen::VectorXd& regularization) const {
-    return {problem, laws, regularization};
+  ContactSystem system(const Eigen::VectorXd& series_flexibility) const {
+    return {problem, laws, series_flexibility};
   }
 };
 
-Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& regularization) {
-  return detail::unknown_in_form(start.displacement, start.force, regularization);
+Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& series_flexibility) {
+  return detail::unknown_in_form(start.displacement, start.force, series_flexibility);
 }
 
 /// Of a structure that is free to move: near its position, without which no contact may hold it.
 Start balanced_start(const Task& task, bool moving) {
-  const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
+  const Eigen::VectorXd form = contact_series_flexibility(task.problem, task.laws, task.options.form);
   BalancedMotion motion = balanced_motion(task.problem, task.laws, form, moving);
   return {std::move(motion.displacement), std::move(motion.force)};
 }
@@ -93,12 +93,12 @@ Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, 
   return candidate;
 }
 
-Candidate try_newton(const Task& task, const Eigen::VectorXd& regularization, const Start& start,
+Candidate try_newton(const Task& task, const Eigen::VectorXd& series_flexibility, const Start& start,
                      Strategy strategy) {
-  ContactSystem system = task.system(regularization);
+  ContactSystem system = task.system(series_flexibility);
   Candidate candidate;
-  candidate.regularization = regularization;
-  candidate.unknown = unknown_of(start, regularization);
+  candidate.series_flexibility = series_flexibility;
+  candidate.unknown = unknown_of(start, series_flexibility);
   return improve(task, system, std::move(candidate), strategy);
 }
 
@@ -110,10 +110,10 @@ Candidate no_solution() {
 }
 
 /// Follows a residual homotopy from `unknown`.
-Candidate try_homotopy(const Task& task, ContactSystem& system, const Eigen::VectorXd& regularization,
+Candidate try_homotopy(const Task& task, ContactSystem& system, const Eigen::VectorXd& series_flexibility,
                        Eigen::VectorXd unknown, Strategy strategy) {
   Candidate candidate = no_solution();
-  candidate.regularization = regularization;
+  candidate.series_flexibility = series_flexibility;
   candidate.unknown = std::move(unknown);
   ResidualHomotopyOptions homotopy = task.options.continuation;
   homotopy.observer = task.options.observer;
@@ -132,7 +132,7 @@ Candidate try_homotopy(const Task& task, ContactSystem& system, const Eigen::Vec
 
 /// Lowers the obstacles onto the contact-free motion, from the height at which the first touches: at a height
 /// h more than their gaps, u - h solves the balance with the residual -h.
-Candidate try_gap(const Task& task, const Eigen::VectorXd& regularization) {
+Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
   constexpr double above = 1.01;  // at the kink where a contact just touches no tangent is known
   const Eigen::VectorXd& free = task.problem.contact_free_response();
   const Eigen::VectorXd gaps = task.laws.gaps(task.problem.contacts());
@@ -140,30 +140,30 @@ Candidate try_gap(const Task& task, const Eigen::VectorXd& regularization) {
   for (int c = 0; c < task.problem.contacts(); ++c)
     height =
         std::max(height, free.segment(c * task.problem.points(), task.problem.points()).maxCoeff() - gaps[c]);
-  ContactSystem system = task.system(regularization);
-  return try_homotopy(task, system, regularization, free.array() - above * height,
+  ContactSystem system = task.system(series_flexibility);
+  return try_homotopy(task, system, series_flexibility, free.array() - above * height,
                       Strategy::gap_continuation);
 }
 
 /// Raises the load from nothing, at rest, where the residual is that of the whole load.
-Candidate try_load(const Task& task, const Eigen::VectorXd& regularization) {
-  ContactSystem system = task.system(regularization);
-  return try_homotopy(task, system, regularization, Eigen::VectorXd::Zero(task.problem.samples()),
+Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) {
+  ContactSystem system = task.system(series_flexibility);
+  return try_homotopy(task, system, series_flexibility, Eigen::VectorXd::Zero(task.problem.samples()),
                       Strategy::load_continuation);
 }
 
 /// The forms in which obstacles are lowered: that of the options and, where it is left open, the force form.
 std::vector<Eigen::VectorXd> forms_of(const Task& task) {
-  std::vector<Eigen::VectorXd> forms{contact_regularization(task.problem, task.laws, task.options.form)};
+  std::vector<Eigen::VectorXd> forms{contact_series_flexibility(task.problem, task.laws, task.options.form)};
   const bool either = task.options.form == ContactForm::automatic && task.laws.have_force_form();
   if (either && forms.front().size() == 0)
-    forms.push_back(contact_regularization(task.problem, task.laws, ContactForm::force));
+    forms.push_back(contact_series_flexibility(task.problem, task.laws, ContactForm::force));
   return forms;
 }
 
-Candidate try_residual(const Task& task, const Eigen::VectorXd& regularization, const Start& start) {
-  ContactSystem system = task.system(regularization);
-  return try_homotopy(task, system, regularization, unknown_of(start, regularization),
+Candidate try_residual(const Task& task, const Eigen::VectorXd& series_flexibility, const Start& start) {
+  ContactSystem system = task.system(series_flexibility);
+  return try_homotopy(task, system, series_flexibility, unknown_of(start, series_flexibility),
                       Strategy::residual_homotopy);
 }
 
@@ -198,7 +198,7 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
 }
 
 Candidate solve(const Task& task, const Start& first, bool guessed, int& attractor_periods) {
-  const Eigen::VectorXd form = contact_regularization(task.problem, task.laws, task.options.form);
+  const Eigen::VectorXd form = contact_series_flexibility(task.problem, task.laws, task.options.form);
   Candidate best = try_newton(task, form, first, Strategy::newton);
   if (best.ended() || !task.options.fallbacks) return best;
   if (guessed && task.options.stay_near_guess)
@@ -213,15 +213,16 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
 /// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.
 double rounding_error_of(CondensedProblem& problem, ContactSystem& system, const PeriodicResponse& response) {
   constexpr double negligible = 1e-6;
-  const double at_these_forces = problem.rounding_error(response.held_force);
+  const double at_these_forces = problem.rounding_error(response.force_on_held_structure);
   if (!response.converged() || !(at_these_forces > negligible) || !system.factorize()) return at_these_forces;
   Eigen::VectorXd change;
-  if (!system.solve(problem.rounding_motion(response.held_force), change)) return at_these_forces;
+  if (!system.solve(problem.rounding_motion(response.force_on_held_structure), change))
+    return at_these_forces;
   return relative_to(safe_norm(response.unknown), safe_norm(change));
 }
 
 PeriodicResponse response_of(const Task& task, Candidate candidate) {
-  ContactSystem system = task.system(candidate.regularization);
+  ContactSystem system = task.system(candidate.series_flexibility);
   PeriodicResponse response = response_at(system, std::move(candidate.unknown));
   response.status = candidate.newton.status;
   response.residual = candidate.newton.residual;
@@ -258,7 +259,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
     candidate = no_solution();
     candidate.newton.status = SolveStatus::unbalanced;
     candidate.unknown = problem.contact_free_response();
-    candidate.regularization = contact_regularization(problem, laws, options.form);
+    candidate.series_flexibility = contact_series_flexibility(problem, laws, options.form);
   } else {
     const bool places = problem.is_free() && guess.size() == 0;
     // A static load presses contacts that may last: the structure then moves much less than without contact.

@@ -124,9 +124,9 @@ bool static_load_is_balanced(const CondensedProblem& problem, const ContactLaws&
 }
 
 BalancedMotion balanced_motion(const CondensedProblem& problem, const ContactLaws& laws,
-                               const Eigen::VectorXd& regularization, bool moving) {
-  const bool forces = regularization.size() > 0;
-  const ContactLaws own = forces ? laws.resolvents(regularization) : laws;
+                               const Eigen::VectorXd& series_flexibility, bool moving) {
+  const bool forces = series_flexibility.size() > 0;
+  const ContactLaws own = forces ? laws.resolvents(series_flexibility) : laws;
   MeanForce mean(problem, own, moving);
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(problem.rigid_directions().cols());
   const double length = std::max(problem.contact_free_response().cwiseAbs().maxCoeff(), laws.largest_gap());
@@ -139,7 +139,7 @@ BalancedMotion balanced_motion(const CondensedProblem& problem, const ContactLaw
   motion.displacement = mean.unknown();
   for (int c = 0; c < problem.contacts() && forces; ++c)
     motion.displacement.segment(c * problem.points(), problem.points()) -=
-        regularization[c] * motion.force.segment(c * problem.points(), problem.points());
+        series_flexibility[c] * motion.force.segment(c * problem.points(), problem.points());
   return motion;
 }
 

@@ -16,9 +16,9 @@ struct BalancedMotion {
   Eigen::VectorXd force;         ///< N
 };
 
-/// `regularization` as of ContactOperator; rigid laws need it. Not `moving` is the
+/// `series_flexibility` as of ContactOperator; rigid laws need it. Not `moving` is the
 /// mean. Each rigid motion in turn by bisection. O(C N) per step.
 BalancedMotion balanced_motion(const CondensedProblem& problem, const ContactLaws& laws,
-                               const Eigen::VectorXd& regularization, bool moving);
+                               const Eigen::VectorXd& series_flexibility, bool moving);
 
 }  // namespace wavebalance::solvers

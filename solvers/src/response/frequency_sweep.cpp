@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "continuation/milestones.hpp"
+#include "continuation/return_detector.hpp"
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -100,9 +100,9 @@ class Sweep {
     result_.rounding_error = first.rounding_error;
     if (first.status == SolveStatus::cancelled) result_.status = SweepStatus::cancelled;
     if (!first.converged()) return;
-    system_ = ContactSystem(problem_, laws_, first.regularization);  // in the form of the first point
-    result_.regularization = first.regularization;
-    result_.form = first.regularization.size() > 0 ? ContactForm::force : ContactForm::displacement;
+    system_ = ContactSystem(problem_, laws_, first.series_flexibility);  // in the form of the first point
+    result_.series_flexibility = first.series_flexibility;
+    result_.form = first.series_flexibility.size() > 0 ? ContactForm::force : ContactForm::displacement;
     follow_until_open(first_point(first), scaled_options(first));
   }
 
@@ -118,10 +118,10 @@ class Sweep {
     return point;
   }
 
-  // Follows the curve from the first point. Where it returns to a milestone, it is followed again from the
-  // milestone before, each time with shorter steps.
+  // Follows the curve from the first point. Where it returns to a point that the detector keeps, it is
+  // followed again from the kept point before, each time with shorter steps.
   void follow_until_open(CurvePoint from, ArcLengthOptions arc) {
-    Milestones milestones(arc);
+    ReturnDetector detector(arc);
     turns_at_point_.clear();
     while (true) {
       ArcLength curve(system_, curve_parameter(parameter_), arc);
@@ -130,12 +130,12 @@ class Sweep {
         result_.status = SweepStatus::cancelled;
         return;
       }
-      result_.status = follow(curve, milestones);
+      result_.status = follow(curve, detector);
       if (result_.status != SweepStatus::closed || !shorten(arc)) return;
       const std::size_t before = returned_to_ > 0 ? returned_to_ - 1 : 0;
-      milestones.resume(before);
-      from = milestones[before].point;
-      forget_points_after(milestones[before].count);
+      detector.forget_after(before);
+      from = detector[before].point;
+      forget_points_after(detector[before].count);
     }
   }
 
@@ -189,10 +189,10 @@ class Sweep {
     return least;
   }
 
-  SweepStatus follow(ArcLength& curve, Milestones& milestones) {
+  SweepStatus follow(ArcLength& curve, ReturnDetector& detector) {
     const double direction = options_.to > options_.from ? 1.0 : -1.0;
     while (static_cast<int>(result_.points.size()) < options_.max_points) {
-      milestones.pass(curve.point(), static_cast<int>(result_.points.size()));
+      detector.add(curve.point(), static_cast<int>(result_.points.size()));
       if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
       if (start_ && start_->ends && start_->ends(curve.previous(), curve.point())) return SweepStatus::ended;
       note_turning_point(curve);
@@ -204,10 +204,10 @@ class Sweep {
         if (curve.locate([end](const CurvePoint& p) { return p.parameter - end; }, last)) record(last);
         return ahead >= 0.0 ? SweepStatus::reached_end : SweepStatus::returned;
       }
-      const std::optional<std::size_t> milestone = milestones.returned(curve);
+      const std::optional<std::size_t> kept = detector.returned_to(curve);
       if (!record(curve.point())) return SweepStatus::cancelled;
-      if (milestone) {
-        returned_to_ = *milestone;
+      if (kept) {
+        returned_to_ = *kept;
         return SweepStatus::closed;
       }
       if (has_grown_past_bounds()) return SweepStatus::unbounded;
@@ -237,7 +237,8 @@ class Sweep {
   SweepPoint measure(const CurvePoint& point) {
     SweepPoint measured = sweep_point(system_, evaluator_, point, parameter_);
     result_.condition = std::max(result_.condition, problem_.condition());
-    result_.rounding_error = std::max(result_.rounding_error, problem_.rounding_error(system_.held_force()));
+    result_.rounding_error =
+        std::max(result_.rounding_error, problem_.rounding_error(system_.force_on_held_structure()));
     if (!options_.keep_unknowns) measured.unknown.resize(0);
     return measured;
   }
@@ -263,7 +264,7 @@ class Sweep {
   double largest_free_ = 0.0;
   double step_share_ = 1.0;                  // factor on the largest step
   std::vector<std::size_t> turns_at_point_;  // number of turning points up to each point
-  std::size_t returned_to_ = 0;              // the milestone that a closed curve came back to
+  std::size_t returned_to_ = 0;              // the kept point that a closed curve came back to
 };
 
 }  // namespace
@@ -284,7 +285,7 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
   CondensedProblem& problem = system.problem();
   curve_parameter(parameter).set(system, point.parameter);
   system.evaluate(point.displacement);
-  const Eigen::MatrixXcd coefficients = problem.coefficients(system.held_force());
+  const Eigen::MatrixXcd coefficients = problem.coefficients(system.force_on_held_structure());
   SweepPoint measured;
   measured.frequency = problem.load_frequency();
   measured.load_scale = problem.load_scale();

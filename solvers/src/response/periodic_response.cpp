@@ -27,12 +27,13 @@ PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown) {
   response.frequency = problem.frequency();
   response.load_scale = problem.load_scale();
   response.contact_force = system.force();
-  response.held_force = system.held_force();
-  response.coefficients = system.problem().coefficients(response.held_force);
+  response.force_on_held_structure = system.force_on_held_structure();
+  response.coefficients = system.problem().coefficients(response.force_on_held_structure);
   response.unknown_coefficients = system.unknown_coefficients();
-  response.regularization = system.regularization();
-  response.displacement =
-      response.regularization.size() == 0 ? unknown : system.problem().displacement(response.held_force);
+  response.series_flexibility = system.series_flexibility();
+  response.displacement = response.series_flexibility.size() == 0
+                              ? unknown
+                              : system.problem().displacement(response.force_on_held_structure);
   response.unknown = std::move(unknown);
   return response;
 }

@@ -162,7 +162,7 @@ class Refinement {
                                        RefinementLevel& level) const {
     const PeriodicResponse& before = result_.response;
     const Eigen::VectorXd force =
-        laws_.resolvents(before.regularization)
+        laws_.resolvents(before.series_flexibility)
             .force(by_contact(prolonged(before.unknown_coefficients, problem.points()), problem.contacts()))
             .reshaped<Eigen::RowMajor>();
     ForcedResponseOptions solver = options_.solver;
@@ -196,7 +196,7 @@ class Refinement {
       return from_contact_free(problem, level, true);
     }
     const Eigen::VectorXd before = prolonged(result_.response.coefficients, problem.points());
-    const bool force_form = result_.response.regularization.size() > 0;
+    const bool force_form = result_.response.series_flexibility.size() > 0;
     PeriodicResponse warm =
         force_form ? from_previous_force(problem, before, level) : from_previous(problem, before, level);
     const auto moved = [&](const PeriodicResponse& response) {

@@ -12,8 +12,8 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
                       const ContactLaws& laws, int points) {
   MotionEvaluator evaluate(problem.pair().trial(), points);
   Motion motion = evaluate(response.coefficients, response.frequency);
-  if (response.regularization.size() > 0)
-    motion.force = laws.resolvents(response.regularization)
+  if (response.series_flexibility.size() > 0)
+    motion.force = laws.resolvents(response.series_flexibility)
                        .force(evaluate(response.unknown_coefficients, response.frequency).displacement);
   else
     motion.force = laws.force(motion.displacement, motion.velocity);
@@ -26,7 +26,8 @@ Motion structure_motion(CondensedProblem& problem, const PeriodicResponse& respo
                                 " Hz, but the problem at " + std::to_string(problem.frequency()) +
                                 " Hz; call set_frequency first");
   MotionEvaluator evaluate(problem.pair().trial(), points);
-  return evaluate(problem.full_coefficients(response.held_force).transpose(), problem.frequency());
+  return evaluate(problem.full_coefficients(response.force_on_held_structure).transpose(),
+                  problem.frequency());
 }
 
 Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,

@@ -127,7 +127,7 @@ class Branches {
   Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times, const TimePair& pair) {
     CondensedProblem before = problem_of(parent.periods);
     before.set_load_frequency(from.frequency);
-    ContactSystem system(before, laws_, parent.curve->regularization);
+    ContactSystem system(before, laws_, parent.curve->series_flexibility);
     FloquetOptions how;
     how.stability = options_.stability.stability;
     const double due = times == 2 ? -1.0 : 1.0;
@@ -139,7 +139,7 @@ class Branches {
     if (!nearest || !(std::abs(nearest->multiplier - due) < 0.1)) return {};
     FloquetExponent exact = *nearest;
     exact.multiplier = due;
-    return perturbation(exact, times, pair).unknown(parent.curve->regularization);
+    return perturbation(exact, times, pair).unknown(parent.curve->series_flexibility);
   }
 
   // The first point of a branch: a small multiple of the direction away from the special point, and on the
@@ -148,7 +148,7 @@ class Branches {
              CondensedProblem& problem, const Scales& scales, SweepStart& start) {
     const Eigen::VectorXd way = side * direction(parent, from, times, problem.pair());
     if (way.size() != problem.samples()) return false;
-    ContactSystem system(problem, laws_, parent.curve->regularization);
+    ContactSystem system(problem, laws_, parent.curve->series_flexibility);
     const FrequencyParameter frequency;
     ArcLengthOptions lengths;
     lengths.displacement_scale = scales.displacement;
@@ -221,7 +221,7 @@ class Branches {
 
   // The special points at which a branch begins and ends are points of it, with the counts beside them.
   void add_ends(const Parent& parent, CondensedProblem& problem, Branch& branch) {
-    ContactSystem system(problem, laws_, parent.curve->regularization);
+    ContactSystem system(problem, laws_, parent.curve->series_flexibility);
     TrialEvaluator evaluator(problem.pair().trial(), options_.sweep.output_points * branch.periods, 0);
     const auto point_of = [&](int special_point) {
       const SpecialPoint& from = parent.special_points()[std::size_t(special_point)];

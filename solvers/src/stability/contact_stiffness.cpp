@@ -216,9 +216,9 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
     throw std::invalid_argument("contact_stiffness: the response has " +
                                 std::to_string(response.unknown.size()) + " samples; the problem has " +
                                 std::to_string(problem.samples()));
-  const ContactUnknowns unknowns{response.unknown_coefficients,
-                                 response.unknown.reshaped(problem.points(), problem.contacts()),
-                                 response.regularization, problem.pair().first_sample(), response.frequency};
+  const ContactUnknowns unknowns{
+      response.unknown_coefficients, response.unknown.reshaped(problem.points(), problem.contacts()),
+      response.series_flexibility, problem.pair().first_sample(), response.frequency};
   return contact_stiffness(problem.pair().trial(), laws, unknowns);
 }
 

@@ -80,7 +80,7 @@ class Tracker {
         curve_(curve),
         dynamics_(dynamics),
         options_(options),
-        system_(problem, laws, curve.regularization),
+        system_(problem, laws, curve.series_flexibility),
         path_(system_, curve_parameter(curve.parameter), scales()),
         evaluator_(problem.pair().trial(), options.output_points, 0) {
     if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())

@@ -30,8 +30,8 @@ Eigen::VectorXcd samples(const Eigen::MatrixXcd& harmonics, double angle, int pe
 
 }  // namespace
 
-Eigen::VectorXd Perturbation::unknown(const Eigen::VectorXd& regularization) const {
-  return detail::unknown_in_form(displacement, force, regularization);
+Eigen::VectorXd Perturbation::unknown(const Eigen::VectorXd& series_flexibility) const {
+  return detail::unknown_in_form(displacement, force, series_flexibility);
 }
 
 Perturbation perturbation(const FloquetExponent& exponent, int periods, const TimePair& pair, double phase) {

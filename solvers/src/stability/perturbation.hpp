@@ -12,7 +12,7 @@ struct Perturbation {
   Eigen::VectorXd force;         ///< N
 
   /// What it is in the unknown of a form, see ContactOperator.
-  Eigen::VectorXd unknown(const Eigen::VectorXd& regularization) const;
+  Eigen::VectorXd unknown(const Eigen::VectorXd& series_flexibility) const;
 };
 
 /// The perturbation of an exponent that was found for a motion of one period, at the points of a pair whose

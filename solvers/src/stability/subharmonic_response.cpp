@@ -80,7 +80,7 @@ class Search {
   std::optional<PeriodicResponse> along_curve(const PeriodicResponse& response, const Perturbation& way) {
     const double wanted = response.frequency;
     const int before = periods(response);
-    const Eigen::VectorXd direction = way.unknown(response.regularization);
+    const Eigen::VectorXd direction = way.unknown(response.series_flexibility);
     const double rms = response.unknown.norm() / std::sqrt(double(response.unknown.size()));
     std::optional<PeriodicResponse> found;
     for (const double size : {0.03, 0.1, -0.03, -0.1}) {
@@ -91,7 +91,7 @@ class Search {
           problem_, laws_, towards(load * start->response.frequency, load * wanted, rms), *start);
       if (curve.status != SweepStatus::reached_end) continue;
       problem_.set_frequency(wanted);
-      ContactSystem system(problem_, laws_, response.regularization);
+      ContactSystem system(problem_, laws_, response.series_flexibility);
       PeriodicResponse last = response_at(system, curve.points.back().unknown);
       last.strategy = Strategy::perturbation;
       if (periods(last) > before) found = std::move(last);
@@ -104,7 +104,7 @@ class Search {
   // The solution in the plane perpendicular to `change` through its end, at whatever frequency.
   std::optional<SweepStart> beside(const PeriodicResponse& response, const Eigen::VectorXd& change,
                                    double rms) {
-    ContactSystem system(problem_, laws_, response.regularization);
+    ContactSystem system(problem_, laws_, response.series_flexibility);
     const FrequencyParameter frequency;
     ArcLengthOptions lengths;
     lengths.displacement_scale = rms;

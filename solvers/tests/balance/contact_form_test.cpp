@@ -107,7 +107,7 @@ TEST(RigidContact, OfTheBarConvergesInDisplacement) {
     CondensedProblem problem = bar_problem(one, testing::fourier_pair(functions, 2 * (functions + 1)));
     const PeriodicResponse response = forced_response(problem, Rigid{one.law.start}, {});
     ASSERT_TRUE(response.converged()) << to_string(response.status);
-    EXPECT_GT(response.regularization.size(), 0);
+    EXPECT_GT(response.series_flexibility.size(), 0);
     EXPECT_LE(response.iterations, 20);
     EXPECT_GE(response.contact_force.minCoeff(), 0.0);
     EXPECT_LE((tip_motion(problem, response) - exact).norm(), bound * exact.norm());
@@ -136,7 +136,7 @@ TEST(RigidContact, DependsOnEpsilonByLessThanTheDiscretisation) {
   const testing::Jl14Case& one = testing::jl14_case_2;
   CondensedProblem problem = bar_problem(one, testing::fourier_pair(127, 256));
   const Eigen::VectorXd chosen =
-      contact_regularization(problem, Rigid{one.law.start}, ContactForm::automatic);
+      contact_series_flexibility(problem, Rigid{one.law.start}, ContactForm::automatic);
   std::vector<Eigen::VectorXd> motions;
   for (const double factor : {1.0, 3.0}) {
     ContactSystem system(problem, Rigid{one.law.start}, factor * chosen);
@@ -186,7 +186,7 @@ TEST(RigidContact, IsSweptWithManyFunctionsInFewPoints) {
   CondensedProblem problem(testing::fourier_pair(511, 2048),
                            testing::massless_tip(testing::jl14_case_2.structure()), testing::cosine_load());
   problem.set_frequency(1275.0);
-  EXPECT_LT(2.0 * problem.brief_compliance()[0], problem.contact_compliance()[0] / 30.0);
+  EXPECT_LT(2.0 * problem.high_frequency_compliance()[0], problem.contact_compliance()[0] / 30.0);
   FrequencySweepOptions options;
   options.from = 1280.0;
   options.to = 1400.0;
@@ -254,12 +254,14 @@ TEST(RigidContact, HasNoMassWhereTheDirectionsReachWhatMovesWithoutIt) {
 
 TEST(ContactForm, RefusesWhatItCannotSolve) {
   CondensedProblem problem = bar_problem(testing::jl14_case_1, testing::fourier_pair(7, 16));
-  EXPECT_THROW(contact_regularization(problem, Rigid{1e-3}, ContactForm::displacement),
+  EXPECT_THROW(contact_series_flexibility(problem, Rigid{1e-3}, ContactForm::displacement),
                std::invalid_argument);
-  EXPECT_THROW(contact_regularization(problem, TwoSided{}, ContactForm::force), std::invalid_argument);
-  EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::automatic).size(),
-            0);
-  EXPECT_EQ(contact_regularization(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::force).size(), 1);
+  EXPECT_THROW(contact_series_flexibility(problem, TwoSided{}, ContactForm::force), std::invalid_argument);
+  EXPECT_EQ(
+      contact_series_flexibility(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::automatic).size(),
+      0);
+  EXPECT_EQ(contact_series_flexibility(problem, testing::LinearContact{1e3, 1e-3}, ContactForm::force).size(),
+            1);
   EXPECT_THROW(ContactOperator(problem, Eigen::VectorXd::Ones(2)), std::invalid_argument);
   EXPECT_THROW(ContactOperator(problem, -Eigen::VectorXd::Ones(1)), std::invalid_argument);
 }

@@ -96,12 +96,14 @@ TEST(StiffContact, WithoutMassApproachesTheRigidObstacle) {
 TEST(StiffContact, TakesTheForceFormBeyondTenThousandTimesTheStructure) {
   CondensedProblem problem = bar_problem();
   const double structure = 70e9 * 25e-4;  // N/m
-  EXPECT_EQ(forced_response(problem, LinearContact{0.5e4 * structure, 1e-3}, {}).regularization.size(), 0);
+  EXPECT_EQ(forced_response(problem, LinearContact{0.5e4 * structure, 1e-3}, {}).series_flexibility.size(),
+            0);
   const PeriodicResponse stiff = forced_response(problem, LinearContact{2e4 * structure, 1e-3}, {});
-  EXPECT_EQ(stiff.regularization.size(), 1);
+  EXPECT_EQ(stiff.series_flexibility.size(), 1);
   ForcedResponseOptions options;
   options.form = ContactForm::displacement;
-  EXPECT_EQ(forced_response(problem, LinearContact{2e4 * structure, 1e-3}, options).regularization.size(), 0);
+  EXPECT_EQ(forced_response(problem, LinearContact{2e4 * structure, 1e-3}, options).series_flexibility.size(),
+            0);
 }
 
 // Load, gap and motion of a stop that is linear in contact scale together.

@@ -167,7 +167,7 @@ TEST(CurveResponses, HoldTheForceOfARigidStop) {
   EXPECT_NEAR(response.contact_force.maxCoeff(), last.max_force, 1e-9 * last.max_force);
   for (const auto& one : responses_at(problem, stop, curve, 0.15)) {
     EXPECT_TRUE(one.converged());
-    EXPECT_EQ(one.regularization.size(), 1);
+    EXPECT_EQ(one.series_flexibility.size(), 1);
   }
 }
 

@@ -133,7 +133,7 @@ TEST(FreeStructure, PressedAgainstAStopHasTheClosedFormForEveryPair) {
     EXPECT_NEAR(response.displacement[l], 0.7 + std::real(amplitude * std::polar(1.0, two_pi * l / 32.0)),
                 1e-10);
   }
-  EXPECT_LT((problem.displacement(response.held_force) - response.displacement).norm(), 1e-9);
+  EXPECT_LT((problem.displacement(response.force_on_held_structure) - response.displacement).norm(), 1e-9);
 }
 
 void expect_time_stepping(const LinearStructure& structure, const ContactLaws& laws, double omega,
@@ -181,8 +181,9 @@ TEST(FreeStructure, MovesInAResponseOfACurveAsItsContactsDo) {
   const PeriodicResponse& response = responses.front();
   problem.set_frequency(response.frequency);
   EXPECT_GT(response.contact_force.maxCoeff(), 0.1);
-  EXPECT_GT((response.held_force - response.contact_force).norm(), 1e-3 * response.contact_force.norm());
-  EXPECT_EQ(response.rounding_error, problem.rounding_error(response.held_force));
+  EXPECT_GT((response.force_on_held_structure - response.contact_force).norm(),
+            1e-3 * response.contact_force.norm());
+  EXPECT_EQ(response.rounding_error, problem.rounding_error(response.force_on_held_structure));
   const Eigen::MatrixXd at_contacts =
       rod.contact_directions * structure_motion(problem, response, 128).displacement;
   const Motion contacts = contact_motion(problem, response, stop, 128);

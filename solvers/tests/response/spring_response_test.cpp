@@ -198,7 +198,7 @@ TEST(SpringResponse, TheForceFormOfAMonotoneSpringHasTheMotionOfTheDisplacementF
         AnyContactLaw(contact::BilinearLaw(0.2, 8.0, 0.3)), AnyContactLaw(contact::CubicLaw(2.0))}) {
     const PeriodicResponse a = forced_response(problem, law, {}), b = forced_response(problem, law, force);
     ASSERT_TRUE(a.converged() && b.converged());
-    EXPECT_GT(b.regularization.size(), 0);
+    EXPECT_GT(b.series_flexibility.size(), 0);
     EXPECT_LE((a.displacement - b.displacement).norm(), 2e-3 * a.displacement.norm());
     const UnstableMultipliers count = unstable_multipliers(problem, law, b);
     EXPECT_EQ(count.status, StabilityStatus::converged);

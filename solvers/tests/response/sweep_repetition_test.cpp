@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "continuation/milestones.hpp"
+#include "continuation/return_detector.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -77,12 +77,13 @@ TEST(SweepRepetition, AJumpToAClosedCurveIsFollowedAgainWithShorterSteps) {
     }
 }
 
-// Advances until the curve returns to a milestone; none within `most` points.
-std::optional<std::size_t> returned_within(ArcLength& curve, Milestones& milestones, int most, int& points) {
+// Advances until the curve returns to a kept point; none within `most` points.
+std::optional<std::size_t> returned_within(ArcLength& curve, ReturnDetector& detector, int most,
+                                           int& points) {
   for (points = 1; points <= most; ++points) {
-    milestones.pass(curve.point(), points);
+    detector.add(curve.point(), points);
     if (curve.advance() != ArcLength::Status::advanced) return std::nullopt;
-    if (const auto index = milestones.returned(curve)) return index;
+    if (const auto index = detector.returned_to(curve)) return index;
   }
   return std::nullopt;
 }
@@ -96,17 +97,17 @@ TEST(SweepRepetition, AClosedCurveReturnsToItsFirstPoint) {
   ArcLength curve(system, frequency, arc);
   const PeriodicResponse first = forced_response(beam.problem, beam.stop, {});
   ASSERT_EQ(curve.start(first.unknown, 12.0, 1.0), ArcLength::Status::advanced);
-  Milestones milestones(arc);
+  ReturnDetector detector(arc);
   int entered = 0;
-  const auto index = returned_within(curve, milestones, 3000, entered);
+  const auto index = returned_within(curve, detector, 3000, entered);
   ASSERT_TRUE(index) << "long steps jump to a closed curve";
   EXPECT_GT(*index, 0u);
-  const CurvePoint on_it = milestones[*index].point;
+  const CurvePoint on_it = detector[*index].point;
   arc.grazing_events = GrazingEvents::all;
   ArcLength closed(system, frequency, arc);
   const double direction = on_it.parameter_tangent > 0.0 ? 1.0 : -1.0;
   ASSERT_EQ(closed.start(on_it.displacement, on_it.parameter, direction), ArcLength::Status::advanced);
-  Milestones fresh(arc);
+  ReturnDetector fresh(arc);
   int lap = 0;
   const auto again = returned_within(closed, fresh, 500, lap);
   ASSERT_TRUE(again);

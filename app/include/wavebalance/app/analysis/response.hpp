@@ -59,7 +59,7 @@ struct Response {
   /// The unknown of the force form, solvers::PeriodicResponse::unknown_coefficients, and its 1 / epsilon of
   /// each contact (m/N); empty in the displacement form.
   Eigen::MatrixXcd unknown_coefficients;
-  Eigen::VectorXd regularization;
+  Eigen::VectorXd series_flexibility;
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
   /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
   double condition = std::numeric_limits<double>::quiet_NaN();

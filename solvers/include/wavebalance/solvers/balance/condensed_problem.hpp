@@ -113,8 +113,8 @@ class CondensedProblem {
                                  const Eigen::VectorXd& flexibility) const;
   /// The contact force less kappa Q Q^T mean(u), N, samples() values: what the motion follows from in all
   /// functions below. The force itself for a structure that is held.
-  Eigen::VectorXd held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
-                             const Eigen::VectorXd& flexibility) const;
+  Eigen::VectorXd force_on_held_structure(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
+                                          const Eigen::VectorXd& flexibility) const;
   /// Q, C x q, and the mean contact forces Q^T f that balance the static load, q values, N.
   const Eigen::MatrixXd& rigid_directions() const;
   Eigen::VectorXd balancing_force() const;
@@ -128,7 +128,7 @@ class CondensedProblem {
   /// and 2, or the static one for fewer than five functions.
   Eigen::VectorXd contact_compliance() const;
   /// How far it yields to forces as brief as the functions resolve, m/N: the median over all harmonics.
-  Eigen::VectorXd brief_compliance() const;
+  Eigen::VectorXd high_frequency_compliance() const;
 
   /// The compliance over translates, (M/2 + 1) x C^2, m/N: K of samples follows from it and the two bases.
   const Eigen::MatrixXcd& compliance() const { return condensed_.compliance; }

@@ -20,11 +20,11 @@ std::string_view to_string(ContactForm form);
 /// ContactOperator. Needs the problem's frequency. `automatic` takes the force form
 /// where all laws are unilateral and the slope of one, at the penetration that the contact-free response
 /// would cause, exceeds 1e4 / contact_compliance(). epsilon is 30 / contact_compliance(), or 1 /
-/// (2 brief_compliance()) where this is more. Throws std::invalid_argument for a
+/// (2 high_frequency_compliance()) where this is more. Throws std::invalid_argument for a
 /// rigid law in the displacement form or at contacts with mass [contacts_are_massless], and for a law in the
 /// force form that depends on the velocity, or acts below its gap and does not say that it is monotone.
-Eigen::VectorXd contact_regularization(const CondensedProblem& problem, const ContactLaws& laws,
-                                       ContactForm form);
+Eigen::VectorXd contact_series_flexibility(const CondensedProblem& problem, const ContactLaws& laws,
+                                           ContactForm form);
 
 /// Throws std::invalid_argument that names the contacts where a rigid law acts at contacts with mass: a
 /// continuum of motions satisfies both without a law of impact.

@@ -23,15 +23,15 @@ namespace wavebalance::solvers {
 /// drops has no part of P.
 class ContactOperator {
  public:
-  /// `regularization[c]` is 1 / epsilon of contact c, m/N, at least 0; an empty vector is the displacement
-  /// form. Keeps a reference to the problem. Throws std::invalid_argument for another number of entries or a
-  /// negative one.
-  explicit ContactOperator(CondensedProblem& problem, Eigen::VectorXd regularization = {});
+  /// `series_flexibility[c]` is 1 / epsilon of contact c, m/N, at least 0; an empty vector is the
+  /// displacement form. Keeps a reference to the problem. Throws std::invalid_argument for another number of
+  /// entries or a negative one.
+  explicit ContactOperator(CondensedProblem& problem, Eigen::VectorXd series_flexibility = {});
 
   CondensedProblem& problem() const { return *problem_; }
   /// 1 / epsilon of each contact, m/N; empty in the displacement form.
-  const Eigen::VectorXd& regularization() const { return regularization_; }
-  bool is_force_form() const { return regularization_.size() > 0; }
+  const Eigen::VectorXd& series_flexibility() const { return series_flexibility_; }
+  bool is_force_form() const { return series_flexibility_.size() > 0; }
 
   /// Its product with forces, N, samples() values; the result in m. O(C N log N + C^2 M).
   void apply(const Eigen::VectorXd& force, Eigen::VectorXd& unknown);
@@ -49,13 +49,14 @@ class ContactOperator {
   /// columns() of which only those of the contacts in `wanted` need be valid.
   const Eigen::MatrixXd& columns(std::span<const int> wanted);
 
-  /// CondensedProblem::rigid_position() and held_force() of an unknown of the form and its contact force.
+  /// CondensedProblem::rigid_position() and force_on_held_structure() of an unknown of the form and its
+  /// contact force.
   Eigen::VectorXd rigid_position(const Eigen::VectorXd& unknown, const Eigen::VectorXd& force) const;
-  Eigen::VectorXd held_force(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown) const;
+  Eigen::VectorXd force_on_held_structure(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown) const;
 
   /// Spectra over translates, (M/2 + 1) x C, of the unknown of the form that belongs to force samples:
-  /// CondensedProblem::coefficients() in the displacement form. `held` is the held_force() of a free
-  /// structure, and not used for others.
+  /// CondensedProblem::coefficients() in the displacement form. `held` is the force_on_held_structure() of a
+  /// free structure, and not used for others.
   Eigen::MatrixXcd unknown_coefficients(const Eigen::VectorXd& force, const Eigen::VectorXd& held = {});
 
  private:
@@ -63,7 +64,7 @@ class ContactOperator {
   void follow_problem();
 
   CondensedProblem* problem_;
-  Eigen::VectorXd regularization_;
+  Eigen::VectorXd series_flexibility_;
   std::uint64_t condensation_ = 0;  // of the problem, for which kernel_ and columns_ are current
   Eigen::MatrixXcd kernel_;         // K - E P / epsilon over translates; empty in the displacement form
   Eigen::MatrixXd columns_;

@@ -45,15 +45,15 @@ class ContactSystem {
   /// Throws std::invalid_argument when there are neither one law nor one for each contact, for a law that
   /// depends on the velocity where the trial functions have no pointwise derivative, and for one that depends
   /// on the velocity or acts over a period in the force form, and as ContactOperator does for the
-  /// `regularization` of its form. Keeps a reference to the problem.
-  ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd regularization = {});
+  /// `series_flexibility` of its form. Keeps a reference to the problem.
+  ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd series_flexibility = {});
   ContactSystem(ContactSystem&&) noexcept;
   ContactSystem& operator=(ContactSystem&&) noexcept;
   ~ContactSystem();
 
   CondensedProblem& problem() { return operator_.problem(); }
-  /// ContactOperator::regularization() of its form.
-  const Eigen::VectorXd& regularization() const { return operator_.regularization(); }
+  /// ContactOperator::series_flexibility() of its form.
+  const Eigen::VectorXd& series_flexibility() const { return operator_.series_flexibility(); }
   /// The laws of its form.
   const ContactLaws& laws() const { return laws_; }
   /// The kinks of the law of the contact that a sample belongs to, ascending.
@@ -76,10 +76,12 @@ class ContactSystem {
   double evaluate(const Eigen::VectorXd& displacement, const LawPieces& pieces);
 
   const Eigen::VectorXd& force() const { return forces_.force; }  ///< f_c(u), N
-  /// CondensedProblem::held_force() of the state: force() where the structure is held.
-  Eigen::VectorXd held_force() const;
+  /// CondensedProblem::force_on_held_structure() of the state: force() where the structure is held.
+  Eigen::VectorXd force_on_held_structure() const;
   /// ContactOperator::unknown_coefficients() of the state.
-  Eigen::MatrixXcd unknown_coefficients() { return operator_.unknown_coefficients(force(), held_force()); }
+  Eigen::MatrixXcd unknown_coefficients() {
+    return operator_.unknown_coefficients(force(), force_on_held_structure());
+  }
   /// The slopes of each force by the displacement of the same sample, N/m: D of laws that read it alone.
   const Eigen::VectorXd& tangent() const { return forces_.slopes.displacement; }
   /// D.

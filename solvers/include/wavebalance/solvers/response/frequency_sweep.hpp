@@ -111,7 +111,7 @@ struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
   SweepParameter parameter = SweepParameter::frequency;
   ContactForm form = ContactForm::displacement;  ///< of the whole curve
-  Eigen::VectorXd regularization;                ///< PeriodicResponse::regularization of the whole curve
+  Eigen::VectorXd series_flexibility;            ///< PeriodicResponse::series_flexibility of the whole curve
   std::vector<SweepPoint> points;
   std::vector<TurningPoint> turning_points;
   /// The largest Condensation::condition() of the curve's points and PeriodicResponse::condition of the
