@@ -7,7 +7,7 @@
 
 namespace wavebalance::app {
 
-/// Sets what `result` says of a response of a scene's problem, motions apart.
+/// Copies what a solver says of a response into `result`, which has its motions from elsewhere.
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
 

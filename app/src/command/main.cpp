@@ -33,8 +33,8 @@ constexpr const char* description =
 std::string footer() {
   return "A scene (the bar of Jones & Legrand 2014, case 1; `wavebalance keys` explains every key):\n\n" +
          write_scene(example_scene()) +
-         "\nCommands to start with, the scene being in case.toml, as `wavebalance init --output case.toml` writes\n"
-         "one of a bar; `init matrices` and `init blade` write others:\n\n"
+         "\nCommands to start with. They read the scene from case.toml, and `wavebalance init --output case.toml`\n"
+         "writes one of a bar there. `init matrices` and `init blade` write scenes of other structures.\n\n"
          "  wavebalance check case.toml\n"
          "  wavebalance run case.toml --output results/case\n"
          "  wavebalance run case.toml --output results/haar --set time.trial=haar --set time.functions=64\n"
@@ -44,15 +44,19 @@ std::string footer() {
          "  wavebalance study study.toml --output results/study        # the scene over values of its keys\n"
          "  wavebalance run case.toml --output results/rigid --set contact.law=rigid \\\n"
          "    --unset contact.constant --unset contact.exponent\n\n"
-         "A nonlinear mode needs neither [forcing] nor [time]: contact.law = \"rigid\" and analysis.type =\n"
-         "\"nonlinear_mode\" (reproduce/scenes/laxalde_legrand_2010/rod.toml).\n\n"
-         "`run` writes report.html to read in a browser, summary.json, response.csv (or sweep.csv,\n"
-         "backbone.csv), a picture (SVG) and the scene as it was solved. All of them appear at once, or none,\n"
-         "and replace those of an earlier run in the same folder; other files stay. Without gnuplot the\n"
-         "picture is left out.\n\n"
-         "Exit codes: 0 solved; 2 bad input or output that cannot be written, nothing written; 3 not\n"
-         "converged, the record is written and says so; 130 interrupted (Ctrl-C): a frequency sweep writes\n"
-         "its points so far with the status \"interrupted\", a second Ctrl-C and all else write nothing.";
+         "The scene of a nonlinear mode has analysis.type = \"nonlinear_mode\" and neither [forcing] nor [time].\n"
+         "One is reproduce/scenes/laxalde_legrand_2010/rod.toml.\n\n"
+         "`run` writes report.html to read in a browser, summary.json, a table (response.csv, sweep.csv or\n"
+         "backbone.csv), a picture (SVG) and the scene as it was solved. Either all of these files appear or\n"
+         "none. They replace those of an earlier run in the same folder; other files stay. Without gnuplot no\n"
+         "picture is written.\n\n"
+         "Exit codes:\n"
+         "  0    The scene is solved.\n"
+         "  2    The input is wrong, or the output cannot be written. Nothing is written.\n"
+         "  3    The solution has not converged. The record is written and says so.\n"
+         "  130  The command was interrupted (Ctrl-C). Sweeps, comparisons and studies write what they have, with\n"
+         "       the status \"interrupted\". Other analyses write nothing. A second Ctrl-C ends all of them at once,\n"
+         "       and nothing is written.";
 }
 
 void add_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,

@@ -273,7 +273,7 @@ Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
   return coefficients(condensed_.compliance, force);
 }
 
-// Of the contact-free response, (M/2 + 1) x C.
+// The errors of the contact-free response, (M/2 + 1) x C.
 Eigen::MatrixXd CondensedProblem::load_errors() const {
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(load_.rows(), contacts());
   for (Eigen::Index l = 0; l < load_.cols(); ++l)

@@ -13,15 +13,16 @@
 namespace wavebalance::solvers {
 namespace {
 
-// epsilon over the stiffness of the contact, the inverse of contact_compliance(). The answers of 10 to 30
-// differ by less than the discretisation error, and 30 takes the fewest Newton steps with some sixty
-// functions. Where many functions resolve briefer forces the contact is stiffer to them, and epsilon follows:
-// of 1023 functions Newton's method then converges over steps ten times as long.
+// epsilon over the stiffness of the contact, which is the inverse of contact_compliance(). Results with 10 to
+// 30 differ by less than the discretisation error, and 30 takes the fewest Newton iterations with some sixty
+// functions. Many functions resolve briefer forces, to which the contact is stiffer. A larger epsilon then
+// lets Newton's method converge over longer steps of a curve, ten times as long with 1023 functions.
 constexpr double relative_epsilon = 30.0;
-// Stiffness of a law over that of its contact beyond which the force form is taken first.
+// The automatic choice takes the force form where a law is more than this many times as stiff as its contact.
 constexpr double stiff = 1e4;
 
-// Slope of a law where a spring as flexible as the structure would push it by the contact-free response.
+// The slope of a law at the penetration that the contact-free response causes through a spring as flexible as
+// the structure.
 double working_stiffness(const AnyContactLaw& law, const Eigen::VectorXd& free, double flexibility) {
   if (!std::isfinite(law.gap())) return 0.0;
   const double reach = free.cwiseAbs().maxCoeff();

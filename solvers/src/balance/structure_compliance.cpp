@@ -51,7 +51,7 @@ void StructureCompliance::set_factors(double frequency) {
   const int solved = pair_.solved_size();
   const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
   factors_ = {symbol(2) * (frequency * frequency), symbol(1) * frequency, symbol(0)};
-  // Of the harmonics below M/2; K itself at k = 0, and at M/2, whose coefficient stands for both signs.
+  // Structural damping acts on the harmonics between 0 and M/2. The coefficient M/2 contains both signs.
   const int damped = (pair_.functions() - 1) / 2;
   if (loss_factor_ > 0.0) factors_[2].segment(1, damped) *= std::complex<double>(1.0, loss_factor_);
   derivatives_ = {symbol(2) * (2.0 * frequency), symbol(1), Eigen::VectorXcd::Zero(solved)};

@@ -33,19 +33,19 @@ void require_start(const CondensedProblem& problem, const Start& guess) {
                                   std::to_string(problem.samples()));
 }
 
-/// What Newton's method ended with in one form.
+/// The last iterate of an attempt, in one form, and how it ended.
 struct Candidate {
   NewtonResult newton;
-  Eigen::VectorXd series_flexibility;  // of its form, see ContactOperator
+  Eigen::VectorXd series_flexibility;  // defines its form, see ContactOperator
   Eigen::VectorXd unknown;             // m, samples() values
   Strategy strategy = Strategy::none;
-  int iterations = 0;  // of all attempts so far
+  int iterations = 0;  // Newton iterations of all attempts so far
 
   bool converged() const { return newton.status == SolveStatus::converged; }
   bool ended() const { return converged() || newton.status == SolveStatus::cancelled; }
 };
 
-/// The better of two, with the iterations of both.
+/// The better of two candidates, with the sum of their iterations.
 Candidate better(Candidate before, Candidate next) {
   next.iterations += before.iterations;
   if (next.newton.status == SolveStatus::cancelled && next.unknown.size() == 0) {
@@ -59,7 +59,7 @@ Candidate better(Candidate before, Candidate next) {
   return before;
 }
 
-/// The problem, its laws and options, as all attempts see them.
+/// The problem, its laws and options, which all attempts have in common.
 struct Task {
   CondensedProblem& problem;
   const ContactLaws& laws;
@@ -74,7 +74,8 @@ Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& series_fle
   return detail::unknown_in_form(start.displacement, start.force, series_flexibility);
 }
 
-/// Of a structure that is free to move: near its position, without which no contact may hold it.
+/// The start of a free structure: near the position in which contact balances its static load. Elsewhere no
+/// contact may hold it.
 Start balanced_start(const Task& task, bool moving) {
   const Eigen::VectorXd form = contact_series_flexibility(task.problem, task.laws, task.options.form);
   BalancedMotion motion = balanced_motion(task.problem, task.laws, form, moving);
@@ -130,10 +131,10 @@ Candidate try_homotopy(const Task& task, ContactSystem& system, const Eigen::Vec
   return candidate;
 }
 
-/// Lowers the obstacles onto the contact-free motion, from the height at which the first touches: at a height
-/// h more than their gaps, u - h solves the balance with the residual -h.
+/// Continuation in the gaps: the obstacles are lowered onto the contact-free motion u0. With gaps larger by h
+/// no contact closes, and u0 - h solves the balance up to the residual -h. The smallest such h is the start.
 Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
-  constexpr double above = 1.01;  // at the kink where a contact just touches no tangent is known
+  constexpr double above = 1.01;  // a contact that just touches is at a kink, where there is no tangent
   const Eigen::VectorXd& free = task.problem.contact_free_response();
   const Eigen::VectorXd gaps = task.laws.gaps(task.problem.contacts());
   double height = 0.0;
@@ -145,14 +146,15 @@ Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
                       Strategy::gap_continuation);
 }
 
-/// Raises the load from nothing, at rest, where the residual is that of the whole load.
+/// Continuation in the load, from rest without load. The residual there is that of the whole load.
 Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) {
   ContactSystem system = task.system(series_flexibility);
   return try_homotopy(task, system, series_flexibility, Eigen::VectorXd::Zero(task.problem.samples()),
                       Strategy::load_continuation);
 }
 
-/// The forms in which obstacles are lowered: that of the options and, where it is left open, the force form.
+/// The forms in which gaps or load are continued: that of the options and, where it is left open, the force
+/// form.
 std::vector<Eigen::VectorXd> forms_of(const Task& task) {
   std::vector<Eigen::VectorXd> forms{contact_series_flexibility(task.problem, task.laws, task.options.form)};
   const bool either = task.options.form == ContactForm::automatic && task.laws.have_force_form();
@@ -167,14 +169,14 @@ Candidate try_residual(const Task& task, const Eigen::VectorXd& series_flexibili
                       Strategy::residual_homotopy);
 }
 
-/// A period of a motion that was integrated, which begins `start` periods after the first sample.
+/// The start at a period of a motion in time that begins `start` periods after the first sample.
 Start start_of(const Task& task, const Motion& period, double start) {
   const int points = task.problem.points();
   return {resample(period.displacement, points, start), resample(period.force, points, start)};
 }
 
-/// From the motion that the structure settles to, or from those that recur in it, after `best` was found in
-/// other ways. `attractor_periods` is set.
+/// Newton's method from the motion that the structure settles to, or from states that nearly recur in it. The
+/// result is the better of that and `best`, the outcome of earlier attempts. Sets `attractor_periods`.
 Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
                         int& attractor_periods) {
   SettlingOptions settling = task.options.settling;
@@ -210,7 +212,7 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
   return solve_settled(task, form, first, std::move(best), attractor_periods);
 }
 
-/// PeriodicResponse::rounding_error of a response, at which `system` was evaluated.
+/// PeriodicResponse::rounding_error. `system` was evaluated at the response.
 double rounding_error_of(CondensedProblem& problem, ContactSystem& system, const PeriodicResponse& response) {
   constexpr double negligible = 1e-6;
   const double at_these_forces = problem.rounding_error(response.force_on_held_structure);
@@ -262,7 +264,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
     candidate.series_flexibility = contact_series_flexibility(problem, laws, options.form);
   } else {
     const bool places = problem.is_free() && guess.size() == 0;
-    // A static load presses contacts that may last: the structure then moves much less than without contact.
+    // A static load may keep contacts closed. The structure then moves much less than without contact.
     const bool pressed = places && problem.balancing_force().norm() > 1e-9 * problem.spring_force();
     if (places) start = balanced_start(task, !pressed);
     candidate = solve(task, start, guessed, attractor_periods);

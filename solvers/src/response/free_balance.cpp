@@ -118,7 +118,7 @@ bool static_load_is_balanced(const CondensedProblem& problem, const ContactLaws&
   }
   Eigen::MatrixXd columns(directions.cols(), Eigen::Index(forces.size()));
   for (std::size_t i = 0; i < forces.size(); ++i) columns.col(Eigen::Index(i)) = forces[i];
-  // Of the forces that the motion without contact has in the springs that hold it.
+  // relative to the force of the holding springs in the motion without contact
   constexpr double rounding = 1e-9;
   return nonnegative_residual(columns, wanted).norm() <= rounding * problem.spring_force();
 }

@@ -74,7 +74,7 @@ class Branches {
   }
 
   std::vector<double> sides_of(const Parent& parent, const SpecialPoint& point) const {
-    // Of a branch they are mostly crossings with curves that are followed already.
+    // Branch points of a branch are mostly crossings with curves that are followed already.
     if (point.type == SpecialPointType::branch && point.located && parent.index == 0) return {1.0, -1.0};
     const bool doubles =
         point.type == SpecialPointType::period_doubling && 2 * parent.periods <= options_.largest_period;

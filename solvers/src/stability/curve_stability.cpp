@@ -22,16 +22,17 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 constexpr int not_counted = -2;
 
-/// A point of the curve with its stability. Its count, or its signs too, may be left out.
+/// A point of the curve with its stability. The count of unstable multipliers, and the signs as well, may not
+/// have been measured.
 struct CurveSample {
   CurvePoint point;
   PointStability stability;
 };
 
-/// What differs between two points.
+/// The quantities that differ between two points.
 struct Difference {
   bool contacts = false, fold = false, flip = false;
-  bool count = false;  // by more or less than the signs explain
+  bool count = false;  // whether the count changes by more or less than the changes of sign explain
 
   bool any() const { return contacts || fold || flip || count; }
 };
@@ -50,7 +51,8 @@ Difference difference(const CurveSample& a, const CurveSample& b) {
   return result;
 }
 
-/// What happens in a bracket. A grazing changes the multipliers at once.
+/// The special points in a bracket between two points that differ. Multipliers jump at a grazing, so that
+/// their differences then mean no other special point.
 std::vector<SpecialPointType> events(const Difference& difference, bool reverses) {
   std::vector<SpecialPointType> types;
   if (difference.fold && reverses) types.push_back(SpecialPointType::fold);
@@ -64,7 +66,7 @@ std::vector<SpecialPointType> events(const Difference& difference, bool reverses
   return types;
 }
 
-/// How far a multiplier is from where it is due at a special point.
+/// The distance of a multiplier from the place that the type of special point requires.
 double distance_from(SpecialPointType type, Complex multiplier) {
   if (type == SpecialPointType::period_doubling) return std::abs(multiplier + 1.0);
   if (type == SpecialPointType::neimark_sacker) return std::abs(std::abs(multiplier) - 1.0);
@@ -117,7 +119,7 @@ class Tracker {
     return !result_.cancelled;
   }
 
-  // The scaled distances in which chords are perpendicular to planes.
+  // The scales of displacement and parameter, which decide what is perpendicular to a chord.
   ArcLengthOptions scales() const {
     double largest = 0.0;
     const auto [low, high] =
@@ -137,7 +139,7 @@ class Tracker {
     return response_at(system_, point.displacement);
   }
 
-  // What is measured of a point.
+  // The measurements at a point; each includes those before it.
   enum class Measure { contacts, signs, count };
 
   void measure(CurveSample& sample, Measure what) {
@@ -156,8 +158,8 @@ class Tracker {
     sample.stability.unstable = count.count;
   }
 
-  // Finds each difference between two points; their distance is `width` times that of two points of the
-  // curve. Of points between no more is measured than what differs.
+  // Locates each difference between two points by bisection. Their distance is `width` times that of two
+  // neighbours on the curve. Points between them are measured only as far as the difference needs.
   void examine(const CurveSample& a, const CurveSample& b, double width) {
     const Difference between = difference(a, b);
     if (!between.any() || result_.cancelled || !tell(a.point.parameter)) return;
@@ -175,8 +177,9 @@ class Tracker {
     examine(*middle, b, 0.5 * width);
   }
 
-  // A point between two others, by preference one whose stability is known. The plane through the middle of
+  // A point between two others, preferably one whose stability is known. The plane through the middle of
   // their chord may meet the curve at a kink, where Newton's method cycles, or where contact has just begun.
+  // Planes through other places of the chord are then tried.
   std::optional<CurveSample> sample_between(const CurvePoint& a, const CurvePoint& b, Measure what) {
     std::optional<CurveSample> found;
     for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) {
@@ -189,9 +192,10 @@ class Tracker {
     return found;
   }
 
-  // Whether the curve stays on one side of a bracket, at the smallest scale at which it leaves the bracket
-  // both ways. Kinks of the samples make a curve turn to and fro by about the distance of its points near a
-  // fold, so that the side of its neighbours tells nothing.
+  // Whether the curve reverses in a bracket, that is, leaves it to the same side forwards and backwards. The
+  // neighbours do not decide that, since kinks of the samples make a curve turn to and fro near a fold, by
+  // about the distance of its points. The smallest scale decides at which the curve leaves the bracket both
+  // ways.
   bool reverses_between(double from, double to) const {
     const double middle = 0.5 * (from + to);
     const auto here = curve_.points.begin() + static_cast<std::ptrdiff_t>(index_);
@@ -208,7 +212,8 @@ class Tracker {
 
   enum class Departure { below, above, returns, none };
 
-  // How a curve leaves a value: once it is farther than `scale` it stays so until it is twice as far or ends.
+  // To which side a curve leaves a value. It has left where it is farther than `scale` from the value and
+  // stays so until it is twice as far or ends; it returns where it comes nearer again before.
   template <typename Iterator>
   Departure departure(Iterator from, Iterator end, double value, double scale) const {
     const auto is_near = [&](const SweepPoint& point) { return std::abs(value_of(point) - value) <= scale; };
@@ -264,7 +269,7 @@ class Tracker {
   ArcLength path_;
   TrialEvaluator evaluator_;
   CurveStability result_;
-  std::size_t index_ = 0;  // of the point at the end of the piece examined
+  std::size_t index_ = 0;  // the point at the end of the piece that is examined
 };
 
 }  // namespace

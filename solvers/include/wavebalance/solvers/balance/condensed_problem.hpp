@@ -20,13 +20,15 @@ namespace wavebalance::solvers {
 /// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
 /// columns onto each other.
 ///
-/// Structural damping (LinearStructure::loss_factor) is K (1 + i eta sign(k)) in Z(k), with k = -M/2..M/2 the
-/// least harmonic that the coefficient k over translates stands for: the operator of the damping acts on the
-/// translates, whatever their generator. k and -k stay conjugate, so that motions are real. The static
-/// coefficient and an alternating one, k = M/2, which stands for both signs, have none.
+/// Structural damping (LinearStructure::loss_factor) makes the stiffness in Z(k) complex, K (1 + i eta
+/// sign(k)). Here k = -M/2..M/2 is the lowest harmonic that the coefficient k over translates contains. The
+/// damping thus acts on translates and does not depend on the basis. The coefficients k and -k stay
+/// conjugate, so that motions are real. The static coefficient is not damped, nor is the alternating one, k =
+/// M/2, which contains both signs.
 ///
 /// A Nyquist coefficient that the pair drops is never condensed: its compliance and load response are zero.
-/// What stands between forces and the unknown in which contact is solved for is a ContactOperator.
+/// ContactOperator maps contact forces to the unknown for which contact is solved, which may be another than
+/// u.
 ///
 /// A structure that is free to move (LinearStructure::rigid_modes) has no static compliance along the rigid
 /// contact displacements Q, an orthonormal basis of S R: the mean contact forces must balance the static load
@@ -72,13 +74,12 @@ class CondensedProblem {
   /// condensation and O(C N log N).
   void set_frequency(double frequency_hz);
   double frequency() const { return frequency_; }
-  /// Makes the next set_frequency() condense, also at the frequency that the problem has: for measurements of
-  /// whole solves.
+  /// Makes the next set_frequency() condense again, even at the present frequency. Measurements of whole
+  /// solves need that.
   void forget_condensation() { condensed_at_ = 0.0; }
 
-  /// Says that a period of the problem is `periods` of the load, 1 until it is said: curves are told in
-  /// frequencies of the load. The harmonics of the load stay as they are. Throws std::invalid_argument below
-  /// 1.
+  /// Sets how many periods of the load one period of the problem has, 1 by default. Parameters of curves are
+  /// frequencies of the load. The harmonics of the load do not change. Throws std::invalid_argument below 1.
   void set_periods(int periods);
   int periods() const { return periods_; }
   /// Hz, periods() times frequency().
@@ -89,11 +90,11 @@ class CondensedProblem {
   /// Finite, or std::invalid_argument. No condensation: O(C (L M + N log N)).
   void set_load_scale(double scale);
   double load_scale() const { return load_scale_; }
-  /// Tells it in a unit, in which the load of structure and harmonics has the size `amplitude`, and sets it
-  /// to that. Throws std::invalid_argument for an amplitude that is not positive and finite.
+  /// Gives load_scale() a unit in which the load of structure and harmonics has the size `amplitude`, and
+  /// sets it to that size. Throws std::invalid_argument for an amplitude that is not positive and finite.
   void set_load_unit(double amplitude, std::string unit);
   const std::string& load_unit() const { return load_unit_; }
-  double full_load() const { return full_load_; }  ///< that amplitude, 1 where no unit was set
+  double full_load() const { return full_load_; }  ///< `amplitude` of the unit, 1 without a unit
   /// The factor on every harmonic of load and forces but the static one.
   double load_factor() const { return load_scale_ / full_load_; }
 
@@ -104,35 +105,38 @@ class CondensedProblem {
 
   /// Whether the structure is free to move.
   bool is_free() const { return hold_ != nullptr; }
-  /// K of the springs' forces kappa Q, constant in time, samples() x q; a free structure's alone. O(q N log
-  /// N) on first use.
+  /// K applied to the constant forces kappa Q of the springs, samples() x q. Only for a free structure. O(q N
+  /// log N) on first use.
   const Eigen::MatrixXd& hold_response();
-  /// Q^T mean(u), q values, m, of an unknown u + E lambda / epsilon with the flexibilities 1 / epsilon of a
-  /// ContactOperator and its contact force, samples() each. O(C N).
+  /// The position of a free structure, Q^T mean(u), q values, m. `unknown` and `force` are the unknown u + E
+  /// lambda / epsilon of a ContactOperator and its contact force, samples() values each, and `flexibility` is
+  /// its 1 / epsilon. O(C N).
   Eigen::VectorXd rigid_position(const Eigen::VectorXd& unknown, const Eigen::VectorXd& force,
                                  const Eigen::VectorXd& flexibility) const;
-  /// The contact force less kappa Q Q^T mean(u), N, samples() values: what the motion follows from in all
-  /// functions below. The force itself for a structure that is held.
+  /// The force on the structure held by springs, N, samples() values: the contact force less the springs'
+  /// force kappa Q Q^T mean(u). The functions below take this force. It is `force` itself for a structure
+  /// that is not free.
   Eigen::VectorXd force_on_held_structure(const Eigen::VectorXd& force, const Eigen::VectorXd& unknown,
                                           const Eigen::VectorXd& flexibility) const;
-  /// Q, C x q, and the mean contact forces Q^T f that balance the static load, q values, N.
+  /// Q, C x q.
   const Eigen::MatrixXd& rigid_directions() const;
+  /// The mean contact forces Q^T f that balance the static load, q values, N.
   Eigen::VectorXd balancing_force() const;
-  /// kappa times the largest displacement without contact, N: the size that rounding of balancing_force()
-  /// has.
+  /// kappa times the largest displacement without contact, N. Rounding errors of balancing_force() are
+  /// relative to it.
   double spring_force() const;
-  /// Whether the static load does no work on the motions that no contact resists, to rounding.
+  /// Whether the static load does no work, to rounding, on the rigid motions that no contact resists.
   bool drift_is_balanced() const;
 
-  /// How far each contact yields to a unit force at it, m/N: the median of the moduli at the harmonics 0, 1
-  /// and 2, or the static one for fewer than five functions.
+  /// The compliance of each contact to a force at it, m/N. It is the median of the moduli at the harmonics 0,
+  /// 1 and 2, or the static one for fewer than five functions.
   Eigen::VectorXd contact_compliance() const;
-  /// How far it yields to forces as brief as the functions resolve, m/N: the median over all harmonics.
+  /// The same for forces as brief as the functions resolve, m/N: the median over all harmonics.
   Eigen::VectorXd high_frequency_compliance() const;
 
-  /// The compliance over translates, (M/2 + 1) x C^2, m/N: K of samples follows from it and the two bases.
+  /// The compliance over translates, (M/2 + 1) x C^2, m/N. It and the two bases determine K.
   const Eigen::MatrixXcd& compliance() const { return condensed_.compliance; }
-  /// Counts how often it has changed.
+  /// How often compliance() has changed.
   std::uint64_t condensations() const { return condensations_; }
 
   /// K f. `force` in N, samples() values; the result in m. O(C N log N + C^2 M).
@@ -157,8 +161,8 @@ class CondensedProblem {
   /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
   /// whichever is larger. O(C N log N + C^2 M).
   double rounding_error(const Eigen::VectorXd& force);
-  /// A motion of that size, m, samples() values, if the errors have the phases of compliance and load
-  /// response, as those of one dominant mode have.
+  /// A motion of the size of these errors, m, samples() values. Each error has the phase of the compliance or
+  /// load response that it belongs to, which is exact where one mode dominates.
   Eigen::VectorXd rounding_motion(const Eigen::VectorXd& force);
 
   /// Spectra over translates of the coefficients of all n degrees of freedom, n x (M/2 + 1), for force
@@ -181,19 +185,19 @@ class CondensedProblem {
   TimePair pair_;
   std::shared_ptr<const LinearStructure> structure_;
   Eigen::VectorXcd load_harmonics_;
-  struct Hold;  // of a structure that is free to move
+  struct Hold;  // the springs that hold a structure that is free to move
   std::unique_ptr<Hold> hold_;
   std::unique_ptr<HarmonicCompliance> harmonics_;
   Eigen::MatrixXcd unit_loads_, static_loads_;  // projected at 1 Hz, over translates (rows): all, and static
-  Eigen::MatrixXcd load_;                       // those that act at frequency_
+  Eigen::MatrixXcd load_;                       // the loads at frequency_, projected
   int periods_ = 1;
   double frequency_ = 0.0;
   double load_scale_ = 1.0, full_load_ = 1.0;
   std::string load_unit_ = "of the load";
-  double condensed_at_ = 0.0;  // Hz, at which all below is current; 0: none
+  double condensed_at_ = 0.0;  // Hz, the frequency of all members below; 0 where they are not current
   std::uint64_t condensations_ = 0;
   CondensedSpectrum condensed_;     // load responses to unit loads
-  Eigen::MatrixXcd load_response_;  // to the projected loads, (M/2 + 1) x C
+  Eigen::MatrixXcd load_response_;  // response to the projected loads, (M/2 + 1) x C
   Eigen::VectorXd free_response_, free_response_slope_;
   bool slope_is_current_ = false;
   struct Work;

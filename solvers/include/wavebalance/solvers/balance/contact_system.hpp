@@ -97,8 +97,8 @@ class ContactSystem {
   /// solution.
   void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }
 
-  /// Of a residual at fixed samples, the change with frequency (m/Hz) through the velocities is added to
-  /// `slope`; nothing where no law depends on them.
+  /// Adds to `slope` the derivative by frequency (m/Hz) that a residual at fixed samples has through the
+  /// velocities. It is zero where no law depends on them.
   void add_velocity_slope(Eigen::VectorXd& slope);
 
   /// Overrides the tangent of a sample.

@@ -30,8 +30,8 @@ struct ForcedResponseOptions {
 /// The periodic response of `problem` (frequency set before) under `laws`, one for all contacts or one for
 /// each, from the contact-free response or from `guess` (samples() values, m) when it is not empty. The force
 /// form also starts from `guess_force` (samples() values, N), the contact force of the guess, zero when it is
-/// empty. The problem is left in the displacement form, whatever the form of the response. If it does not
-/// converge, the status gives the reason. A structure that is free to move starts at the position in which
+/// empty. If it does not converge, the status gives the
+/// reason. A structure that is free to move starts at the position in which
 /// the mean contact forces balance its static load; its status is unbalanced where no such forces exist.
 /// Throws std::invalid_argument for guesses or a list of laws of another length, for a problem without
 /// frequency, for rigid laws at contacts with mass and for options out of range; and, where it does not

@@ -99,7 +99,7 @@ struct FrequencySweepOptions {
 /// A curve's first point where it is known.
 struct SweepStart {
   PeriodicResponse response;  ///< at a frequency within the interval; the curve has its form
-  /// Of the unknown, samples() values: the side to which the curve is followed; empty: towards `to`.
+  /// The direction of the unknown in which the curve is followed, samples() values; empty: towards `to`.
   Eigen::VectorXd direction;
   /// Called after each step with the points before and after it; where it returns true, the curve ends with
   /// the former. Empty: the curve ends as any other.
