@@ -41,8 +41,8 @@ struct PeriodicResponse {
   double rounding_error = 0.0;
   Eigen::VectorXd displacement;   ///< m, samples() values, contact-major
   Eigen::VectorXd contact_force;  ///< N, samples() values
-  /// CondensedProblem::force_on_held_structure(), N, samples() values: the force that the condensed equations
-  /// see. Equal to contact_force unless the structure is free to move.
+  /// CondensedProblem::force_on_held_structure(), N, samples() values, the force in the condensed equations.
+  /// It equals contact_force unless the structure is free to move.
   Eigen::VectorXd force_on_held_structure;
   Eigen::MatrixXcd coefficients;  ///< (M/2 + 1) x C, spectra over translates of the trial coefficients
   /// 1 / epsilon of each contact (m/N) in the force form; empty in the displacement form.
