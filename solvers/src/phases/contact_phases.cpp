@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "linalg/dense.hpp"
 #include "linalg/enum_table.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
@@ -352,6 +353,19 @@ Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
 }
 
 bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
+
+Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
+  Eigen::VectorXcd values = parts->model.response.free_multipliers();
+  if (!parts->iterate.forces.panels().empty()) {
+    const Eigen::MatrixXd map = detail::monodromy_of(parts->model, parts->iterate, parts->nodes);
+    const bool computed = map.rows() <= max_states && map.allFinite();
+    values = computed ? detail::eigenvalues(map) : Eigen::VectorXcd();
+  }
+  if (!values.allFinite()) return {};
+  std::sort(values.begin(), values.end(),
+            [](std::complex<double> a, std::complex<double> b) { return std::abs(a) > std::abs(b); });
+  return values;
+}
 
 bool PhaseMotion::is_rigid() const {
   return parts != nullptr && std::any_of(parts->model.laws.begin(), parts->model.laws.end(),

@@ -5,8 +5,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// How a contact without mass yields to a unit force at once: a displacement, m/N, or where dashpots prevent that
-/// a velocity, m/(N s). Both are zero with mass.
+/// How a contact without mass yields to a unit force at once: a displacement, m/N, or where dashpots prevent
+/// that a velocity, m/(N s). Both are zero with mass.
 struct Yielding {
   double displacement = 0.0, velocity = 0.0;
 };
@@ -15,9 +15,9 @@ struct Yielding {
 /// ends, by a line, so that Newton's method may leave it.
 class LawPieces {
  public:
-  /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that holds
-  /// the contact in its compliance, so that the law takes it back. `yielding`, by which a rigid law becomes an
-  /// equation for the force.
+  /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that
+  /// holds the contact in its compliance, so that the law takes it back. `yielding`, by which a rigid law
+  /// becomes an equation for the force.
   LawPieces(AnyContactLaw law, double length, double holding, const Yielding& yielding);
 
   int count() const { return static_cast<int>(breakpoints_.size()) + 1; }

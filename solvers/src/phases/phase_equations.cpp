@@ -69,8 +69,8 @@ const Panel& panel_of(const CellGrid& grid, Index node, const LegendreNodes& nod
   return grid.panels[static_cast<std::size_t>(node / nodes.count())];
 }
 
-// Where rigid contact is an equation for the velocity, the displacement stays at the gap, and contact ends with
-// the force.
+// Where rigid contact is an equation for the velocity, the displacement stays at the gap, and contact ends
+// with the force.
 std::vector<int> released_panels(const PhaseModel& model, const Layout& layout, const CellGrid& grid) {
   std::vector<int> released(layout.passages.size(), -1);
   for (std::size_t p = 0; p < grid.panels.size(); ++p) {
@@ -131,57 +131,69 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
   result.released = released_panels(model, at.layout, result.grid);
   for (Index i = 0; i < m; ++i) {
     const int panel = result.released[static_cast<std::size_t>(i)];
-    result.residual[n + i] =
-        panel < 0 ? u[n + i] - at.layout.passages[static_cast<std::size_t>(i)].breakpoint
-                  : result.softness() * end_values(nodes).dot(result.force.segment(nodes.count() * panel,
-                                                                                   nodes.count()));
+    result.residual[n + i] = panel < 0 ? u[n + i] - at.layout.passages[static_cast<std::size_t>(i)].breakpoint
+                                       : result.softness() * end_values(nodes).dot(result.force.segment(
+                                                                 nodes.count() * panel, nodes.count()));
   }
   return result;
 }
 
-// What an end that comes later adds to the force of its phase, as an impulse, N: by the passages.
-Eigen::VectorXd added_by_passages(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes) {
+// 1 for each force, and for each passage the impulse, N, that it adds if it comes later.
+Eigen::VectorXd impulses_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes) {
   const PanelForces forces(now.grid, nodes, now.force);
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(now.passing.size());
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(now.residual.size());
+  auto added = result.tail(now.passing.size());
+  added.setZero();
   for (std::size_t p = 0; p < at.layout.phases.size(); ++p) {
     const Phase& phase = at.layout.phases[p];
     if (phase.begin < 0) continue;
     added[phase.end] += forces.in_phase(static_cast<int>(p), at.layout.end(phase));
     added[phase.begin] -= forces.in_phase(static_cast<int>(p), at.layout.begin(phase));
   }
-  return added;
+  return result;
 }
 
-// The derivative of the residual by forces and passages. The nodes move with the ends of their panels; since
-// the residual is nearly zero along a phase, not only at its nodes, that has no part in it.
-Eigen::MatrixXd jacobian(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
-                         const LegendreNodes& nodes) {
+// The derivative of the residual by a motion that forces move towards them: displacements at nodes and
+// passages, velocities at nodes, by any unknowns.
+Eigen::MatrixXd residual_by_motion(const Evaluation& now, const Eigen::MatrixXd& displacement,
+                                   const Eigen::MatrixXd& node_velocity) {
   const Index n = now.force.size(), m = now.passing.size();
-  Eigen::VectorXd scale = Eigen::VectorXd::Ones(n + m);
-  scale.tail(m) = added_by_passages(at, now, nodes);
-  Eigen::MatrixXd result(n + m, n + m);
-  result.topRows(n) = now.tangent.asDiagonal() * now.influence.displacement.topRows(n);
-  if (model.velocity) result.topRows(n) += now.damping.asDiagonal() * now.influence.node_velocity;
-  result.bottomRows(m) = -now.influence.displacement.bottomRows(m);
-  result = result * scale.asDiagonal();
+  Eigen::MatrixXd result(n + m, displacement.cols());
+  result.topRows(n) = now.tangent.asDiagonal() * displacement.topRows(n);
+  if (node_velocity.size() > 0) result.topRows(n) += now.damping.asDiagonal() * node_velocity;
+  result.bottomRows(m) = -displacement.bottomRows(m);
+  for (Index i = 0; i < m; ++i)
+    if (now.released[static_cast<std::size_t>(i)] >= 0) result.row(n + i).setZero();
+  return result;
+}
+
+// The derivative of the residual by forces and passages, for their influence on the motion. The nodes move
+// with the ends of their panels; since the residual is nearly zero along a phase, not only at its nodes, that
+// has no part in it.
+Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                         const Influence& influence) {
+  const Index n = now.force.size(), m = now.passing.size();
+  Eigen::MatrixXd result = residual_by_motion(now, influence.displacement, influence.node_velocity);
+  result = result * impulses_of(at, now, nodes).asDiagonal();
   result.diagonal().head(n) += now.own;
-  result.diagonal().tail(m) += now.passing;
   for (Index i = 0; i < m; ++i) {
     const int p = now.released[static_cast<std::size_t>(i)];
-    if (p < 0) continue;
+    if (p < 0) {
+      result(n + i, n + i) += now.passing[i];
+      continue;
+    }
     const Index first = nodes.count() * p;
-    result.row(n + i).setZero();
     result.row(n + i).segment(first, nodes.count()) = now.softness() * end_values(nodes).transpose();
     const double slope = end_slopes(nodes).dot(now.force.segment(first, nodes.count()));
-    result(n + i, n + i) = now.softness() * 2.0 / now.grid.panels[static_cast<std::size_t>(p)].length() * slope;
+    result(n + i, n + i) =
+        now.softness() * 2.0 / now.grid.panels[static_cast<std::size_t>(p)].length() * slope;
   }
   return result;
 }
 
 // Newton's matrix of the first `count` unknowns.
-Lu<double> factor_of(const PhaseModel& model, const PhaseIterate& at, const Evaluation& now,
-                     const LegendreNodes& nodes, Index count) {
-  return Lu<double>(jacobian(model, at, now, nodes).topLeftCorner(count, count));
+Lu<double> factor_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes, Index count) {
+  return Lu<double>(jacobian(at, now, nodes, now.influence).topLeftCorner(count, count));
 }
 
 // The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
@@ -251,6 +263,18 @@ ContactMotion PhaseModel::motion(const PanelForces& forces, const LegendreNodes&
   return result;
 }
 
+Eigen::MatrixXd monodromy_of(const PhaseModel& model, const PhaseIterate& iterate,
+                             const LegendreNodes& nodes) {
+  const Evaluation now = evaluate(model, iterate, nodes);
+  const FreePeriod period = model.response.free_period(now.grid, nodes, model.velocity);
+  const Lu<double> factor(jacobian(iterate, now, nodes, period.influence));
+  if (factor.is_singular()) return {};
+  const Eigen::MatrixXd unknowns =
+      factor.solve(residual_by_motion(now, period.displacement_by, period.velocity_by));
+  return period.states_by_states -
+         product(period.states_by * impulses_of(iterate, now, nodes).asDiagonal(), unknowns);
+}
+
 Eigen::MatrixXd force_at(const PanelForces& forces, const PhaseModel& model, const Eigen::VectorXd& times) {
   Eigen::MatrixXd result(model.response.contacts(), times.size());
   for (Index k = 0; k < times.size(); ++k)
@@ -296,7 +320,7 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     if (result.residual < limits.tolerance || stands) {
       result.converged = true;
       result.displacement = now.influence.displacement.topLeftCorner(now.force.size(), now.force.size());
-      if (!factor) factor = factor_of(model, result.iterate, now, nodes, now.residual.size());
+      if (!factor) factor = factor_of(result.iterate, now, nodes, now.residual.size());
       result.force_error = factor->solve(now.residual).head(now.force.size());
       result.tangent = std::move(now.tangent);
       result.damping = now.damping / model.frequency;
@@ -304,7 +328,7 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     }
     before = result.residual;
     if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
-    factor = factor_of(model, result.iterate, now, nodes, now.residual.size());
+    factor = factor_of(result.iterate, now, nodes, now.residual.size());
     const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
     const Index n = now.force.size(), m = step.size() - n;
@@ -328,7 +352,7 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual))
       return result;
-    const Lu<double> factor = factor_of(model, result.iterate, now, nodes, now.force.size());
+    const Lu<double> factor = factor_of(result.iterate, now, nodes, now.force.size());
     const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
     if (!step.allFinite()) return result;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force + step);

@@ -66,6 +66,12 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits);
 
+/// The map of perturbations over a period that begins after the longest flight without forces, by the states
+/// of the poles that this leaves: s x s. Its eigenvalues are the Floquet multipliers; those of the states
+/// left out are zero. Empty where a matrix is singular.
+Eigen::MatrixXd monodromy_of(const PhaseModel& model, const PhaseIterate& iterate,
+                             const LegendreNodes& nodes);
+
 /// The forces of the laws along a motion that is sampled at times l / N, C x N, at the nodes of a layout.
 PanelForces forces_along(const PhaseModel& model, const Layout& layout, const LegendreNodes& nodes,
                          const ContactMotion& motion);

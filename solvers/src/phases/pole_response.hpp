@@ -46,6 +46,16 @@ struct Influence {
   Eigen::MatrixXd mark_velocity;  ///< m x n
 };
 
+/// A period that begins with any states of the poles, of which s leave more than rounding after the longest
+/// flight without forces, at whose end it begins. A pair of poles has two states, the real and the imaginary
+/// part.
+struct FreePeriod {
+  Influence influence;                           ///< within the period alone
+  Eigen::MatrixXd displacement_by, velocity_by;  ///< (n + m) x s and n x s: by states of 1; like `influence`
+  Eigen::MatrixXd states_by;                     ///< s x (n + m): the last states by forces and impulses
+  Eigen::MatrixXd states_by_states;              ///< s x s
+};
+
 /// Displacements (m) and velocities (m per period) of all contacts at K times, C x K each.
 struct ContactMotion {
   Eigen::MatrixXd displacement, velocity;
@@ -69,6 +79,10 @@ class PoleResponse {
 
   /// Node j of panel p has number p q + j. O((n + m)^2 poles).
   Influence influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
+  /// The same for a period that is not repeated. O((n + m)^2 poles).
+  FreePeriod free_period(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
+  /// The multipliers of all states without forces, exp(exponent), both of each pair.
+  Eigen::VectorXcd free_multipliers() const;
   /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
   /// (poles + C q)).
   ContactMotion motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients, const LegendreNodes& nodes,
@@ -84,6 +98,7 @@ class PoleResponse {
                             bool velocity) const;
   std::vector<Sources> sources_of(const CellGrid& grid, const std::vector<Cell>& cells,
                                   const LegendreNodes& nodes) const;
+  static Influence split(const Eigen::MatrixXd& all, Index nodes, Index marks, bool velocity);
   void add_within_cells(const CellGrid& grid, const std::vector<Cell>& cells, const LegendreNodes& nodes,
                         bool velocity, Eigen::MatrixXd& all) const;
   Eigen::MatrixXcd states_at_boundaries(const CellGrid& grid, const std::vector<Cell>& cells,

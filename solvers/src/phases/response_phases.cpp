@@ -93,9 +93,13 @@ PeriodicStiffness contact_stiffness(const PhaseMotion& motion) {
   if (!motion.depends_on_velocity()) return result;
   result.damping = [motion](int contact, double time) { return motion.damping(contact, time); };
   result.impulse = [motion](int contact, double time) {
-    const double speed = motion.velocity(Eigen::VectorXd::Constant(1, time))(contact, 0);
-    return speed != 0.0 ? std::abs(motion.force(Eigen::VectorXd::Constant(1, time))(contact, 0) / speed)
-                        : 0.0;
+    const auto at = [time](double end) { return std::abs(end - time - std::round(end - time)) < 1e-12; };
+    const Eigen::VectorXd instant = Eigen::VectorXd::Constant(1, time);
+    const double speed = motion.velocity(instant)(contact, 0), force = motion.force(instant)(contact, 0);
+    const bool ends = std::any_of(motion.phases.begin(), motion.phases.end(), [&](const ContactPhase& phase) {
+      return phase.contact == contact && at(phase.end);
+    });
+    return speed != 0.0 ? (ends ? -force : force) / speed : 0.0;
   };
   return result;
 }

@@ -6,7 +6,6 @@
 
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
-#include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -21,17 +20,14 @@ MotionStability stability_of(const UnstableMultipliers& count) {
   return result;
 }
 
+// All multipliers at once, or with too many states the count by the determinant along the motion.
 MotionStability by_phases(const CondensedProblem& problem, const ContactDynamics& dynamics,
                           const PhaseMotion& motion) {
-  const StabilityOptions options = stability_options(problem);
-  const PeriodicStiffness stiffness = contact_stiffness(motion);
-  Eigen::VectorXcd all;
-  if (2 * dynamics.poles().size() <= static_cast<std::size_t>(options.max_states))
-    all = monodromy(dynamics, stiffness, problem.frequency());
-  const bool known = all.size() > 0 && all.allFinite();
+  const Eigen::VectorXcd all = motion.multipliers();
   MotionStability result =
-      known ? stability_of_multipliers(all)
-            : stability_of(unstable_multipliers(dynamics, stiffness, problem.frequency(), options));
+      all.size() > 0 ? stability_of_multipliers(all)
+                     : stability_of(unstable_multipliers(dynamics, contact_stiffness(motion),
+                                                         problem.frequency(), stability_options(problem)));
   result.by_phases = true;
   return result;
 }

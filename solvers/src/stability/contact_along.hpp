@@ -88,16 +88,17 @@ struct ContactAlong {
     return slopes.force != 0.0 || slopes.tangent != 0.0 || slopes.damping != 0.0;
   }
   double damping(double time) const { return has_velocity() ? at(time).damping : 0.0; }
-  // At the end of an interval: the force just inside less that outside, over the velocity.
+  // At an end of an interval: the force just after it less that before it, over the velocity. A law that
+  // pulls as contact ends has a negative one there.
   double impulse(double time) const {
     if (!has_velocity()) return 0.0;
     constexpr double beside = 1e-9;
-    const double jump = std::abs(at(time + beside).force - at(time - beside).force);
-    const double speed = std::abs(velocity(time)),
-                 slope = at(time + beside).tangent + at(time - beside).tangent;
+    const double jump = at(time + beside).force - at(time - beside).force;
+    const double speed = velocity(time), slope = at(time + beside).tangent + at(time - beside).tangent;
     // What a smooth force changes by within these times is no jump.
     const double smooth = 4.0 * beside * std::abs(curve.rate(time) * slope);
-    return speed > 0.0 && jump > smooth + 1e-6 * std::abs(law.force(curve(time), speed)) ? jump / speed : 0.0;
+    const double size = std::abs(law.force(curve(time), std::abs(speed)));
+    return speed != 0.0 && std::abs(jump) > smooth + 1e-6 * size ? jump / speed : 0.0;
   }
 
   double tangent(double time) const {

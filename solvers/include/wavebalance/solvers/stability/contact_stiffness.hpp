@@ -57,7 +57,8 @@ struct PeriodicStiffness {
   /// The slope by the velocity, N s/m, likewise; empty where no law depends on the velocity.
   std::function<double(int contact, double time)> damping = {};
   /// N s/m, where the force jumps as an interval begins or ends: the impulse on a perturbation over its
-  /// displacement, the jump over the velocity of the contact. Empty where no law depends on the velocity.
+  /// displacement, the force after that instant less the one before it over the velocity of the contact.
+  /// Empty where no law depends on the velocity.
   std::function<double(int contact, double time)> impulse = {};
   bool held = false;  ///< whether springs that hold a free structure were taken back from it
 };

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/phase_cases.hpp"
+#include "support/rigid_law.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::DampedStop, testing::cosine_load, testing::LinearStop, testing::RandomCase,
+    testing::with_massless_contacts;
+
+TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
+  std::mt19937 generator(7);
+  for (int trial = 0; trial < 8; ++trial) {
+    const RandomCase random(generator, 1 + trial % 3);
+    const ContactDynamics dynamics(random.structure);
+    std::vector<int> counts;
+    for (const int functions : {63, 127, 255}) {
+      CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), random.structure,
+                               cosine_load());
+      problem.set_frequency(random.frequency);
+      const PeriodicResponse response = forced_response(problem, random.laws, {});
+      const ResponsePhases phases = response_phases(problem, random.laws, response, dynamics);
+      if (!phases.motion.converged()) continue;
+      const Eigen::VectorXcd multipliers =
+          monodromy(dynamics, contact_stiffness(phases.motion), random.frequency);
+      counts.push_back(static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count()));
+      EXPECT_EQ(counts.back(), counts.front());
+    }
+    EXPECT_GE(counts.size(), 2u) << trial;
+  }
+}
+
+/// The multipliers of both lists, by falling modulus, where they are above 1e-6.
+void expect_same(const Eigen::VectorXcd& found, const Eigen::VectorXcd& expected, double tolerance) {
+  for (const std::complex<double> multiplier : expected) {
+    if (std::abs(multiplier) < 1e-6) continue;
+    const double nearest = (found.array() - multiplier).abs().minCoeff();
+    EXPECT_LT(nearest, tolerance) << multiplier;
+  }
+}
+
+PhaseMotion motion_of(const LinearStructure& structure, const ContactLaws& laws, double frequency,
+                      const ContactDynamics& dynamics, int functions = 255) {
+  CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), structure, cosine_load());
+  problem.set_frequency(frequency);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  return response_phases(problem, laws, response, dynamics, {.tolerance = 1e-11}).motion;
+}
+
+// The monodromy of the poles integrates the variational equations on nodes of its own.
+TEST(PhaseMultipliers, AreThoseOfTheMonodromy) {
+  std::mt19937 generator(11);
+  int found = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    RandomCase random(generator, 1 + trial % 4);
+    if (trial % 2 == 1) {
+      std::vector<AnyContactLaw> damped;
+      for (int c = 0; c < random.structure.contacts(); ++c) {
+        const double gap = random.laws[c].gap(), stiffness = random.laws[c].tangent(2.0 * gap);
+        damped.emplace_back(DampedStop{stiffness, 0.02 * stiffness / random.frequency, gap});
+      }
+      random.laws = ContactLaws(std::move(damped));
+    }
+    const ContactDynamics dynamics(random.structure);
+    const PhaseMotion motion = motion_of(random.structure, random.laws, random.frequency, dynamics);
+    if (!motion.converged() || motion.phases.empty()) continue;
+    ++found;
+    SCOPED_TRACE(trial);
+    expect_same(motion.multipliers(), monodromy(dynamics, contact_stiffness(motion), random.frequency), 1e-7);
+  }
+  EXPECT_GE(found, 8);
+}
+
+// An oscillator with a stop that pulls as it opens. The multipliers were computed from the flow, by
+// exponentials of matrices between located events, in another language.
+TEST(PhaseMultipliers, OfAForceThatPullsAreThoseOfTheFlow) {
+  LinearStructure structure;
+  const auto scalar = [](double value) {
+    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
+  };
+  structure.mass = structure.stiffness = structure.contact_directions = scalar(1.0);
+  structure.damping = scalar(0.1);
+  structure.load = Eigen::VectorXd::Ones(1);
+  const ContactDynamics dynamics(structure);
+  const PhaseMotion motion =
+      motion_of(structure, ContactLaws(AnyContactLaw(DampedStop{5.0, 0.8, 0.5})), 0.2, dynamics);
+  ASSERT_TRUE(motion.converged());
+  const Eigen::VectorXcd expected{{{0.39937382, 0.23501644}, {0.39937382, -0.23501644}}};
+  expect_same(motion.multipliers(), expected, 2e-8);
+  expect_same(monodromy(dynamics, contact_stiffness(motion), 0.2), expected, 2e-8);
+}
+
+// The other map projects perturbations where contact begins and holds the contacts until it ends.
+TEST(PhaseMultipliers, OfRigidContactAreThoseOfHeldContacts) {
+  const LinearStructure structure = with_massless_contacts(0.3);
+  const ContactDynamics dynamics(structure);
+  const ContactLaws laws({AnyContactLaw(testing::Rigid{0.002}), AnyContactLaw(testing::Rigid{0.003})});
+  const PhaseMotion motion = motion_of(structure, laws, 1.3, dynamics, 127);
+  ASSERT_TRUE(motion.converged());
+  const Eigen::VectorXcd multipliers = motion.multipliers();
+  ASSERT_GT(multipliers.size(), 0);
+  expect_same(multipliers, rigid_monodromy(dynamics, contact_stiffness(motion), 1.3), 1e-6);
+}
+
+// Without contact they are those of the structure.
+TEST(PhaseMultipliers, OfAMotionWithoutContactAreExponentials) {
+  std::mt19937 generator(3);
+  const RandomCase random(generator, 2);
+  const ContactDynamics dynamics(random.structure);
+  const ContactLaws distant(AnyContactLaw(LinearStop{1.0, 1e3}));
+  const PhaseMotion motion = motion_of(random.structure, distant, random.frequency, dynamics, 15);
+  ASSERT_TRUE(motion.converged());
+  const Eigen::VectorXcd multipliers = motion.multipliers();
+  ASSERT_EQ(multipliers.size(), 2 * random.structure.size());
+  double slowest = -infinity;
+  for (const ContactPole& pole : dynamics.poles()) slowest = std::max(slowest, pole.exponent.real());
+  EXPECT_NEAR(std::abs(multipliers[0]), std::exp(slowest / random.frequency), 1e-12);
+}
+
+TEST(PhaseMultipliers, AreNotComputedForMoreStatesThanAllowed) {
+  std::mt19937 generator(11);
+  const RandomCase random(generator, 1);
+  const PhaseMotion motion =
+      motion_of(random.structure, random.laws, random.frequency, ContactDynamics(random.structure));
+  ASSERT_TRUE(motion.converged());
+  ASSERT_FALSE(motion.phases.empty());
+  EXPECT_EQ(motion.multipliers(1).size(), 0);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/phase_cases.hpp"
+#include "support/rigid_law.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::distance, testing::expect_motion, testing::free_pair, testing::cosine_load,
+    testing::LinearStop, testing::RandomCase, testing::uniform_times, testing::with_massless_contacts;
+
+TEST(ContactPhases, OfAnUndampedStructureAreThoseOfOneWithNextToNoDamping) {
+  std::mt19937 generator(5);
+  RandomCase random(generator, 1);
+  const auto motion_with = [&](double factor) {
+    LinearStructure structure = random.structure;
+    structure.damping = factor * structure.stiffness;
+    CondensedProblem problem(testing::fourier_pair(127, 512), structure, cosine_load());
+    problem.set_frequency(random.frequency);
+    const PeriodicResponse response = forced_response(problem, random.laws, {});
+    EXPECT_TRUE(response.converged());
+    return response_phases(problem, random.laws, response, ContactDynamics(structure), {}).motion;
+  };
+  const PhaseMotion undamped = motion_with(0.0), damped = motion_with(1e-9);
+  ASSERT_TRUE(undamped.converged() && damped.converged());
+  const Eigen::VectorXd times = uniform_times(128);
+  EXPECT_LT(distance(damped.displacement(times), undamped.displacement(times)), 1e-6);
+}
+
+TEST(ContactPhases, OfAStructureThatIsFreeToMoveAreNearItsBalance) {
+  const LinearStructure structure = free_pair();
+  const ContactLaws laws(AnyContactLaw(LinearStop{60.0, 0.01}));
+  CondensedProblem problem(testing::fourier_pair(255, 1024), structure, cosine_load());
+  problem.set_frequency(1.1);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  const ResponsePhases phases = response_phases(problem, laws, response, ContactDynamics(structure), {});
+  ASSERT_TRUE(phases.motion.converged());
+  EXPECT_LT(phases.displacement_error, 1e-4);
+  EXPECT_LT(phases.force_error, 1e-2);
+  EXPECT_GE(phases.motion.phases.size(), 1u);
+  expect_motion(phases.motion, laws, 1e-7);
+}
+
+TEST(ContactPhases, OfContactsWithoutMassThatDeflectEachOtherSatisfyTheirLaws) {
+  const LinearStructure structure = with_massless_contacts();
+  const ContactLaws laws({AnyContactLaw(LinearStop{150.0, 0.002}), AnyContactLaw(LinearStop{90.0, 0.003})});
+  CondensedProblem problem(testing::fourier_pair(511, 2048), structure, cosine_load());
+  problem.set_frequency(1.3);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  const ResponsePhases phases = response_phases(problem, laws, response, ContactDynamics(structure), {});
+  ASSERT_TRUE(phases.motion.converged());
+  EXPECT_EQ(phases.motion.phases.size(), 2u);
+  EXPECT_LT(phases.displacement_error, 1e-4);
+  expect_motion(phases.motion, laws, 1e-7);
+}
+
+/// Rigid contacts of that chain without mass, with and without dashpots before them.
+class RigidPhases : public ::testing::TestWithParam<double> {};
+
+TEST_P(RigidPhases, HoldTheGapAndPushOnly) {
+  const LinearStructure structure = with_massless_contacts(GetParam());
+  const ContactLaws laws({AnyContactLaw(testing::Rigid{0.002}), AnyContactLaw(testing::Rigid{0.003})});
+  CondensedProblem problem(testing::fourier_pair(127, 512), structure, cosine_load());
+  problem.set_frequency(1.3);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  const ContactDynamics dynamics(structure);
+  const ResponsePhases phases = response_phases(problem, laws, response, dynamics, {});
+  ASSERT_TRUE(phases.motion.converged());
+  ASSERT_EQ(phases.motion.phases.size(), 2u);
+  EXPECT_LT(phases.displacement_error, 1e-2);
+  const Eigen::VectorXd times = uniform_times(500);
+  const Eigen::MatrixXd u = phases.motion.displacement(times), f = phases.motion.force(times);
+  for (int c = 0; c < 2; ++c) {
+    const double gap = c == 0 ? 0.002 : 0.003;
+    EXPECT_LT((u.row(c).array() - gap).maxCoeff(), 1e-9);
+    EXPECT_GT(f.row(c).minCoeff(), -1e-6 * f.maxCoeff());
+    EXPECT_GT(f.row(c).maxCoeff(), 0.0);
+    EXPECT_LT((f.row(c).array() * (u.row(c).array() - gap)).abs().maxCoeff(), 1e-7 * f.maxCoeff() * gap);
+  }
+  EXPECT_EQ(contact_stiffness(phases.motion).status, StabilityStatus::no_finite_stiffness);
+  EXPECT_THROW(
+      contact_phases({dynamics, laws, Eigen::MatrixXcd::Zero(2, 2), 1.3}, Eigen::MatrixXd::Zero(2, 64)),
+      std::invalid_argument);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutDashpots, RigidPhases, ::testing::Values(0.0, 0.3));
+
+TEST(ContactPhases, OfContactsThatPassTogetherAreThoseOfOne) {
+  LinearStructure structure = with_massless_contacts();
+  const auto twice = [&](int first, int second) {
+    Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(2, 5);
+    directions(0, first) = directions(1, second) = 1.0;
+    structure.contact_directions = directions.sparseView();
+  };
+  twice(1, 1);
+  const ContactLaws laws(AnyContactLaw(LinearStop{50.0, 0.004}));
+  CondensedProblem problem(testing::fourier_pair(255, 1024), structure, cosine_load());
+  problem.set_frequency(1.3);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  ASSERT_TRUE(response.converged());
+  const PhaseMotion motion = response_phases(problem, laws, response, ContactDynamics(structure), {}).motion;
+  ASSERT_TRUE(motion.converged());
+  ASSERT_EQ(motion.phases.size(), 2u);
+  EXPECT_NEAR(motion.phases[0].begin, motion.phases[1].begin, 1e-11);
+  expect_motion(motion, laws, 1e-7);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,131 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "constants.hpp"
+#include "support/condensation_cases.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+
+/// Structures, laws and checks that the tests of contact phases share.
+namespace wavebalance::solvers::testing {
+
+inline Eigen::VectorXd uniform_times(int count) {
+  return Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / count);
+}
+
+inline double distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exact) {
+  return (values - exact).norm() / exact.norm();
+}
+
+/// What must hold of any motion: forces are those of the law at the displacements, the
+/// displacements outside phases are on the other side of the gap, and the work of load, damping and contacts
+/// is zero.
+inline void expect_motion(const PhaseMotion& motion, const ContactLaws& laws, double tolerance) {
+  const Eigen::VectorXd times = uniform_times(257);
+  const Eigen::MatrixXd u = motion.displacement(times), v = motion.velocity(times), f = motion.force(times);
+  const double size = f.cwiseAbs().maxCoeff();
+  for (Eigen::Index c = 0; c < u.rows(); ++c)
+    for (Eigen::Index k = 0; k < times.size(); ++k)
+      EXPECT_NEAR(f(c, k), laws[static_cast<int>(c)].force(u(c, k), v(c, k)), tolerance * size)
+          << "contact " << c << " at " << times[k];
+}
+
+struct LinearStop {
+  double stiffness, start;
+  double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
+  double tangent(double u) const { return u >= start ? stiffness : 0.0; }
+  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+};
+
+/// Kelvin and Voigt's stop, whose force jumps where contact begins and ends.
+struct DampedStop {
+  double stiffness, dashpot, start;
+  double force(double u, double v) const { return u > start ? stiffness * (u - start) + dashpot * v : 0.0; }
+  double tangent(double u, double) const { return u >= start ? stiffness : 0.0; }
+  double damping(double u, double) const { return u >= start ? dashpot : 0.0; }
+  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+};
+
+/// A random chain with contacts along random directions, and a balance of it.
+struct RandomCase {
+  RandomCase(std::mt19937& generator, int contacts)
+      : structure(random_chain(std::max(contacts, 2) + 2, generator)) {
+    structure.contact_directions = random_directions(contacts, structure.size(), generator);
+    std::vector<AnyContactLaw> list;
+    const ContactDynamics linear(structure);
+    double lowest = infinity;
+    for (const ContactPole& pole : linear.poles())
+      if (pole.exponent.imag() > 0.0) lowest = std::min(lowest, pole.exponent.imag());
+    frequency = 0.8 * lowest / two_pi;
+    CondensedProblem free(fourier_pair(15, 64), structure, cosine_load());
+    free.set_frequency(frequency);
+    const double size = free.contact_free_response().cwiseAbs().maxCoeff();
+    for (int c = 0; c < contacts; ++c)
+      list.emplace_back(LinearStop{(1.0 + c) / free.contact_compliance()[c], (0.3 + 0.1 * c) * size});
+    laws = ContactLaws(std::move(list));
+  }
+
+  LinearStructure structure;
+  ContactLaws laws;
+  double frequency = 0.0;
+};
+
+/// Two masses with a spring and a dashpot between them that nothing holds but a stop on either side.
+inline LinearStructure free_pair() {
+  LinearStructure structure;
+  const auto sparse = [](const Eigen::MatrixXd& dense) {
+    return Eigen::SparseMatrix<double>(dense.sparseView());
+  };
+  const Eigen::Matrix2d coupling{{1.0, -1.0}, {-1.0, 1.0}};
+  structure.mass = sparse(Eigen::Vector2d(1.0, 0.7).asDiagonal().toDenseMatrix());
+  structure.stiffness = sparse(100.0 * coupling);
+  structure.damping = sparse(0.8 * coupling);
+  structure.load = Eigen::Vector2d(1.0, 0.3);
+  structure.rigid_modes = Eigen::MatrixXd::Constant(2, 1, 1.0 / std::sqrt(1.7));
+  structure.contact_directions = sparse(Eigen::Matrix2d{{1.0, 0.0}, {0.0, -1.0}});
+  return structure;
+}
+
+/// A chain of three masses whose ends are held by springs, and contacts without mass on springs before two of
+/// its masses, which also deflect each other.
+inline LinearStructure with_massless_contacts(double dashpot = 0.0) {
+  const auto sparse = [](const Eigen::MatrixXd& dense) {
+    return Eigen::SparseMatrix<double>(dense.sparseView());
+  };
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(5, 5), damping = stiffness, mass = stiffness;
+  const auto spring = [&](int i, int j, double k, double c) {
+    for (auto [matrix, value] : {std::pair{&stiffness, k}, {&damping, c}}) {
+      (*matrix)(i, i) += value;
+      if (j < 0) continue;
+      (*matrix)(j, j) += value;
+      (*matrix)(i, j) -= value;
+      (*matrix)(j, i) -= value;
+    }
+  };
+  spring(0, -1, 90.0, 0.4);
+  spring(0, 1, 100.0, 0.4);
+  spring(1, 2, 110.0, 0.4);
+  spring(2, -1, 80.0, 0.4);
+  spring(3, 0, 300.0, dashpot);
+  spring(4, 2, 350.0, dashpot);
+  spring(3, 4, 40.0, 0.0);
+  mass.diagonal().head(3) << 1.0, 0.8, 1.2;
+  LinearStructure structure;
+  structure.mass = sparse(mass);
+  structure.stiffness = sparse(stiffness);
+  structure.damping = sparse(damping);
+  structure.load = Eigen::VectorXd::Unit(5, 1);
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(2, 5);
+  directions(0, 3) = 1.0;
+  directions(1, 4) = -1.0;
+  structure.contact_directions = sparse(directions);
+  return structure;
+}
+
+}  // namespace wavebalance::solvers::testing
