@@ -236,6 +236,7 @@ class Tracker {
     (curve_.parameter == SweepParameter::frequency ? point.frequency : point.load_scale) = middle;
     point.bracket = std::abs(a.point.parameter - b.point.parameter);
     point.located = located;
+    point.next_point = index_;
     point.unknown = a.point.displacement;
     point.unknown_parameter = a.point.parameter;
     const PeriodicResponse at = response(a.point);

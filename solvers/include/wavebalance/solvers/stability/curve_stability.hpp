@@ -1,5 +1,6 @@
 #pragma once
 #include <complex>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct SpecialPoint {
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown at one end of the bracket
   double unknown_parameter = 0.0;     ///< the frequency (Hz) or load scale at that end
   double load_scale = 1.0;            ///< in the middle of the bracket, whose width is then in its unit
+  std::size_t next_point = 0;         ///< index of the first point of a response curve behind it
 };
 
 /// How the stability of a curve is found.

@@ -1,0 +1,63 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "wavebalance/solvers/problem/contact_problem.hpp"
+
+namespace wavebalance::solvers {
+
+/// A solution of a curve that was traced with keep_unknowns: one of its points or special points.
+struct CurvePlace {
+  double value = 0.0;                                     ///< of the curve's parameter, Hz or a load scale
+  std::reference_wrapper<const Eigen::VectorXd> unknown;  ///< PeriodicResponse::unknown there
+};
+
+/// The motion of the structure near a solution of a curve.
+struct PointPhases {
+  PhasesStatus status = PhasesStatus::no_motion_near;
+  double displacement_error = missing, force_error = missing;  ///< as of ResponsePhases
+  /// That of the motion of the structure, with CurvePhasesOptions::stability and where it has converged.
+  std::optional<MotionStability> stability{};
+  std::size_t place = 0;  ///< which of the solutions that were tried it is near to
+};
+
+/// What is found along a curve, and on how many threads.
+struct CurvePhasesOptions {
+  ContactPhasesOptions phases{};
+  /// Largest ResponsePhases::displacement_error. A motion farther away is another one, and none is near.
+  double max_distance = 0.1;
+  bool stability = true;  ///< of the motions found
+  int threads = 1;        ///< that take the solutions one by one; 0: one per core
+  Observer observer{};    ///< called by the caller's thread alone
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// ContactProblem::phases() of a response, with the status no_motion_near where the motion found is farther
+/// away than options.max_distance.
+std::optional<ResponsePhases> near_phases(ContactProblem& problem, const PeriodicResponse& response,
+                                          const CurvePhasesOptions& options = {});
+
+/// The motions of the structure near solutions of a curve.
+struct CurvePhases {
+  std::vector<std::optional<PointPhases>> points;  ///< one for each entry; empty where it was stopped before
+  bool cancelled = false;                          ///< the observer returned false
+};
+
+/// Makes the problem on which a curve was traced, once for each thread.
+using ProblemMaker = std::function<ContactProblem()>;
+
+/// near_phases() along a curve: for each entry of `places`, none of them empty, near the first of
+/// its solutions that has a motion of the structure near, or else the first. A fold of the structure lies
+/// beside that of a balance, so that one of both has no motion at its frequency that the other has: solutions
+/// beside it tell whether there is one at all. Each entry is taken by itself: neither their order nor the
+/// threads change a digit. Without points where the structure has no modes to compute. Throws
+/// std::invalid_argument for options out of range, and as ContactProblem::response() does. A condensation and
+/// a response_phases() for each solution tried, and with stability a motion_stability().
+CurvePhases phases_along(const ProblemMaker& make, const FrequencySweep& curve,
+                         const std::vector<std::vector<CurvePlace>>& places,
+                         const CurvePhasesOptions& options = {});
+
+}  // namespace wavebalance::solvers

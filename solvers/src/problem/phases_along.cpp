@@ -1,0 +1,93 @@
+#include "wavebalance/solvers/problem/phases_along.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include "linalg/option_checks.hpp"
+#include "wavebalance/solvers/linalg/parallel_for.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+// Making another problem is worth it from so many places on.
+constexpr std::size_t least_places_of_thread = 4;
+
+std::vector<ContactProblem> problems_for(const ProblemMaker& make, std::size_t places, int threads) {
+  const std::size_t most = std::max<std::size_t>(1, places / least_places_of_thread);
+  const std::size_t workers = std::min<std::size_t>(static_cast<std::size_t>(thread_count(threads)), most);
+  std::vector<ContactProblem> problems;
+  problems.reserve(workers);
+  for (std::size_t i = 0; i < workers; ++i) problems.push_back(make());
+  if (workers > 1)
+    for (ContactProblem& problem : problems) problem.condensed().set_threads(1);
+  return problems;
+}
+
+PointPhases phases_at(ContactProblem& problem, const FrequencySweep& curve, const CurvePlace& place,
+                      const CurvePhasesOptions& options) {
+  const PeriodicResponse response = problem.response(curve, place.value, place.unknown);
+  const ResponsePhases found = near_phases(problem, response, options).value();
+  PointPhases result{found.motion.status, found.displacement_error, found.force_error, {}, 0};
+  if (options.stability && found.motion.converged())
+    result.stability = problem.stability(response, &found.motion);
+  return result;
+}
+
+PointPhases phases_near(ContactProblem& problem, const FrequencySweep& curve,
+                        const std::vector<CurvePlace>& places, const CurvePhasesOptions& options) {
+  const PointPhases first = phases_at(problem, curve, places.front(), options);
+  if (first.status != PhasesStatus::no_motion_near) return first;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    PointPhases other = phases_at(problem, curve, places[i], options);
+    other.place = i;
+    if (other.status != PhasesStatus::no_motion_near) return other;
+  }
+  return first;
+}
+
+}  // namespace
+
+void CurvePhasesOptions::validate() const {
+  phases.validate();
+  detail::require_positive("CurvePhasesOptions", "max_distance", max_distance);
+  thread_count(threads);
+}
+
+std::optional<ResponsePhases> near_phases(ContactProblem& problem, const PeriodicResponse& response,
+                                          const CurvePhasesOptions& options) {
+  std::optional<ResponsePhases> found = problem.phases(response, options.phases);
+  if (!found || !(found->displacement_error > options.max_distance)) return found;
+  return ResponsePhases{PhaseMotion(), missing, missing};
+}
+
+CurvePhases phases_along(const ProblemMaker& make, const FrequencySweep& curve,
+                         const std::vector<std::vector<CurvePlace>>& places,
+                         const CurvePhasesOptions& options) {
+  options.validate();
+  CurvePhases result;
+  std::vector<ContactProblem> problems = problems_for(make, places.size(), options.threads);
+  if (places.empty() || problems.front().dynamics() == nullptr) return result;
+  result.points.resize(places.size());
+  const std::string_view unit = unit_of(problems.front().condensed(), curve.parameter);
+  std::atomic<int> found{0};
+  std::atomic<bool> cancelled{false};
+  const auto tell = [&](double value) {
+    const int count = found;
+    if (!goes_on(options.observer,
+                 {"contact phases", count, value, unit, double(count) / double(places.size())}))
+      cancelled = true;
+  };
+  const auto work = [&](int worker, Eigen::Index index) {
+    if (cancelled) return;
+    const auto i = static_cast<std::size_t>(index);
+    result.points[i] = phases_near(problems[static_cast<std::size_t>(worker)], curve, places[i], options);
+    ++found;
+    if (worker == 0) tell(places[i].front().value);
+  };
+  parallel_for(static_cast<int>(problems.size()), static_cast<Eigen::Index>(places.size()), work,
+               [&] { tell(missing); });
+  result.cancelled = cancelled;
+  return result;
+}
+
+}  // namespace wavebalance::solvers
