@@ -38,7 +38,8 @@ class Record:
     contacts: dict
         Motion and force of every contact, where there are several.
     sweep: dict
-        Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts.
+        Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts; with analysis.phases
+        error_of_displacement, error_of_force, phases_status, stability_by. The summary has these errors of the peak.
     backbone: dict
         Of a nonlinear mode: energy_ratio, frequency_Hz, frequency_ratio, ..., contact_fraction.
     bar_motion: numpy.ndarray

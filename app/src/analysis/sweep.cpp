@@ -11,6 +11,10 @@
 namespace wavebalance::app {
 namespace {
 
+bool keeps_unknowns(const Scene& scene) {
+  return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty();
+}
+
 /// The first point of a sweep that starts near a motion, or that has several periods of the load.
 solvers::PeriodicResponse first_point(const Scene& scene, solvers::ContactProblem& problem,
                                       solvers::ForcedResponseOptions how, const StartMotion& start,
@@ -27,7 +31,7 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
                        const StartMotion& start) {
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
-  options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
+  options.keep_unknowns = keeps_unknowns(scene);
   Sweep sweep;
   solvers::ContactProblem problem = compose_problem(scene, model);
   if (scene.analysis.subharmonic == 1 && start.contacts.empty()) {
@@ -45,7 +49,7 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
 }  // namespace
 
 bool Sweep::stopped() const {
-  return interrupted() || stability.cancelled || !motions_left_out.empty() ||
+  return interrupted() || stability.cancelled || phases_cancelled || !motions_left_out.empty() ||
          std::any_of(branches.begin(), branches.end(),
                      [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
 }
@@ -54,6 +58,14 @@ std::string Sweep::status() const {
   if (interrupted()) return "interrupted";
   if (curve.rounding_error > largest_rounding_error) return inaccurate_status(curve.rounding_error);
   return std::string(to_string(curve.status));
+}
+
+const SweepPhases* Sweep::phases_of(std::size_t number) const {
+  return number < phases.size() ? &phases[number] : nullptr;
+}
+
+StabilityAlong Sweep::stability_of(std::size_t number) const {
+  return stability_along(number == 0 ? stability : branches[number - 1].stability, phases_of(number));
 }
 
 Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
@@ -78,7 +90,7 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
   const ReferenceLoad load = reference_load(scene.forcing).value();
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
-  options.keep_unknowns = scene.analysis.stability || !scene.analysis.motion_at.empty();
+  options.keep_unknowns = keeps_unknowns(scene);
   Sweep sweep;
   sweep.curve = compose_problem(scene, model).amplitude_sweep(scene.forcing.frequency, options);
   sweep.amplitude_unit = load.unit;

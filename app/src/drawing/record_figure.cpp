@@ -237,13 +237,14 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   Panel& panel = figure.add_panel();
   panel.x.label = sweep_axis(sweep).label();
   panel.y.label = "Displacement (" + scale.prefix + "m)";
+  const StabilityAlong stability = sweep.stability_of(0);
   for (const auto& [label, value, colour] :
        {std::tuple{"largest", &solvers::SweepPoint::max_displacement, Colour::blue},
         {"rms", &solvers::SweepPoint::rms_displacement, Colour::orange}}) {
     Series series(label, places_along(sweep.curve), values_along(sweep.curve, value, scale.factor));
     series.colour = colour;
     const bool largest_one = colour == Colour::blue;  // that of the special points
-    add_curve(panel, series, sweep.stability.points,
+    add_curve(panel, series, stability.points,
               largest_one ? placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter)
                           : std::vector<PlacedPoint>());
   }

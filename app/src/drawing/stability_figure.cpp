@@ -195,7 +195,7 @@ void draw_branches(Panel& panel, const Sweep& sweep, double x_factor, double y_f
     for (const auto& point : branch.stability.special_points)
       special.push_back({point.type, x_factor * point.frequency, y_factor * point.max_displacement});
     const std::size_t before = panel.series.size();
-    draw_by_stability(panel, series, branch.stability.points, special);
+    draw_by_stability(panel, series, sweep.stability_of(i + 1).points, special);
     label_once(panel, before);
   }
 }

@@ -10,12 +10,13 @@
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
+#include "results/sweep_phases.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::app {
 namespace {
 
-std::vector<Cell> row_of(const CurveMotion& motion) {
+std::vector<Cell> row_of(const CurveMotion& motion, bool with_phases) {
   const solvers::Motion leading = motion.contacts.contact(motion.contact);
   Summary values;
   append_motion(values, leading);
@@ -24,6 +25,8 @@ std::vector<Cell> row_of(const CurveMotion& motion) {
   row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
   row.emplace_back(motion.residual);
   row.emplace_back(motion.converged);
+  if (with_phases)
+    for (Cell& cell : phases_cells(motion.phases)) row.push_back(std::move(cell));
   return row;
 }
 
@@ -56,10 +59,24 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
                     const std::vector<CurveMotion>& motions) {
   if (scene.analysis.motion_at.empty()) return;
   const SweepAxis axis = sweep_axis(sweep);
-  Table table({"file", "at", axis.column(), "max_displacement_m", "min_displacement_m", "rms_displacement_m",
-               "max_contact_force_N", "contact_fraction", "unstable_multipliers", "residual", "converged"});
+  const bool with_phases = std::any_of(motions.begin(), motions.end(),
+                                       [](const CurveMotion& motion) { return motion.phases.has_value(); });
+  std::vector<std::string> columns{"file",
+                                   "at",
+                                   axis.column(),
+                                   "max_displacement_m",
+                                   "min_displacement_m",
+                                   "rms_displacement_m",
+                                   "max_contact_force_N",
+                                   "contact_fraction",
+                                   "unstable_multipliers",
+                                   "residual",
+                                   "converged"};
+  if (with_phases)
+    for (std::string& column : phases_columns()) columns.push_back(std::move(column));
+  Table table(columns);
   for (const CurveMotion& motion : motions) {
-    table.append_row(row_of(motion));
+    table.append_row(row_of(motion, with_phases));
     append_files(record, model, motion, place_of(motion, axis));
     if (!motion.converged)
       record.warnings.push_back("The motion " + place_of(motion, axis) +

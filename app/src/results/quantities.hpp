@@ -32,6 +32,9 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     attractor_periods{"attractor_periods"}, phases_status{"phases_status"},
     error_of_displacement{"error_of_displacement"}, error_of_force{"error_of_force"},
     phases_estimated_error{"phases_estimated_error"}, phases_unknowns{"phases_unknowns"}, phases{"phases"},
+    largest_error_of_displacement{"largest_error_of_displacement"},
+    largest_error_of_force{"largest_error_of_force"}, points_phases_converged{"points_phases_converged"},
+    points_no_motion_near{"points_no_motion_near"}, points_phases_not_known{"points_phases_not_known"},
     points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"}, interruptions{"interruptions"},
     stability{"stability"}, stability_by{"stability_by"}, special_points{"special_points"},
     branches{"branches"}, special_points_of_branches{"special_points_of_branches"}, motions{"motions"};

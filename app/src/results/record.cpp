@@ -16,6 +16,7 @@
 #include "results/quantities.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
+#include "results/sweep_phases.hpp"
 #include "wavebalance/app/analysis/curve_motions.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
@@ -162,9 +163,8 @@ double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, d
 
 /// Frequency or amplitude of the point with the largest displacement; missing without points.
 double place_of_peak(const solvers::FrequencySweep& curve) {
-  const auto lower = [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; };
-  const auto peak = std::max_element(curve.points.begin(), curve.points.end(), lower);
-  return peak == curve.points.end() ? missing : solvers::parameter_of(*peak, curve.parameter);
+  return curve.points.empty() ? missing
+                              : solvers::parameter_of(curve.points[peak_of(curve)], curve.parameter);
 }
 
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
@@ -198,6 +198,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     warn_of_open_contacts(record, highest, model.gaps.minCoeff());
   append_period(record, sweep.periods, sweep.motion_periods);
   append_stability(record, sweep);
+  append_phases(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
   append_motions(record, scene, model, sweep, motions);
   append_discretisation(record.summary, scene.time);
@@ -215,6 +216,7 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
   Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer)
                                : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
+  add_phases(scene, model, sweep, observer);
   return sweep;
 }
 

@@ -9,6 +9,7 @@
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
+#include "results/sweep_phases.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -37,14 +38,40 @@ bool folds_are_known(const solvers::CurveStability& stability) {
          });
 }
 
+/// The columns of special points, after `first`.
+std::vector<std::string> special_columns(std::vector<std::string> first, const SweepAxis& axis,
+                                         bool with_phases) {
+  first.insert(first.end(), {"type", axis.column(), "bracket_" + axis.suffix, "multiplier_real",
+                             "multiplier_imag", "max_displacement_m", "status"});
+  if (!with_phases) return first;
+  const std::vector<std::string> of_phases = phases_columns();
+  first.insert(first.end(), of_phases.begin(), of_phases.end());
+  return first;
+}
+
+/// Rows of special points, each after `first`. Where the structure has no motion near there is no multiplier.
+void append_special_points(Table& table, const std::vector<Cell>& first,
+                           const solvers::CurveStability& stability, solvers::SweepParameter parameter,
+                           const SweepPhases* phases) {
+  for (std::size_t i = 0; i < stability.special_points.size(); ++i) {
+    const solvers::SpecialPoint& point = stability.special_points[i];
+    const bool sought = phases != nullptr && i < phases->special_points.size();
+    const SweepPhases::Point near = sought ? phases->special_points[i] : SweepPhases::Point();
+    const bool none = has_no_motion_near(near);
+    std::vector<Cell> row = first;
+    row.insert(row.end(), {std::string(to_string(point.type)), parameter_of(point, parameter), point.bracket,
+                           none ? missing : point.multiplier.real(), none ? missing : point.multiplier.imag(),
+                           point.max_displacement, std::string(point.located ? "located" : "bracketed")});
+    if (phases != nullptr)
+      for (Cell& cell : phases_cells(near)) row.push_back(std::move(cell));
+    table.append_row(std::move(row));
+  }
+}
+
 Table table_of(const Sweep& sweep) {
-  const SweepAxis axis = sweep_axis(sweep);
-  Table table({"type", axis.column(), "bracket_" + axis.suffix, "multiplier_real", "multiplier_imag",
-               "max_displacement_m", "status"});
-  for (const auto& point : sweep.stability.special_points)
-    table.append_row({std::string(to_string(point.type)), parameter_of(point, sweep.curve.parameter),
-                      point.bracket, point.multiplier.real(), point.multiplier.imag(), point.max_displacement,
-                      std::string(point.located ? "located" : "bracketed")});
+  const SweepPhases* phases = sweep.phases_of(0);
+  Table table(special_columns({}, sweep_axis(sweep), phases != nullptr));
+  append_special_points(table, {}, sweep.stability, sweep.curve.parameter, phases);
   return table;
 }
 
@@ -116,7 +143,7 @@ void append_stability(Record& record, const Sweep& sweep) {
   append_turning_points(record, sweep, complete && folds_are_known(sweep.stability));
   if (sweep.stability.points.empty()) return;
   record.summary.emplace_back(quantities::stability,
-                              complete ? std::string(to_string(sweep.stability.status())) : "interrupted");
+                              complete ? sweep.stability_of(0).status : std::string("interrupted"));
   record.summary.emplace_back(quantities::special_points, table_of(sweep));
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
@@ -173,13 +200,10 @@ void append_branches(Record& record, const Sweep& sweep) {
         fmt::format("Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end)));
   }
   record.summary.emplace_back(quantities::branches, table);
-  Table special({"branch", "type", "frequency_Hz", "bracket_Hz", "multiplier_real", "multiplier_imag",
-                 "max_displacement_m", "status"});
+  Table special(special_columns({"branch"}, sweep_axis(sweep), !sweep.phases.empty()));
   for (std::size_t i = 0; i < sweep.branches.size(); ++i)
-    for (const auto& point : sweep.branches[i].stability.special_points)
-      special.append_row({std::int64_t(i) + 1, std::string(to_string(point.type)), point.frequency,
-                          point.bracket, point.multiplier.real(), point.multiplier.imag(),
-                          point.max_displacement, std::string(point.located ? "located" : "bracketed")});
+    append_special_points(special, {std::int64_t(i) + 1}, sweep.branches[i].stability,
+                          sweep.branches[i].curve.parameter, sweep.phases_of(i + 1));
   record.summary.emplace_back(quantities::special_points_of_branches, special);
 }
 

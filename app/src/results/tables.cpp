@@ -5,6 +5,8 @@
 
 #include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
+#include "results/quantities.hpp"
+#include "results/sweep_phases.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {
@@ -40,52 +42,64 @@ std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepPa
           point.contact_fraction};
 }
 
-void append_rows(Table& table, const solvers::FrequencySweep& curve,
-                 const std::vector<solvers::PointStability>& stability, int branch, int period) {
+/// Which columns a curve's table has beside those of its points.
+struct MoreColumns {
+  bool stability, phases, branches;
+};
+
+std::vector<std::string> columns_of(const std::string& place, const MoreColumns& more) {
+  std::vector<std::string> columns = point_columns;
+  columns.front() = place;
+  if (more.stability) columns.insert(columns.end(), {"unstable", "contacts"});
+  if (more.branches) columns.insert(columns.end(), {"branch", "period"});
+  if (!more.phases) return columns;
+  for (std::string& column : phases_columns()) columns.push_back(std::move(column));
+  if (more.stability) columns.push_back(quantities::stability_by.column());
+  return columns;
+}
+
+/// The points of the curve, 0, or of a branch, from 1.
+void append_rows(Table& table, const Sweep& sweep, std::size_t number, const MoreColumns& more) {
+  const solvers::FrequencySweep& curve = number == 0 ? sweep.curve : sweep.branches[number - 1].curve;
+  const int periods = number == 0 ? 1 : sweep.branches[number - 1].periods;
+  const StabilityAlong stability = sweep.stability_of(number);
+  const SweepPhases* phases = sweep.phases_of(number);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const bool known = i < stability.size();
     std::vector<Cell> row = point_cells(curve.points[i], curve.parameter);
-    row.emplace_back(known && stability[i].unstable >= 0 ? stability[i].unstable : missing);
-    row.emplace_back(known ? stability[i].contacts : missing);
-    row.emplace_back(std::int64_t{branch});
-    row.emplace_back(std::int64_t{period});
+    if (more.stability) {
+      const bool known = i < stability.points.size();
+      row.emplace_back(known && stability.points[i].unstable >= 0 ? stability.points[i].unstable : missing);
+      row.emplace_back(known ? stability.points[i].contacts : missing);
+    }
+    if (more.branches)
+      row.insert(row.end(), {static_cast<std::int64_t>(number), std::int64_t{periods * sweep.periods}});
+    if (more.phases) {
+      const bool sought = phases != nullptr && i < phases->points.size();
+      for (Cell& cell : phases_cells(sought ? phases->points[i] : SweepPhases::Point()))
+        row.push_back(std::move(cell));
+      if (more.stability) row.emplace_back(i < stability.by.size() ? stability.by[i] : "none");
+    }
     table.append_row(std::move(row));
   }
 }
 
-/// With the name of its first column.
-Table points_table(const solvers::FrequencySweep& curve, const std::string& place) {
-  std::vector<std::string> columns = point_columns;
-  columns.front() = place;
-  Table table(columns);
+}  // namespace
+
+Table sweep_table(const solvers::FrequencySweep& curve) {
+  Table table(point_columns);
   for (const auto& point : curve.points) table.append_row(point_cells(point, curve.parameter));
   return table;
 }
 
-}  // namespace
-
-Table sweep_table(const solvers::FrequencySweep& curve) { return points_table(curve, point_columns.front()); }
-
 Table sweep_table(const Sweep& sweep, bool with_branches) {
-  if (with_branches) {
-    std::vector<std::string> columns = point_columns;
-    columns.insert(columns.end(), {"unstable", "contacts", "branch", "period"});
-    Table table(columns);
-    append_rows(table, sweep.curve, sweep.stability.points, 0, sweep.periods);
-    int number = 0;
-    for (const solvers::Branch& branch : sweep.branches)
-      append_rows(table, branch.curve, branch.stability.points, ++number, branch.periods * sweep.periods);
-    return table;
-  }
-  Table table = points_table(sweep.curve, sweep_axis(sweep).column());
-  const auto& points = sweep.stability.points;
-  if (points.empty()) return table;
-  std::vector<double> unstable(table.rows(), missing), contacts(table.rows(), missing);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].unstable >= 0) unstable[i] = points[i].unstable;
-    contacts[i] = points[i].contacts;
-  }
-  return table.add_column("unstable", unstable).add_column("contacts", contacts);
+  const SweepPhases* phases = sweep.phases_of(0);
+  const MoreColumns more{with_branches || !sweep.stability.points.empty(),
+                         phases != nullptr && !phases->points.empty(), with_branches};
+  Table table(columns_of(sweep_axis(sweep).column(), more));
+  append_rows(table, sweep, 0, more);
+  for (std::size_t i = 1; with_branches && i <= sweep.branches.size(); ++i)
+    append_rows(table, sweep, i, more);
+  return table;
 }
 
 }  // namespace wavebalance::app

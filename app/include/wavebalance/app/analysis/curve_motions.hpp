@@ -18,13 +18,17 @@ struct CurveMotion {
   int contact = 0;              ///< the leading one, see leading_contact()
   Eigen::MatrixXd structure;    ///< of the reduced structure at analysis.motion_points instants, m; or empty
   ResponseStability stability;  ///< with analysis.stability; else its status is empty
+  /// At the peak and special points, and with analysis.phases at places asked for; where it is not empty, the
+  /// stability is that of the motion found, or not known where there is none near.
+  SweepPhases::Point phases;
 };
 
 /// The motions of analysis.motion_at: that of the point with the largest displacement, those of the special
 /// points in their order along the curve, and at each frequency or amplitude those of all its points, in the
 /// same order and numbered if there are several. Those of the branches are left out. A place that the curve
-/// does not pass has none. `sweep` is one of the scene with motion_at. A response and its stability for each.
-/// Where the observer stops them, the others are left out and named in sweep.motions_left_out.
+/// does not pass has none. `sweep` is one of the scene with motion_at. A response, its phases and its
+/// stability for each. Where the observer stops them, the others are left out and named in
+/// sweep.motions_left_out.
 std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
                                        const Observer& observer = {});
 

@@ -1,10 +1,12 @@
 #pragma once
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
+#include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/branches.hpp"
@@ -17,6 +19,8 @@ struct Sweep {
   solvers::FrequencySweep curve;
   solvers::CurveStability stability;      ///< set by add_stability(); without points otherwise
   std::vector<solvers::Branch> branches;  ///< set by add_stability() with analysis.branches
+  std::vector<SweepPhases> phases = {};   ///< set by add_phases(): of the curve, then of each branch
+  bool phases_cancelled = false;          ///< the observer stopped add_phases()
   int periods = 1;                        ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
   int motion_periods =
@@ -31,10 +35,14 @@ struct Sweep {
   }
   /// The observer stopped the curve, which holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
-  /// The observer stopped it, its stability, a branch or its motions.
+  /// The observer stopped it, its stability, a branch, its phases or its motions.
   bool stopped() const;
   /// "reached_end", or the reason why not, such as "interrupted".
   std::string status() const;
+  /// Of the curve, 0, or of a branch, from 1: its phases, null where they were not sought, and the stability
+  /// that its record tells.
+  const SweepPhases* phases_of(std::size_t number) const;
+  StabilityAlong stability_of(std::size_t number) const;
 };
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
@@ -49,6 +57,14 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
 /// by 1/20 of the interval has the same length as a change of displacement by the gap.
 Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
+
+/// Sets the phases of contact at the peak and the special points of a sweep of the scene and at the special
+/// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
+/// special points at most most_special_points_with_phases of each curve are then taken, those where
+/// multipliers pass the unit circle before grazings. Nothing where neither analysis.stability nor
+/// analysis.phases is true or the structure's modes cannot be computed. An observer that stops it leaves
+/// those found so far.
+void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
 /// is false or the structure's modes cannot be computed, and with analysis.branches its branches. An observer

@@ -221,8 +221,8 @@ struct Analysis {
   int output_points = 1024;  ///< uniform points of one period in the output
 
   int motion_points = -1;  ///< instants of the period at which the whole structure's motion is written
-  /// forced_response: whether the motion of the structure near the response is solved for by phases of
-  /// contact
+  /// forced_response, sweeps: whether the motion of the structure near the response, or near every point of
+  /// the curve, is solved for by phases of contact
   bool phases = false;
   bool stability = true;  ///< forced_response, frequency_sweep: whether Floquet multipliers are counted
   /// forced_response, frequency_sweep: periods of the load after which motions repeat. Time's functions and

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavebalance/solvers/problem/phases_along.hpp"
+
+namespace wavebalance::app {
+
+/// How many special points of a curve have phases unless analysis.phases asks for all points.
+inline constexpr std::size_t most_special_points_with_phases = 24;
+
+/// The motions of the structure near a curve, by phases of contact. Empty where they were not sought.
+struct SweepPhases {
+  using Point = std::optional<solvers::PointPhases>;
+
+  Point peak;                         ///< of the main curve
+  std::vector<Point> special_points;  ///< one for each of CurveStability::special_points
+  std::vector<Point> points;          ///< one for each point of the curve with analysis.phases; else none
+};
+
+/// "converged", "converged_beside" where that holds a few points of the curve away alone, another
+/// solvers::PhasesStatus, or "not_computed" where they were not sought.
+std::string phases_status(const SweepPhases::Point& point);
+/// Whether it was sought and the structure has no motion near.
+bool has_no_motion_near(const SweepPhases::Point& point);
+
+/// The stability along a curve that its record tells.
+struct StabilityAlong {
+  std::vector<solvers::PointStability> points;
+  /// Of each point: "phases" where the count is that of the structure's motion, "balance", or "none" where
+  /// the structure has no motion near and no verdict is given. Empty without SweepPhases::points.
+  std::vector<std::string> by;
+  std::string status = "converged";  ///< or why the first count that is not known is not
+};
+
+/// That of a balance with the counts of the structure where its motion is known, null: without any.
+StabilityAlong stability_along(const solvers::CurveStability& balance, const SweepPhases* phases);
+
+/// The index of the point with the largest displacement, of a curve with points.
+std::size_t peak_of(const solvers::FrequencySweep& curve);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,154 @@
+#include "wavebalance/app/analysis/sweep_phases.hpp"
+
+#include <algorithm>
+
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// The special points of which phases are sought, in the order of the curve.
+std::vector<std::size_t> special_points_taken(const std::vector<solvers::SpecialPoint>& points, bool all) {
+  std::vector<std::size_t> taken(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) taken[i] = i;
+  if (all || points.size() <= most_special_points_with_phases) return taken;
+  std::stable_partition(taken.begin(), taken.end(),
+                        [&](std::size_t i) { return points[i].type != solvers::SpecialPointType::grazing; });
+  taken.resize(most_special_points_with_phases);
+  std::sort(taken.begin(), taken.end());
+  return taken;
+}
+
+/// A curve of which phases are sought.
+struct PhasedCurve {
+  const Scene& scene;  ///< with the period of the curve
+  const StructureModel& model;
+  const solvers::FrequencySweep& curve;
+  const std::vector<solvers::SpecialPoint>& special_points;
+  bool has_peak;
+};
+
+using Tries = std::vector<solvers::CurvePlace>;
+
+Tries tries_at(const solvers::FrequencySweep& curve, std::size_t point) {
+  return {{parameter_of(curve.points[point], curve.parameter), curve.points[point].unknown}};
+}
+
+/// Adds points of the curve before `before` and from `after` on: the nearest and some further away, since
+/// near a fold several lie beyond that of the structure.
+void add_points_beside(Tries& tries, const solvers::FrequencySweep& curve, std::size_t before,
+                       std::size_t after) {
+  for (const std::size_t steps : {0, 3}) {
+    if (before > steps) tries.push_back(tries_at(curve, before - 1 - steps).front());
+    if (after + steps < curve.points.size()) tries.push_back(tries_at(curve, after + steps).front());
+  }
+}
+
+/// Where phases are sought: at the special points taken, at the peak if the curve has one, and with
+/// analysis.phases at all points.
+std::vector<Tries> tries_along(const PhasedCurve& of, const std::vector<std::size_t>& special_points) {
+  std::vector<Tries> all;
+  for (const std::size_t i : special_points) {
+    const solvers::SpecialPoint& point = of.special_points[i];
+    Tries& tries = all.emplace_back(Tries{{point.unknown_parameter, point.unknown}});
+    add_points_beside(tries, of.curve, point.next_point, point.next_point);
+  }
+  if (of.has_peak) {
+    const std::size_t peak = peak_of(of.curve);
+    add_points_beside(all.emplace_back(tries_at(of.curve, peak)), of.curve, peak, peak + 1);
+  }
+  for (std::size_t i = 0; of.scene.analysis.phases && i < of.curve.points.size(); ++i)
+    all.push_back(tries_at(of.curve, i));
+  return all;
+}
+
+/// The errors of single responses need no more digits. Where no motion is near, as beyond a fold, the search
+/// takes longest, and the points beside are tried next.
+solvers::ContactPhasesOptions phases_options(bool all) {
+  solvers::ContactPhasesOptions options;
+  if (all) return options;
+  options.tolerance = 1e-6;
+  options.max_iterations = 6;
+  options.max_changes = 2;
+  return options;
+}
+
+/// Sets `cancelled` where the observer stops it.
+SweepPhases phases_of(const PhasedCurve& of, const Observer& observer, bool& cancelled) {
+  const bool all = of.scene.analysis.phases;
+  const std::vector<std::size_t> taken = special_points_taken(of.special_points, all);
+  solvers::CurvePhasesOptions options;
+  options.phases = phases_options(all);
+  options.stability = all && of.scene.analysis.stability;
+  options.threads = of.model.threads;
+  options.observer = observer;
+  auto found = solvers::phases_along([&] { return compose_problem(of.scene, of.model); }, of.curve,
+                                     tries_along(of, taken), options);
+  cancelled = found.cancelled;
+  SweepPhases result;
+  result.special_points.resize(of.special_points.size());
+  auto next = found.points.begin();
+  for (const std::size_t i : taken) result.special_points[i] = std::move(*next++);
+  if (of.has_peak) result.peak = std::move(*next++);
+  result.points.assign(next, found.points.end());
+  return result;
+}
+
+}  // namespace
+
+std::size_t peak_of(const solvers::FrequencySweep& curve) {
+  const auto highest =
+      std::max_element(curve.points.begin(), curve.points.end(),
+                       [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; });
+  return static_cast<std::size_t>(highest - curve.points.begin());
+}
+
+std::string phases_status(const SweepPhases::Point& point) {
+  if (!point) return "not_computed";
+  const bool beside = point->place > 0 && point->status == solvers::PhasesStatus::converged;
+  return std::string(to_string(point->status)) + (beside ? "_beside" : "");
+}
+
+bool has_no_motion_near(const SweepPhases::Point& point) {
+  return point && point->status == solvers::PhasesStatus::no_motion_near;
+}
+
+StabilityAlong stability_along(const solvers::CurveStability& balance, const SweepPhases* phases) {
+  StabilityAlong along;
+  along.points = balance.points;
+  const bool phased = phases != nullptr && !phases->points.empty();
+  for (std::size_t i = 0; i < along.points.size(); ++i) {
+    solvers::PointStability& point = along.points[i];
+    std::string by = "balance", status(to_string(point.status));
+    if (phased && has_no_motion_near(phases->points[i])) {
+      point.unstable = -1;
+      by = "none";
+      status = phases_status(phases->points[i]);
+    } else if (phased && phases->points[i] && phases->points[i]->stability) {
+      const solvers::MotionStability& found = *phases->points[i]->stability;
+      point.unstable = found.unstable;
+      by = "phases";
+      status = found.unstable < 0 ? found.status : "converged";
+    }
+    if (along.status == "converged") along.status = status;
+    if (phased) along.by.push_back(std::move(by));
+  }
+  return along;
+}
+
+void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
+  const bool wanted = scene.analysis.stability || scene.analysis.phases;
+  if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
+  sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
+                                   observer, sweep.phases_cancelled));
+  for (const solvers::Branch& branch : sweep.branches) {
+    SweepPhases& phases = sweep.phases.emplace_back();
+    if (branch.curve.points.empty() || sweep.phases_cancelled) continue;
+    const Scene longer = with_longer_period(scene, branch.periods);
+    phases = phases_of({longer, model, branch.curve, branch.stability.special_points, false}, observer,
+                       sweep.phases_cancelled);
+  }
+}
+
+}  // namespace wavebalance::app
