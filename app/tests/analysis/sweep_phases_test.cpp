@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "support/curve_record.hpp"
 #include "support/summary_value.hpp"
@@ -76,6 +77,75 @@ TEST(PhasesOfASweep, CorrectTheCountsOfTheBalance) {
     const bool none = phases.sweep.texts("phases_status")[i] == "no_motion_near";
     EXPECT_EQ(std::isnan(phases.sweep.numbers("unstable")[i]), none);
     EXPECT_EQ(phases.sweep.texts("stability_by")[i], none ? "none" : "phases");
+  }
+}
+
+/// Three masses between stops of 14 to 141 kN/m that touch for a few per cent of the period.
+constexpr const char* three_masses = R"([structure]
+type = "matrices"
+mass = "mass.mtx"
+stiffness = "stiffness.mtx"
+damping = "damping.mtx"
+[contact]
+law = "clearance"
+stiffness = 1.0
+gap = 0.0
+[[contact.pairs]]
+dofs = [1]
+coefficients = [-1.0]
+stiffness = 141142.30477585082
+gap = 9.747021996955785e-05
+stiffness_below = 13738.43640600048
+gap_below = 0.0003557793476694954
+[[contact.pairs]]
+dofs = [2]
+coefficients = [-1.0]
+stiffness = 60026.75970528996
+gap = 0.0001861640154736735
+stiffness_below = 24896.188958470753
+gap_below = 0.00014785866233082734
+[forcing]
+load_dofs = [1]
+amplitude = 0.07400215130981587
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 63
+quadrature_points = 512
+[analysis]
+type = "frequency_sweep"
+frequency_from = 1.0
+frequency_to = 2.0
+)";
+
+// At these frequencies Newton's method on the map of the period and variational equations give 0 and 1
+// multipliers outside the unit circle, and the balance of 63 functions has 1 and 2.
+TEST(PhasesOfASweep, CorrectTheCountsOfShortContacts) {
+  const TemporaryFolder folder;
+  const std::string symmetric = "%%MatrixMarket matrix coordinate real symmetric\n";
+  folder.write("mass.mtx", symmetric +
+                               "3 3 3\n1 1 1.2877028452601675\n2 2 1.8445934785249525\n"
+                               "3 3 1.0842696832647172\n");
+  folder.write("stiffness.mtx", symmetric +
+                                    "3 3 5\n1 1 3950.5547299417126\n2 1 -2670.645518305771\n"
+                                    "2 2 4985.2918624310969\n3 2 -2314.6463441253254\n"
+                                    "3 3 2314.6463441253254\n");
+  folder.write("damping.mtx", symmetric +
+                                  "3 3 6\n1 1 3.9665853684625745\n2 1 -1.7282177563625007\n"
+                                  "3 1 -0.28433599184748792\n2 2 4.8267707866039817\n"
+                                  "3 2 -1.6811063760824079\n3 3 2.6662432479887506\n");
+  const auto place = folder.write("three_masses.toml", three_masses);
+  for (const auto& [from, to, count] : {std::tuple{"2.124", "2.1241", 0.0}, {"2.29704", "2.29714", 1.0}}) {
+    const Overrides interval{std::string("analysis.frequency_from=") + from,
+                             std::string("analysis.frequency_to=") + to};
+    Overrides phased = interval;
+    phased.emplace_back("analysis.phases=true");
+    const Record balance = analyse(load_scene(place, interval), Observer()),
+                 phases = analyse(load_scene(place, phased), Observer());
+    ASSERT_TRUE(balance.converged && phases.converged);
+    EXPECT_EQ(balance.sweep.numbers("unstable")[0], count + 1.0);
+    EXPECT_EQ(phases.sweep.numbers("unstable")[0], count);
+    EXPECT_EQ(phases.sweep.texts("stability_by")[0], "phases");
   }
 }
 
