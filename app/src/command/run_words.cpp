@@ -139,7 +139,7 @@ std::string status_sentence(const std::string& status) {
        "Stability is not known everywhere: the count of multipliers took too many operations."},
       {"no_response", "Stability is not known: there is no motion."},
       {"no_motion_near",
-       "Stability is not known: no motion of the structure was found near this response of the samples."},
+       "Stability is not known where no motion of the structure was found near the response of the samples."},
       {"not_computed", "Stability was not computed; analysis.stability = true asks for it."},
       {"interrupted", "The computation of stability was interrupted."},
   };

@@ -44,7 +44,8 @@ void append_phases_of_points(Record& record, const Sweep& sweep) {
   if (none == 0) return;
   record.warnings.push_back(fmt::format(
       "At {} of {} points of the curve no motion of the structure was found near: the balance solves the equations at its "
-      "samples alone there, and no verdict of stability is given. More functions may lead to one.",
+      "samples alone there, as between its folds and those of the structure, and no verdict of stability is given. More "
+      "functions may lead to one.",
       none, all));
 }
 
