@@ -165,12 +165,16 @@ class Search {
       : model_(model),
         options_(options),
         times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))),
-        free_(model.free_motion(times_)) {}
+        free_(model.free_motion(times_)),
+        observer_([this](const Progress& progress) {
+          cancelled_ = cancelled_ || !goes_on(options_.observer, progress);
+          return !cancelled_;
+        }) {}
 
   PhaseMotion run(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_force) {
     PhaseMotion result;
     Found found = at(reach({start, slopes_of(start)}, start_force), result);
-    for (; !found.agrees() && result.changes < options_.max_changes; ++result.changes)
+    for (; !found.agrees() && !cancelled_ && result.changes < options_.max_changes; ++result.changes)
       found = at(found.reach, result);
     if (found.agrees()) refine(found, result);
     if (found.agrees()) {
@@ -185,7 +189,7 @@ class Search {
   Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) const {
     Found found;
     found.newton =
-        detail::solve_phases(model_, std::move(iterate), nodes_, {options_.max_iterations, tolerance});
+        detail::solve_phases(model_, std::move(iterate), nodes_, {options_.max_iterations, tolerance, observer_});
     result.iterations += found.newton.iterations;
     found.motion = model_.response.motion(found.newton.iterate.forces.grid(),
                                           found.newton.iterate.forces.coefficients(), nodes_, times_);
@@ -241,7 +245,7 @@ class Search {
     PhaseIterate iterate{std::move(layout), std::move(forces)};
     for (int level = 0; level < 6; ++level) {
       PhaseNewtonResult held =
-          detail::solve_forces(model_, iterate, nodes_, {options_.max_iterations, rough});
+          detail::solve_forces(model_, iterate, nodes_, {options_.max_iterations, rough, observer_});
       result.iterations += held.iterations;
       if (!held.converged) break;
       iterate = std::move(held.iterate);
@@ -290,9 +294,12 @@ class Search {
     result.residual = found.newton.residual;
     result.unknowns = static_cast<int>(iterate.forces.coefficients().size()) +
                       static_cast<int>(iterate.layout.passages.size());
+    if (cancelled_) result.status = PhasesStatus::cancelled;
     if (!found.agrees()) return result;
-    result.status = result.estimated_error <= options_.tolerance ? PhasesStatus::converged
-                                                                 : PhasesStatus::tolerance_missed;
+    if (result.estimated_error <= options_.tolerance)
+      result.status = PhasesStatus::converged;
+    else if (!cancelled_)
+      result.status = PhasesStatus::tolerance_missed;
     for (const detail::Phase& phase : iterate.layout.phases) {
       if (!model_.laws[static_cast<std::size_t>(phase.contact)].exerts(phase.piece)) continue;
       const double begin = iterate.layout.begin(phase), whole = std::floor(begin);
@@ -313,6 +320,8 @@ class Search {
   Eigen::VectorXd times_;  // l / N
   ContactMotion free_;     // without contact, there
   LegendreNodes nodes_{options_.nodes};
+  Observer observer_;  // that of the options, which is not called after it has returned false
+  bool cancelled_ = false;
 };
 
 }  // namespace
@@ -334,7 +343,8 @@ std::string_view to_string(PhasesStatus status) {
                                         {rigid_contact, "rigid_contact"},
                                         {velocity_and_no_mass, "velocity_and_no_mass"},
                                         {resonant, "resonant"},
-                                        {structural_damping, "structural_damping"}},
+                                        {structural_damping, "structural_damping"},
+                                        {cancelled, "cancelled"}},
                                        status);
 }
 

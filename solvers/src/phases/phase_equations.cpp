@@ -328,6 +328,7 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     }
     before = result.residual;
     if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
+    if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
     factor = factor_of(result.iterate, now, nodes, now.residual.size());
     const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
@@ -352,6 +353,7 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual))
       return result;
+    if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
     const Lu<double> factor = factor_of(result.iterate, now, nodes, now.force.size());
     const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
     if (!step.allFinite()) return result;

@@ -56,6 +56,7 @@ struct PhaseNewtonResult {
 struct NewtonLimits {
   int max_iterations;
   double tolerance;  ///< of the residual, relative to the largest force and displacement
+  const Observer& observer;
 };
 
 /// Newton's method on the forces at q nodes of each panel and the instants of all passages. A residual below

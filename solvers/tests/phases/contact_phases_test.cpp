@@ -214,6 +214,27 @@ TEST(ContactPhases, NameWhatTheyCannotSolve) {
   EXPECT_EQ(contact_phases({damped, bar.law, free, 150.0}, start).status, PhasesStatus::structural_damping);
 }
 
+TEST(ContactPhases, EndWhereTheObserverStopsThemWithTheMotionFoundBefore) {
+  const BarCase bar(testing::jl14_case_2);
+  const auto found = [&](double tolerance, int steps) {
+    return response_phases(
+               bar.problem, bar.law, bar.response, bar.dynamics,
+               {.tolerance = tolerance, .observer = [steps](const Progress&) mutable { return steps-- > 0; }})
+        .motion;
+  };
+  const PhaseMotion none = found(1e-12, 0);
+  EXPECT_EQ(none.status, PhasesStatus::cancelled);
+  EXPECT_EQ(none.parts, nullptr);
+  int steps = 1;
+  while (found(1e-2, steps).status == PhasesStatus::cancelled && steps < 100) ++steps;
+  const PhaseMotion coarse = found(1e-12, steps);
+  EXPECT_EQ(coarse.status, PhasesStatus::cancelled);
+  ASSERT_NE(coarse.parts, nullptr);
+  EXPECT_GT(coarse.estimated_error, 1e-12);
+  const Eigen::VectorXd times = uniform_times(64);
+  EXPECT_LT(distance(coarse.displacement(times), bar.phases(1e-12).motion.displacement(times)), 1e-2);
+}
+
 TEST(ContactPhases, RejectSizesAndOptionsThatDoNotFit) {
   const BarCase bar(testing::jl14_case_1);
   const Eigen::MatrixXcd free = Eigen::MatrixXcd::Zero(1, 2);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers {
@@ -30,7 +31,8 @@ enum class PhasesStatus {
   rigid_contact,
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
   resonant,              ///< the structure without contact has a motion of this period of its own
-  structural_damping     ///< it has no equation in time
+  structural_damping,    ///< it has no equation in time
+  cancelled              ///< the observer returned false; the motion is that found before, if there is one
 };
 
 std::string_view to_string(PhasesStatus status);
@@ -53,6 +55,7 @@ struct ContactPhasesOptions {
   int max_panels = 400;
   int max_iterations = 20;  ///< of Newton's method, each time
   int max_changes = 12;     ///< of the phases
+  Observer observer = {};   ///< called before each step of Newton's method
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
