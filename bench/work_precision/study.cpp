@@ -26,8 +26,11 @@ Study study_of(const std::string& name, const std::string& title, app::Scene sce
 }
 
 Study penalty_study(const std::string& name, const std::string& title, const std::string& file) {
+  constexpr double seconds = 60.0;  // at most; contact phases take milliseconds
   const app::Scene loaded = scene(file);
-  return study_of(name, title, loaded, app::make_model(loaded), app::shooting_reference(loaded));
+  const app::StructureModel model = app::make_model(loaded);
+  return study_of(name, title, loaded, model,
+                  app::find_reference(loaded, model, loaded.analysis.output_points, seconds));
 }
 
 Study rigid_study(const std::string& name, const std::string& title, const std::string& file) {

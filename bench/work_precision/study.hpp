@@ -21,7 +21,7 @@ struct Study {
   const app::Scene& scene() const { return measured.scene; }
 };
 
-/// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle: law by law against shooting.
+/// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle, against contact phases.
 std::vector<Study> penalty_studies();
 /// Both cases against a rigid obstacle with the tip's mass at its neighbour, against the exact alternation of
 /// free and closed motion.

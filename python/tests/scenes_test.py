@@ -205,3 +205,10 @@ def test_plot_draws_the_motion(bar):
 
 def test_check_says_what_would_be_solved(bar):
     assert "31" in wavebalance.check(bar)
+
+
+def test_a_comparison_is_decided_by_the_error_that_is_named(bar):
+    found = wavebalance.compare(bar, pairs="fourier:fourier", error="force", budget=0.5)
+    assert found.summary["error_of"] == "force"
+    with pytest.raises(ValueError, match="--error energy: expected displacement, force or both"):
+        wavebalance.compare(bar, error="energy")

@@ -25,7 +25,8 @@ class Comparison:
     summary: dict
         The values of summary.json: the reference, its error, and the tables "pairs" and "recommendations".
     table: dict
-        Columns of comparison.csv, a row for each solve: trial, weight, functions, points, seconds, displacement_error, ...
+        Columns of comparison.csv, a row for each solve: trial, weight, functions, points, seconds, error, ... Contact
+        phases have the trial "phases".
     text: str
         What to take, in sentences, with the ``[time]`` table of each choice.
     """
@@ -55,6 +56,7 @@ def compare(
     overrides: Overrides = None,
     *,
     pairs: str | Iterable[str] = (),
+    error: str = "",
     budget: float = 10.0,
     unset: Iterable[str] = (),
     threads: int = 0,
@@ -67,6 +69,9 @@ def compare(
         As for :func:`wavebalance.run`. A structure of one's own is a scene by :meth:`wavebalance.Structure.scene`.
     pairs:
         Pairs such as ``["fourier:fourier", "haar:fourier"]``; all admissible ones of the common bases by default.
+    error:
+        Which error decides, "displacement", "force" or "both", the larger; by default both, where that of the force is
+        defined.
     budget:
         Wall time of everything, s, above 0.
     threads:
@@ -75,8 +80,8 @@ def compare(
     Raises
     ------
     ValueError
-        A pair that is not admissible, a budget or an analysis that cannot be compared; :class:`SceneError` for the scene.
+        A pair that is not admissible, an error, a budget or an analysis that cannot be compared; :class:`SceneError` for the scene.
     """
     names = pairs if isinstance(pairs, str) else ",".join(pairs)
     with scene_source(scene, overrides, unset) as source:
-        return Comparison(_core.compare_scene(source, names, float(budget), threads))
+        return Comparison(_core.compare_scene(source, names, error, float(budget), threads))

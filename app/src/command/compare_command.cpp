@@ -24,6 +24,7 @@ namespace {
 ComparisonOptions options_of(const CompareArguments& arguments) {
   ComparisonOptions options;
   if (!arguments.pairs.empty()) options.pairs = parse_pairs(arguments.pairs);
+  if (!arguments.error.empty()) options.measure = parse_error_measure(arguments.error);
   options.budget = arguments.budget;
   options.threads = arguments.run.threads;
   return options;

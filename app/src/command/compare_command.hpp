@@ -8,6 +8,7 @@ namespace wavebalance::app {
 struct CompareArguments {
   RunArguments run;      ///< scene, its changes, output and quiet
   std::string pairs;     ///< "fourier:fourier,haar:fourier"; empty: every admissible common one
+  std::string error;     ///< "displacement", "force" or "both"; empty: ComparisonOptions::measure
   double budget = 10.0;  ///< s
 };
 

@@ -15,6 +15,7 @@ namespace {
 std::string command_of(const CompareArguments& arguments) {
   std::string text = "wavebalance compare " + shell_word(arguments.run.scene.string());
   if (!arguments.pairs.empty()) text += " --pairs " + shell_word(arguments.pairs);
+  if (!arguments.error.empty()) text += " --error " + shell_word(arguments.error);
   text += fmt::format(" --budget {}", arguments.budget);
   for (const auto& one : arguments.run.overrides) text += " --set " + shell_word(one);
   for (const auto& one : arguments.run.removed) text += " --unset " + shell_word(one);
@@ -35,8 +36,9 @@ std::string recommendations(const Summary& summary) {
   std::string html, before;
   for (std::size_t row = 0; row < table->rows(); ++row) {
     const std::string paste = cell_text(table->at(row, "time_table"));
-    html +=
-        fmt::format("<h3>For an error of {}</h3>\n", error_text(std::get<double>(table->at(row, "error"))));
+    html += fmt::format("<h3>For an error of {} of {}</h3>\n",
+                        error_text(std::get<double>(table->at(row, "error"))),
+                        subject_of(parse_error_measure(cell_text(table->at(row, "error_of")))));
     html += paragraph({cell_text(table->at(row, "sentences"))});
     const std::string stability = cell_text(table->at(row, "stability"));
     if (stability == "stable" || stability == "unstable")
@@ -52,9 +54,10 @@ std::string recommendations(const Summary& summary) {
       {"functions", "functions"},
       {"quadrature_points", "points"},
       {"seconds", "time (s)"},
-      {"displacement_error", "error"},
+      {"displacement_error", "error of the displacement"},
       {"force_error", "error of the force"},
-      {"fourier_time_ratio", "time of Fourier:Fourier over it"}};
+      {"fourier_time_ratio", "time of Fourier:Fourier over it"},
+      {"phases_seconds", "time of contact phases, where less (s)"}};
   return html + "<h3>Side by side</h3>\n" + columns_html(*table, columns);
 }
 
@@ -100,6 +103,8 @@ std::string reference(const Summary& summary) {
       fmt::format("Errors are those against {}. Its own error is about {:.0e}; smaller differences from it "
                   "say nothing.",
                   text, error)};
+  if (const double of_force = number_in(summary, {"reference_force_error"}); std::isfinite(of_force))
+    sentences.push_back(fmt::format("That of its force is about {:.0e}.", of_force));
   const std::string stability = text_in(summary, {"reference_stability"});
   if (stability == "stable" || stability == "unstable")
     sentences.push_back("Its motion is " + stability + ".");

@@ -96,6 +96,11 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
                   "pairs of bases, fourier:fourier,haar:fourier; without it every admissible one of "
                   "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
+  command
+      .add_option("--error", arguments.error,
+                  "which error decides: displacement, force or both, the larger; without it both, where that "
+                  "of the force is defined")
+      ->type_name("NAME");
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
   add_threads(command, arguments.run.threads, "pairs that are solved side by side; one per core without it");
   command.add_flag("!--no-report", arguments.run.report, "write no report.html");

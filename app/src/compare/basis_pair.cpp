@@ -67,9 +67,12 @@ BasisPair parse_pair(std::string_view text, const std::string& one) {
 
 }  // namespace
 
-std::string name_of(const BasisPair& pair) { return pair.trial + ":" + pair.weight; }
+std::string name_of(const BasisPair& pair) {
+  return pair.is_phases() ? pair.trial : pair.trial + ":" + pair.weight;
+}
 
 std::string label_of(const BasisPair& pair) {
+  if (pair.is_phases()) return "contact phases";
   return basis_label(pair.trial) + ":" + basis_label(pair.weight);
 }
 
@@ -110,6 +113,12 @@ solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scen
 }
 
 Series styled(Series series, const BasisPair& pair) {
+  if (pair.is_phases()) {
+    series.colour = Colour::black;
+    series.marker = 7;
+    series.width = 2.4;
+    return series;
+  }
   series.colour = Colour::grey;
   series.marker = 8;
   series.dash = dash_of(pair);

@@ -1,5 +1,7 @@
 #include "wavebalance/app/compare/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <utility>
 
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compare/phase_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/files/table.hpp"
 
@@ -16,7 +19,8 @@ namespace {
 using WallClock = std::chrono::steady_clock;
 
 constexpr int error_points = 1024;        // at which motions are compared
-constexpr double reference_share = 0.3;   // of the budget
+constexpr double reference_share = 0.3;   // of the budget; a third of it for contact phases
+constexpr double phases_share = 0.1;      // of the budget: contact phases beside the pairs
 constexpr double longest_share = 0.1;     // of the budget: a single solve
 constexpr double smallest_error = 1e-8;   // a pair that reaches it is not solved with more functions
 constexpr double stability_share = 0.05;  // of the budget, kept for the stability of what is recommended
@@ -67,12 +71,16 @@ class ResponseComparison {
                        [&](const solvers::Progress&) { return goes_on("reference"); });
     if (found_.reference.converged) {
       measured_.reference = found_.reference.motion;
+      choose_measure();
+      const std::vector<SolvePoint> phases = phase_points();
       found_.points = size_study(measured_, pairs.admissible, size_options());
       std::erase_if(found_.points, [](const SolvePoint& point) { return point.status == "not_run"; });
+      found_.points.insert(found_.points.begin(), phases.begin(), phases.end());
       mark_front(found_.points);
       add_recommendations();
     }
-    found_.pairs = pair_results(pairs.admissible, found_.points, found_.reference.error);
+    found_.pairs = pair_results(pairs.admissible, found_.points, reference_error());
+    add_phases_result();
     for (PairResult& other : pairs.others) found_.pairs.push_back(std::move(other));
     found_.wall_seconds = seconds_of(start_);
     return std::move(found_);
@@ -87,14 +95,62 @@ class ResponseComparison {
     return !found_.interrupted;
   }
 
+  double reference_error() const { return found_.reference.error_by(found_.measure); }
+
+  /// The force decides, too, where its error is defined: some force acts, and that of the reference is known
+  /// well enough for the largest error of a recommendation.
+  void choose_measure() {
+    using enum ErrorMeasure;
+    found_.measure = options_.measure.value_or(both);
+    found_.force_asked = options_.measure.has_value() && found_.measure != displacement;
+    if (found_.measure != displacement) {
+      const double of_force = found_.reference.force_error;
+      const double needed = known_share * *std::max_element(options_.errors.begin(), options_.errors.end());
+      if (!(found_.reference.motion.force.squaredNorm() > 0.0))
+        found_.without_force = "no contact force acts";
+      else if (!std::isfinite(of_force))
+        found_.without_force = "the error of the reference's force is not known";
+      else if (!found_.force_asked && of_force > needed)
+        found_.without_force = fmt::format("the error of the reference's force is about {:.0e}", of_force);
+      if (!found_.without_force.empty()) found_.measure = displacement;
+    }
+    measured_.measure = found_.measure;
+  }
+
+  /// Where they have found the reference.
+  std::vector<SolvePoint> phase_points() {
+    if (found_.reference.kind != "phases") return {};
+    PhaseStudyOptions study;
+    study.max_seconds = longest_share * phases_share * options_.budget;
+    study.solve = timed_solves();
+    const double end = seconds_of(start_) + phases_share * options_.budget;
+    study.observer = [this, end](const solvers::Progress& progress) {
+      return goes_on(progress.phase) && seconds_of(start_) < end;
+    };
+    return phase_study(measured_, found_.reference, study);
+  }
+
+  /// After the admissible pairs: what the phases did, or why they were not sought.
+  void add_phases_result() {
+    const std::string& reason = found_.reference.without_phases;
+    const BasisPair phases = BasisPair::phases();
+    if (reason.empty() && points_of(phases, found_.points).empty()) return;
+    found_.pairs.push_back(pair_results({phases}, found_.points, reference_error()).front());
+    found_.pairs.back().inadmissible = reason;
+  }
+
+  Repetition timed_solves() const {
+    return {
+        .budget = std::min(0.02, 2e-4 * options_.budget), .least = 2, .max_seconds = 0.005 * options_.budget};
+  }
+
   SizeStudyOptions size_options() {
     SizeStudyOptions sizes;
     sizes.functions = doubled_sizes(options_.first_functions, options_.largest_functions);
     sizes.points_per_function = options_.points_per_function;
     sizes.max_seconds = longest_share * options_.budget;
-    sizes.smallest_error = std::max(smallest_error, found_.reference.error);
-    sizes.solve = {
-        .budget = std::min(0.02, 2e-4 * options_.budget), .least = 2, .max_seconds = 0.005 * options_.budget};
+    sizes.smallest_error = std::max(smallest_error, reference_error());
+    sizes.solve = timed_solves();
     sizes.longest_ratio = 10.0;
     sizes.dominated_ratio = 5.0;
     sizes.construction = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
@@ -107,7 +163,8 @@ class ResponseComparison {
 
   void add_recommendations() {
     for (const double error : options_.errors) {
-      Recommendation one = recommend(found_.points, error, found_.reference.error, measured_.scene.time);
+      Recommendation one =
+          recommend(found_.points, error, reference_error(), measured_.scene.time, found_.measure);
       if (one.choice && measured_.scene.analysis.stability) one.stability = stability_of(*one.choice);
       found_.recommendations.push_back(std::move(one));
     }
@@ -156,6 +213,11 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options) {
   if (options.threads < 0)
     throw std::invalid_argument("--threads " + std::to_string(options.threads) +
                                 ": expected at least 1, or 0 for one per core");
+  if (options.measure && *options.measure != ErrorMeasure::displacement &&
+      scene.analysis.type != AnalysisType::forced_response)
+    throw std::invalid_argument(
+        "--error " + std::string(to_string(*options.measure)) +
+        ": curves of a sweep are compared by their displacements; expected displacement");
   for (const BasisPair& pair : options.pairs) {
     const auto found = admissibility_of(pair, scene);
     if (!found.admissible)

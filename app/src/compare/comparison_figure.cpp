@@ -34,12 +34,12 @@ Series least_errors(const BasisPair& pair, const std::vector<SolvePoint>& points
   return styled({label_of(pair), x, y, SeriesStyle::line_points}, pair);
 }
 
-Panel& add_error_panel(Figure& figure, const std::string& abscissa) {
+Panel& add_error_panel(Figure& figure, const std::string& abscissa, ErrorMeasure measure) {
   figure.panel_width = 900;
   figure.panel_height = 460;
   Panel& panel = figure.add_panel();
   panel.x.label = abscissa;
-  panel.y.label = "Relative rms error of the contact displacement";
+  panel.y.label = "Relative rms error of " + subject_of(measure);
   panel.x.logarithmic = panel.y.logarithmic = true;
   return panel;
 }
@@ -67,7 +67,8 @@ void mark_reference(Panel& panel, const Comparison& comparison) {
   double least = std::numeric_limits<double>::infinity();
   for (const SolvePoint& point : comparison.points)
     if (point.converged) least = std::min(least, point.error);
-  if (least < 10.0 * comparison.reference.error) panel.mark_y(comparison.reference.error);
+  const double own = comparison.reference.error_by(comparison.measure);
+  if (least < 10.0 * own) panel.mark_y(own);
 }
 
 }  // namespace
@@ -101,14 +102,16 @@ std::vector<BasisPair> leading_pairs(std::vector<BasisPair> pairs, const std::ve
 Figure error_over_time(const Comparison& comparison) {
   Figure figure;
   figure.title = "Error over solve time";
-  Panel& panel = add_error_panel(figure, "Solve time (processor seconds)");
+  Panel& panel = add_error_panel(figure, "Solve time (processor seconds)", comparison.measure);
   panel.add(pareto_front(comparison.points));
   std::vector<BasisPair> pairs;
   for (const PairResult& pair : comparison.pairs)
-    if (pair.converged > 0) pairs.push_back(pair.pair);
+    if (pair.converged > 0 && !pair.pair.is_phases()) pairs.push_back(pair.pair);
   constexpr std::size_t most = 6;
   for (const BasisPair& pair : leading_pairs(pairs, comparison.points, most))
     panel.add(best_of(pair, comparison.points));
+  if (!points_of(BasisPair::phases(), comparison.points).empty())
+    panel.add(best_of(BasisPair::phases(), comparison.points));
   mark_reference(panel, comparison);
   return figure;
 }
@@ -116,9 +119,9 @@ Figure error_over_time(const Comparison& comparison) {
 Figure error_over_functions(const Comparison& comparison) {
   Figure figure;
   figure.title = "Error over functions, with the best number of points";
-  Panel& panel = add_error_panel(figure, "Functions");
+  Panel& panel = add_error_panel(figure, "Functions", comparison.measure);
   for (const PairResult& pair : comparison.pairs)
-    if (pair.converged > 0) panel.add(least_errors(pair.pair, comparison.points));
+    if (pair.converged > 0 && !pair.pair.is_phases()) panel.add(least_errors(pair.pair, comparison.points));
   mark_reference(panel, comparison);
   return figure;
 }

@@ -48,8 +48,19 @@ std::string reference_sentence(const Reference& reference) {
   if (!reference.converged) return "No reference was found within its share of the budget.";
   std::string text =
       fmt::format("The reference is {}; its own error is about {:.0e}", reference.text, reference.error);
+  if (std::isfinite(reference.force_error))
+    text += fmt::format(", that of its force {:.0e}", reference.force_error);
   const std::string& stability = reference.stability.status;
   if (stability == "stable" || stability == "unstable") text += ", its motion is " + stability;
+  return text + ".";
+}
+
+/// Which error decides.
+std::string measure_sentence(const Comparison& comparison) {
+  if (comparison.measure == ErrorMeasure::both)
+    return "Errors are the larger of those of displacement and force.";
+  std::string text = "Errors are those of " + subject_of(comparison.measure);
+  if (!comparison.without_force.empty()) text += ", because " + comparison.without_force;
   return text + ".";
 }
 
@@ -78,6 +89,8 @@ std::string recommendations_text(const std::vector<Recommendation>& recommendati
 
 std::vector<std::string> warnings_of(const Comparison& comparison) {
   std::vector<std::string> warnings;
+  if (comparison.force_asked && !comparison.without_force.empty())
+    warnings.push_back("errors are those of the displacement, because " + comparison.without_force);
   if (comparison.reference.stability.status == "unstable")
     warnings.emplace_back(
         "the motion of the reference is unstable: the structure settles to another one, and a solver may "
@@ -86,7 +99,7 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
   constexpr double far = 0.1;
   const auto others =
       std::count_if(comparison.points.begin(), comparison.points.end(), [&](const SolvePoint& point) {
-        return point.converged && point.functions >= many_functions && point.error > far;
+        return point.converged && point.functions >= many_functions && point.displacement_error > far;
       });
   if (others > 0)
     warnings.push_back(
@@ -100,10 +113,12 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
 }
 
 Table front_table(const Comparison& comparison) {
-  Table table({"trial", "weight", "functions", "points", "seconds", "displacement_error"});
+  Table table({"trial", "weight", "functions", "points", "tolerance", "seconds", "error",
+               "displacement_error", "force_error"});
   for (const SolvePoint& point : envelope(comparison.points))
     table.append_row({point.pair.trial, point.pair.weight, std::int64_t{point.functions},
-                      std::int64_t{point.points}, point.seconds, point.error});
+                      std::int64_t{point.points}, point.tolerance, point.seconds, point.error,
+                      point.displacement_error, point.force_error});
   return table;
 }
 
@@ -111,6 +126,7 @@ void add_reference(Summary& summary, const Reference& reference) {
   summary.emplace_back("reference", reference.kind);
   summary.emplace_back("reference_text", reference.text);
   summary.emplace_back("reference_error", reference.error);
+  summary.emplace_back("reference_force_error", reference.force_error);
   summary.emplace_back("reference_seconds", reference.wall_seconds);
   summary.emplace_back("reference_stability", reference.stability.status);
   summary.emplace_back("reference_unstable_multipliers", std::int64_t{reference.stability.unstable});
@@ -137,13 +153,15 @@ const std::string title = "# Which basis for this scene?\n\n";
 }  // namespace
 
 Table points_table(const Comparison& comparison) {
-  Table table({"trial", "weight", "functions", "points", "inner_products", "construction_seconds", "seconds",
-               "displacement_error", "force_error", "below_reference", "converged", "status", "on_front"});
+  Table table({"trial", "weight", "functions", "points", "tolerance", "inner_products",
+               "construction_seconds", "seconds", "error", "displacement_error", "force_error",
+               "below_reference", "converged", "status", "on_front"});
   for (const SolvePoint& point : comparison.points)
-    table.append_row(
-        {point.pair.trial, point.pair.weight, std::int64_t{point.functions}, std::int64_t{point.points},
-         point.inner_products, point.construction_seconds, point.seconds, point.error, point.force_error,
-         point.error <= comparison.reference.error, point.converged, point.status, point.on_front});
+    table.append_row({point.pair.trial, point.pair.weight, std::int64_t{point.functions},
+                      std::int64_t{point.points}, point.tolerance, point.inner_products,
+                      point.construction_seconds, point.seconds, point.error, point.displacement_error,
+                      point.force_error, point.error <= comparison.reference.error_by(comparison.measure),
+                      point.converged, point.status, point.on_front});
   return table;
 }
 
@@ -164,16 +182,35 @@ Table pairs_table(const Comparison& comparison) {
 }
 
 Table recommendations_table(const std::vector<Recommendation>& recommendations) {
-  Table table({"error", "trial", "weight", "functions", "quadrature_points", "seconds", "displacement_error",
-               "force_error", "fourier_functions", "fourier_seconds", "fourier_time_ratio", "basis_matters",
-               "stability", "sentences", "time_table"});
+  Table table({"error",         "error_of",          "trial",           "weight",
+               "functions",     "quadrature_points", "seconds",         "displacement_error",
+               "force_error",   "fourier_functions", "fourier_seconds", "fourier_time_ratio",
+               "basis_matters", "phases_functions",  "phases_points",   "phases_seconds",
+               "phases_error",  "stability",         "sentences",       "time_table"});
   for (const Recommendation& one : recommendations) {
     const SolvePoint choice = one.choice.value_or(SolvePoint{});
     const SolvePoint fourier = one.fourier.value_or(SolvePoint{});
-    table.append_row({one.error, choice.pair.trial, choice.pair.weight, std::int64_t{choice.functions},
-                      std::int64_t{choice.points}, choice.seconds, choice.error, choice.force_error,
-                      std::int64_t{fourier.functions}, fourier.seconds, one.fourier_time_ratio(),
-                      std::string(to_string(one.matters)), one.stability, one.sentences, one.time_table});
+    const SolvePoint phases = one.phases.value_or(SolvePoint{});
+    table.append_row({one.error,
+                      std::string(to_string(one.measure)),
+                      choice.pair.trial,
+                      choice.pair.weight,
+                      std::int64_t{choice.functions},
+                      std::int64_t{choice.points},
+                      choice.seconds,
+                      choice.displacement_error,
+                      choice.force_error,
+                      std::int64_t{fourier.functions},
+                      fourier.seconds,
+                      one.fourier_time_ratio(),
+                      std::string(to_string(one.matters)),
+                      std::int64_t{phases.functions},
+                      std::int64_t{phases.points},
+                      phases.seconds,
+                      phases.error,
+                      one.stability,
+                      one.sentences,
+                      one.time_table});
   }
   return table;
 }
@@ -197,6 +234,7 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   record.warnings = warnings_of(comparison);
   record.summary = heading(record, scene, comparison.wall_seconds);
   add_reference(record.summary, comparison.reference);
+  record.summary.emplace_back("error_of", std::string(to_string(comparison.measure)));
   record.summary.emplace_back("solves", static_cast<std::int64_t>(comparison.points.size()));
   record.summary.emplace_back("recommendations",
                               recommendations_table(comparison.points.empty() ? std::vector<Recommendation>()
@@ -211,7 +249,9 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
     record.pictures.push_back({"error_over_functions", error_over_functions(comparison),
                                "errors over functions, the best number of points of each"});
   }
-  const std::string opening = reference_sentence(comparison.reference) + "\n" + counted(comparison) + "\n";
+  const std::string opening = reference_sentence(comparison.reference) + "\n" +
+                              (comparison.reference.converged ? measure_sentence(comparison) + "\n" : "") +
+                              counted(comparison) + "\n";
   const bool compared = !comparison.points.empty();
   const auto advice = [&](bool markdown) {
     return compared ? recommendations_text(comparison.recommendations, markdown) : no_time_text;

@@ -39,7 +39,7 @@ void note_orders(PairResult& result, const std::vector<SolvePoint>& own, double 
       series[points_per_function(point)].push_back(point);
   const double least = std::max(2.0 * reference_error, 1e-12);
   for (auto at = series.rbegin(); at != series.rend() && !std::isfinite(result.order); ++at) {
-    result.order = order_of(at->second, &SolvePoint::error, least);
+    result.order = order_of(at->second, &SolvePoint::displacement_error, least);
     result.force_order = order_of(at->second, &SolvePoint::force_error, least);
     result.order_points_per_function = at->first;
   }
@@ -77,7 +77,7 @@ PairResult result_of(const BasisPair& pair, const std::vector<SolvePoint>& own, 
     ++result.converged;
     result.smallest_error = std::fmin(result.smallest_error, point.error);
   }
-  note_orders(result, own, reference_error);
+  if (!pair.is_phases()) note_orders(result, own, reference_error);
   result.failures = failures_of(own);
   return result;
 }

@@ -23,7 +23,6 @@ inline constexpr std::array<NamedValue<BasisMatters>, 5> enum_names<BasisMatters
 
 namespace {
 
-constexpr double known_share = 0.25;  // of an error that a reference may have itself
 constexpr double little_ratio = 2.0;
 constexpr double noise = 1.1;  // between the times of two runs
 
@@ -49,14 +48,19 @@ std::string error_text(double error, int digits = 1) {
 }
 
 std::string errors_of(const SolvePoint& point) {
-  std::string text = "error " + error_text(point.error);
-  if (point.force_error == point.force_error) text += ", of the force " + error_text(point.force_error);
+  std::string text = "error " + error_text(point.displacement_error) + " of the displacement";
+  if (!std::isnan(point.force_error)) text += ", " + error_text(point.force_error) + " of the force";
   return text;
+}
+
+/// "1e-2 of displacement and force"
+std::string asked_text(const Recommendation& found) {
+  return error_text(found.error, 0) + " of " + subject_of(found.measure);
 }
 
 std::string first_sentence(const Recommendation& found, bool steady) {
   std::string text =
-      fmt::format("For an error of {} the cheapest is {}: {} per solve ({})", error_text(found.error, 0),
+      fmt::format("For an error of {} the cheapest is {}: {} per solve ({})", asked_text(found),
                   choice_text(*found.choice), duration_text(found.choice->seconds), errors_of(*found.choice));
   if (!steady) text += ", but the next size does not keep to it";
   if (found.near_miss)
@@ -120,29 +124,52 @@ std::string second_sentence(const Recommendation& found, const std::vector<Solve
   return "Fourier:Fourier was not among the pairs.";
 }
 
+/// Where the force keeps every pair from the error, what reaches it by the displacement alone.
+std::string displacement_sentence(const Recommendation& found, std::vector<SolvePoint> points) {
+  if (found.measure == ErrorMeasure::displacement) return "";
+  for (SolvePoint& point : points) point.error = point.displacement_error;
+  const auto able = cheapest(points, found.error);
+  if (!able) return "";
+  return fmt::format(" Of the displacement alone, {} reaches it in {} (--error displacement).",
+                     choice_text(*able), duration_text(able->seconds));
+}
+
 /// Why there is no choice, and what came nearest.
-std::string without_choice(const std::vector<SolvePoint>& points, double error, double reference_error) {
+std::string without_choice(const Recommendation& found, const std::vector<SolvePoint>& points,
+                           double reference_error) {
   const auto nearer = [](const SolvePoint& a, const SolvePoint& b) {
     const bool first = reaches(a, std::numeric_limits<double>::infinity());
     const bool second = reaches(b, std::numeric_limits<double>::infinity());
     return first != second ? first : first && a.error < b.error;
   };
   const auto best = std::min_element(points.begin(), points.end(), nearer);
-  const std::string which = error_text(error, 0);
+  const std::string which = asked_text(found);
   if (best == points.end() || !reaches(*best, std::numeric_limits<double>::infinity()))
     return "No pair reaches an error of " + which +
            " within the budget. None of the solves has converged with a known error.";
   const std::string nearest = choice_text(*best) + " comes nearest, with " + error_text(best->error) +
                               " in " + duration_text(best->seconds) + ".";
   const auto below = cheapest(points, reference_error);  // how far below is not known
-  if (reference_error > known_share * error)
+  if (reference_error > known_share * found.error)
     return fmt::format(
         "Whether a pair reaches an error of {} is not known, as that of the reference is about {}; a larger "
         "budget refines it. {}",
         which, error_text(reference_error),
         below ? fmt::format("{} is below that in {}.", choice_text(*below), duration_text(below->seconds))
               : nearest);
-  return "No pair reaches an error of " + which + " within the budget. " + nearest;
+  return "No pair reaches an error of " + which + " within the budget. " + nearest +
+         displacement_sentence(found, points);
+}
+
+/// What contact phases take and what a run can say of them.
+std::string phases_sentence(const Recommendation& found) {
+  const SolvePoint& phases = *found.phases;
+  return fmt::format(
+      " Contact phases {}: {} from a balance of {} Fourier functions and {} points ({}). With that balance, "
+      "analysis.phases = true gives the instants of contact, the errors of the response and the stability of "
+      "the motion.",
+      found.choice ? "are faster" : "reach it", duration_text(phases.seconds), phases.functions,
+      phases.points, errors_of(phases));
 }
 
 std::string time_table_of(const SolvePoint& point, Time time) {
@@ -196,6 +223,15 @@ void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points
   if (steady && found.fourier->seconds <= noise * found.choice->seconds) found.choice = found.fourier;
 }
 
+void note_phases(Recommendation& found, const std::vector<SolvePoint>& points) {
+  for (const SolvePoint& point : points_of(BasisPair::phases(), points))
+    if (point.converged && point.error <= found.error &&
+        (!found.phases || point.seconds < found.phases->seconds))
+      found.phases = point;
+  if (found.phases && found.choice && noise * found.phases->seconds >= found.choice->seconds)
+    found.phases.reset();
+}
+
 }  // namespace
 
 bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, double error) {
@@ -232,22 +268,25 @@ double Recommendation::fourier_time_ratio() const {
 }
 
 Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,
-                         const Time& time) {
+                         const Time& time, ErrorMeasure measure) {
   Recommendation found;
   found.error = error;
+  found.measure = measure;
   if (reference_error <= known_share * error) {
     found.choice = cheapest(points, error);
     found.fourier = cheapest(points_of({"fourier", "fourier"}, points), error);
     prefer_fourier(found, points);
+    note_phases(found, points);
   }
   if (found.choice) note_near_misses(found, points);
   found.matters = matters_of(found, points);
+  const std::string of_phases = found.phases ? phases_sentence(found) : std::string();
   if (!found.choice) {
-    found.sentences = without_choice(points, error, reference_error);
+    found.sentences = without_choice(found, points, reference_error) + of_phases;
     return found;
   }
-  found.sentences =
-      first_sentence(found, is_steady(*found.choice, points, error)) + " " + second_sentence(found, points);
+  found.sentences = first_sentence(found, is_steady(*found.choice, points, error)) + " " +
+                    second_sentence(found, points) + of_phases;
   found.time_table = time_table_of(*found.choice, time);
   return found;
 }

@@ -7,19 +7,19 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "compare/guide.hpp"
+#include "compare/phase_reference.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/period/rigid_reference.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-constexpr double shooting_error = 1e-11;  // of the tolerances on which shooting and its steps end
 
 Reference found_reference(const std::string& kind, const std::string& text, double error,
                           solvers::Motion motion) {
@@ -31,21 +31,6 @@ Reference found_reference(const std::string& kind, const std::string& text, doub
   reference.error = error;
   reference.motion = std::move(motion);
   return reference;
-}
-
-ResponseStability stability_of(const Eigen::VectorXcd& multipliers) {
-  ResponseStability stability;
-  stability.unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
-  stability.status = stability.unstable > 0 ? "unstable" : "stable";
-  if (multipliers.size() > 0)
-    stability.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};  // by falling modulus
-  return stability;
-}
-
-/// Errors of the state grow by 1 / (1 - mu) from one period to the motion.
-double error_of_shot(const solvers::ShootingResult& shot) {
-  const double nearest = (1.0 - shot.floquet_multipliers.array()).abs().minCoeff();
-  return std::max(shooting_error, shot.residual / nearest);
 }
 
 /// One scene on the way to its reference.
@@ -84,7 +69,7 @@ class ReferenceSearch {
   /// After a level of a refinement: whether the next one is expected to end within the time allowed. A level
   /// cannot be stopped while its Newton matrix is factorized. The first motion is sought in any case.
   bool next_level_fits(const solvers::Progress& progress) {
-    if (progress.phase != "refinement" || !guide_) return true;
+    if (progress.phase != "refinement" || guides_.empty()) return true;
     const double now = elapsed(), seconds = now - std::exchange(level_began_, now);
     const double growth = seconds / std::exchange(level_seconds_, std::max(seconds, 1e-9));
     const bool is_last = progress.value <= tolerance_;
@@ -98,26 +83,23 @@ class ReferenceSearch {
     return without;
   }
 
-  /// A reference that is the motion of a coarse balance, the guide, where there is one.
+  /// A reference near the motion of a coarse balance.
   std::optional<Reference> beside_guide() {
-    constexpr int few = 6;  // contacts, beyond which a count of multipliers takes longer than the solution
-    const bool with_stability = model_.contacts() <= few;
-    guide_ = balance(1e-2, with_stability);
-    if (guide_ && guide_->refinement->estimated_error > 1e-3)
-      if (auto finer = balance(1e-3, with_stability)) guide_ = std::move(finer);
-    std::optional<Reference> found = shooting();
-    if (!found) found = rigid_flows();
+    if (!add_guide(balance(1e-2))) return std::nullopt;
+    if (guides_.back().estimated_error > 1e-3) add_guide(balance(1e-3, phases_share));
+    const std::size_t coarse = guides_.size() - 1;
+    std::optional<Reference> found = phases();
+    if (found) return found;
+    found = rigid_flows();
     if (!found) found = finer_balance();
-    if (found && !with_stability) count_multipliers(*found);
+    // Beyond a few contacts a count of multipliers takes longer than the solution.
+    constexpr int few = 6;
+    if (scene_.analysis.stability && !interrupted_) {
+      Guide& counted = guides_[model_.contacts() <= few ? coarse : 0];
+      found->stability = counted.problem.stability(counted.response);
+    }
+    found->without_phases = without_phases_;
     return found;
-  }
-
-  /// Those of the coarsest balance, after all others have had their time.
-  void count_multipliers(Reference& reference) {
-    const double seconds = std::exchange(seconds_, elapsed() + 0.5 * seconds_);
-    if (const auto coarse = balance(1e-2, true); coarse && coarse->stability)
-      reference.stability = *coarse->stability;
-    seconds_ = seconds;
   }
 
   /// The response without contact, where it keeps away from every obstacle.
@@ -143,58 +125,52 @@ class ReferenceSearch {
     return reference;
   }
 
-  /// The balance with Fourier functions to a tolerance, within the time allowed.
-  std::optional<Response> balance(double tolerance, bool with_stability) {
-    allowed_ = seconds_;
+  /// The balance with Fourier functions to a tolerance, within a share of the time allowed.
+  std::optional<Guide> balance(double tolerance, double share = 1.0) {
+    allowed_ = share * seconds_;
     tolerance_ = tolerance;
     level_began_ = elapsed();
     level_seconds_ = std::numeric_limits<double>::infinity();  // the first level takes next to no time
-    Scene refined = discretised(scene_, {"fourier", "fourier"}, 0, 0);
-    refined.time.tolerance = tolerance;
-    ResponseOptions options;
-    options.observer = observer_;
-    options.stability = scene_.analysis.stability && with_stability;
-    options.structure_points = model_.size() <= largest_dense ? scene_.analysis.output_points : 0;
-    Response response = weighted_residual_response(refined, model_, options);
-    if (!response.converged) return std::nullopt;
-    return response;
+    return refined_guide(scene_, model_, tolerance, observer_);
+  }
+
+  /// Whether there is one.
+  bool add_guide(std::optional<Guide> found) {
+    if (found) guides_.push_back(std::move(*found));
+    return found.has_value();
   }
 
   /// Whether a motion is that of the balances and not another one.
   bool is_of_guide(const solvers::Motion& motion) const {
-    if (!guide_) return true;
-    const double near = std::max(0.02, 10.0 * guide_->refinement->estimated_error);
-    return displacement_error(motion, guide_->contacts) < near;
+    const double near = std::max(0.02, 10.0 * guides_.back().estimated_error);
+    return displacement_error(motion, guides_.back().contacts) < near;
   }
 
-  solvers::ShootingResult shot() {
-    solvers::ShootingOptions options;
-    options.output_points = scene_.analysis.output_points;
-    options.observer = observer_;
-    if (guide_) {
-      options.settling_periods = 0;
-      options.initial_displacement = guide_->structure.displacement.col(0);
-      options.initial_velocity = guide_->structure.velocity.col(0);
+  /// From the guide, or from a finer one where no motion is found near the first.
+  std::optional<Reference> phases() {
+    without_phases_ = phases_refusal(model_);
+    if (!without_phases_.empty()) return std::nullopt;
+    const std::string too_coarse = phrase_of(solvers::PhasesStatus::no_motion_near);
+    while (!interrupted_) {
+      allowed_ = phases_share * seconds_;
+      PhaseReference found = phase_reference(guides_.back(), observer_);
+      const bool known = found.missing_because.empty();
+      if (known && is_of_guide(found.contacts)) return by_phases(std::move(found));
+      without_phases_ = known ? too_coarse : found.missing_because;
+      const bool may_be_finer = guides_.back().estimated_error > finest_guide;
+      if (without_phases_ != too_coarse || !may_be_finer) break;
+      if (!add_guide(balance(finest_guide, phases_share))) break;
     }
-    allowed_ = seconds_;
-    return solvers::shoot(model_.structure, make_law(scene_.contact), scene_.forcing.frequency, options);
+    return std::nullopt;
   }
 
-  std::optional<Reference> shooting() {
-    if (interrupted_ || model_.contacts() != 1 || is_rigid(scene_.contact.law) ||
-        model_.size() > largest_dense)
-      return std::nullopt;
-    try {
-      solvers::ShootingResult found = shot();
-      if (found.status != solvers::ShootingStatus::converged || !is_of_guide(found.contacts))
-        return std::nullopt;
-      Reference reference =
-          found_reference("shooting", "shooting", error_of_shot(found), std::move(found.contacts));
-      reference.stability = stability_of(found.floquet_multipliers);
-      return reference;
-    } catch (const std::invalid_argument&) {
-      return std::nullopt;  // a structure that shooting does not take
-    }
+  Reference by_phases(PhaseReference found) {
+    Reference reference = found_reference("phases", "contact phases", found.error, std::move(found.contacts));
+    reference.force_error = found.force_error;
+    Guide& guide = guides_.back();
+    if (scene_.analysis.stability)
+      reference.stability = guide.problem.stability(guide.response, &found.motion);
+    return reference;
   }
 
   std::optional<Reference> rigid_flows() {
@@ -204,35 +180,34 @@ class ReferenceSearch {
     try {
       Reference reference = rigid_flows_reference(scene_, model_, scene_.analysis.output_points);
       if (!reference.converged || !is_of_guide(reference.motion)) return std::nullopt;
-      if (guide_ && guide_->stability) reference.stability = *guide_->stability;
       return reference;
     } catch (const std::invalid_argument&) {
       return std::nullopt;  // a tip that is not damped
     }
   }
 
-  std::optional<Reference> finer_balance() {
-    if (!guide_) return std::nullopt;
-    for (double tolerance = 1e-4; tolerance > 5e-9 && !interrupted_; tolerance /= 10.0) {
-      if (guide_->refinement->estimated_error <= tolerance) continue;
-      auto finer = balance(tolerance, false);
+  Reference finer_balance() {
+    for (double tolerance = 1e-3; tolerance > 5e-9 && !interrupted_; tolerance /= 10.0) {
+      if (guides_.back().estimated_error <= tolerance) continue;
+      std::optional<Guide> finer = balance(tolerance);
       if (!finer || !is_of_guide(finer->contacts)) break;
-      finer->stability = guide_->stability;
-      guide_ = std::move(finer);
+      guides_.push_back(std::move(*finer));
     }
-    const auto& last = guide_->refinement->levels.back();
+    const Guide& last = guides_.back();
     Reference reference =
         found_reference("finer_balance",
                         "the balance with " + std::to_string(last.functions) + " Fourier functions and " +
                             std::to_string(last.points) + " points",
-                        guide_->refinement->estimated_error, guide_->contacts);
-    if (guide_->stability) reference.stability = *guide_->stability;
+                        last.estimated_error, last.contacts);
+    if (guides_.size() > 1)
+      reference.force_error = force_error(guides_[guides_.size() - 2].contacts, last.contacts);
     return reference;
   }
 
   static constexpr double least_growth = 2.0, largest_growth = 8.0;  // of the times of two levels
-  static constexpr int largest_dense = 400;  // degrees of freedom: shooting takes seconds beyond
-  static constexpr int largest_flow = 64;    // matrix exponentials and products of twice as many rows
+  static constexpr int largest_flow = 64;            // matrix exponentials and products of twice as many rows
+  static constexpr double phases_share = 1.0 / 3.0;  // of the time
+  static constexpr double finest_guide = 1e-4;       // from which the phases are sought
 
   Scene scene_;
   const StructureModel& model_;
@@ -242,7 +217,8 @@ class ReferenceSearch {
   bool interrupted_ = false;
   SteadyClock::time_point start_ = SteadyClock::now();
   solvers::Observer observer_;
-  std::optional<Response> guide_;
+  std::vector<Guide> guides_;  // of falling errors
+  std::string without_phases_;
 };
 
 }  // namespace
@@ -252,26 +228,20 @@ Reference find_reference(const Scene& scene, const StructureModel& model, int po
   return ReferenceSearch(scene, model, points, seconds, observer).find();
 }
 
-Reference shooting_reference(const Scene& scene) {
-  const Response response = shooting_response(scene);
-  Reference reference = found_reference("shooting", "shooting", shooting_error, response.contacts);
-  reference.converged = response.converged;
-  reference.status = response.status;
-  return reference;
-}
-
 Reference rigid_flows_reference(const Scene& scene, const StructureModel& model, int points) {
   const auto at = [&](int samples) {
     return solvers::rigid_reference(model.structure, scene.contact.gap, scene.forcing.frequency, samples);
   };
   const auto found = at(points), fine = at(2 * points);
-  const Eigen::VectorXd same = fine.displacement(Eigen::seqN(0, points, 2));
+  const auto same = Eigen::seqN(0, points, 2);
+  const Eigen::VectorXd displacement = fine.displacement(same), force = fine.contact_force(same);
   solvers::Motion motion;
   motion.displacement = found.displacement.transpose();
   motion.force = found.contact_force.transpose();
   Reference reference =
       found_reference("rigid_flows", "two linear motions joined where the contact opens and closes",
-                      relative_rms_error(same, found.displacement), std::move(motion));
+                      relative_rms_error(displacement, found.displacement), std::move(motion));
+  reference.force_error = relative_rms_error(force, found.contact_force);
   reference.converged = found.converged && fine.converged;
   if (!reference.converged) reference.status = "iteration_limit";
   return reference;

@@ -17,11 +17,6 @@
 namespace wavebalance::app {
 namespace {
 
-/// The problem before its condensation, which is part of a solve.
-solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model) {
-  return {make_pair(scene.time), model.structure, make_laws(scene)};
-}
-
 double relative_error(const Eigen::MatrixXd& values, const Eigen::MatrixXd& reference) {
   if (values.size() != reference.size() || !(reference.squaredNorm() > 0.0)) return solvers::missing;
   return relative_rms_error(values.reshaped(), reference.reshaped());
@@ -175,8 +170,9 @@ class SizeSeries {
     }
     point.converged = response.converged();
     const auto motion = problem.motion(response, static_cast<int>(measured_.reference.displacement.cols()));
-    point.error = displacement_error(motion, measured_.reference);
+    point.displacement_error = displacement_error(motion, measured_.reference);
     point.force_error = force_error(motion, measured_.reference);
+    point.error = weighed_error(measured_.measure, point.displacement_error, point.force_error);
   }
 
   const MeasuredScene& measured_;
@@ -228,6 +224,10 @@ Scene discretised(Scene scene, const BasisPair& pair, int functions, int points)
   scene.time.quadrature_points = points;
   scene.time.tolerance = 0.0;
   return scene;
+}
+
+solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model) {
+  return {make_pair(scene.time), model.structure, make_laws(scene)};
 }
 
 double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference) {

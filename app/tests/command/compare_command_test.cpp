@@ -35,19 +35,24 @@ TEST(CommandCompare, WritesItsFilesAndSaysWhatToTake) {
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
   EXPECT_EQ(TemporaryFolder::count(folder / "out"), 9);
   const std::string page = read_file(folder / "out" / "report.html");
-  for (const char* part : {"For an error of 1e-4", "[time]\ntrial = ", "Errors are those against shooting.",
+  for (const char* part : {"For an error of 1e-4 of displacement and force",
+                           "[time]\ntrial = ", "Errors are those against contact phases.",
                            "How each pair did", "Its motion is stable.", "error_over_time.figure.js",
                            "wavebalance compare ", "--pairs fourier:fourier,haar:fourier --budget 2"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_NE(outcome.output.find("The reference is shooting"), std::string::npos) << outcome.output;
-  EXPECT_NE(outcome.output.find("For an error of 1e-2 the cheapest is "), std::string::npos)
+  EXPECT_NE(outcome.output.find("The reference is contact phases"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("For an error of 1e-2 of displacement and force the cheapest is "),
+            std::string::npos)
       << outcome.output;
   EXPECT_NE(outcome.output.find("[time]\ntrial = \""), std::string::npos) << outcome.output;
   const Table table = read_csv(folder / "out" / "comparison.csv");
   EXPECT_GT(table.where("trial", "haar").rows(), 4u);
   EXPECT_GT(table.where("on_front", "true").rows(), 2u);
+  const Table phases = table.where("trial", "phases");
+  EXPECT_GE(phases.where("converged", "true").rows(), 2u);
+  EXPECT_NE(read_file(folder / "out" / "error_over_time.svg").find("contact phases"), std::string::npos);
   const std::string summary = read_file(folder / "out" / "summary.json");
-  for (const char* part : {"\"converged\": true", "\"reference\": \"shooting\"", "\"time_table\": \"[time]",
+  for (const char* part : {"\"converged\": true", "\"reference\": \"phases\"", "\"time_table\": \"[time]",
                            "\"basis_matters\": ", "\"budget_seconds\": 2.0", "\"fourier_time_ratio\": "})
     EXPECT_NE(summary.find(part), std::string::npos) << part;
   EXPECT_EQ(load_scene(folder / "out" / "scene.toml"), load_scene(folder / "case.toml"));
@@ -91,6 +96,7 @@ TEST(CommandCompare, WrongPairsBudgetsKeysAndAnalysesAreTwoAndNameWhatIsAllowed)
       {{"--pairs", "haar"}, "\"haar\" is no pair; expected TRIAL:WEIGHT"},
       {{"--budget", "0"}, "wavebalance: --budget 0: expected seconds > 0\n"},
       {{"--budget", "soon"}, "--budget"},
+      {{"--error", "energy"}, "wavebalance: --error energy: expected displacement, force or both\n"},
       {{"--threads", "two"}, "--threads: \"two\": expected a whole number from 0 to 1024; 0: one per core"},
       {{"--threads", "-1"}, "--threads: \"-1\": expected a whole number from 0 to 1024"},
       {{"--threads", "1025"}, "--threads: \"1025\": expected a whole number from 0 to 1024"},

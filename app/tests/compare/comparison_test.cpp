@@ -9,7 +9,7 @@
 
 #include "support/bar_scene.hpp"
 #include "support/brief_comparison.hpp"
-#include "support/chain_files.hpp"
+#include "support/closed_stop.hpp"
 #include "support/summary_value.hpp"
 #include "temporary_folder.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
@@ -63,10 +63,10 @@ TEST(Comparison, WithoutAnObstacleIsWithTheLinearResponse) {
   EXPECT_EQ(find_reference(scene, make_model(scene), 64, 1.0).kind, "linear");
 }
 
-TEST(Comparison, OfAnElasticContactIsWithShootingAndItsRecommendationsHoldWhenPasted) {
+TEST(Comparison, OfAnElasticContactIsWithContactPhasesAndItsRecommendationsHoldWhenPasted) {
   const Scene scene = scene_of();
   const Comparison found = compare_responses(scene, brief(2.0));
-  EXPECT_EQ(found.reference.kind, "shooting");
+  EXPECT_EQ(found.reference.kind, "phases");
   EXPECT_TRUE(found.converged());
   ASSERT_TRUE(found.recommendations.front().choice);
   const Recommendation& one = found.recommendations.front();
@@ -77,29 +77,11 @@ TEST(Comparison, OfAnElasticContactIsWithShootingAndItsRecommendationsHoldWhenPa
   pasted.replace(begin, bar_scene.find("[analysis]") - begin, one.time_table);
   const Response again = weighted_residual_response(parse_scene(pasted, "pasted.toml"));
   ASSERT_TRUE(again.converged);
-  EXPECT_NEAR(displacement_error(again.contacts, found.reference.motion), one.choice->error, 1e-9);
+  EXPECT_NEAR(displacement_error(again.contacts, found.reference.motion), one.choice->displacement_error,
+              1e-9);
   EXPECT_NEAR(force_error(again.contacts, found.reference.motion), one.choice->force_error, 1e-6);
   // Order 2 of the points, at least, where the force has kinks.
   EXPECT_GT(found.pairs[0].order, 1.5);
-}
-
-TEST(Comparison, OfSeveralContactsIsWithTheRefinedBalanceWhichTimeSteppingConfirms) {
-  // Shooting takes one contact, and the chain has two.
-  const TemporaryFolder folder;
-  write_chain(folder);
-  const std::vector<std::string> away_from_resonance{"forcing.frequency=30", "forcing.amplitude=300",
-                                                     "structure.modal_damping=0.1"};
-  const Scene scene = load_scene(folder.write("chain.toml", chain_scene), away_from_resonance);
-  const Reference reference = find_reference(scene, make_model(scene), 1024, 5.0);
-  ASSERT_TRUE(reference.converged) << reference.status;
-  EXPECT_EQ(reference.kind, "finer_balance");
-  EXPECT_LT(reference.error, 1e-4);
-  Scene integrated = scene;
-  integrated.analysis.type = AnalysisType::time_stepping;
-  integrated.analysis.tolerance = 1e-8;
-  const Response stepped = time_stepping_response(integrated);
-  ASSERT_TRUE(stepped.converged) << stepped.status;
-  EXPECT_LT(displacement_error(stepped.contacts, reference.motion), 1e-4);
 }
 
 TEST(Comparison, OfARigidBarIsWithLinearMotionsJoinedWhereContactOpensAndCloses) {
@@ -107,10 +89,14 @@ TEST(Comparison, OfARigidBarIsWithLinearMotionsJoinedWhereContactOpensAndCloses)
   ComparisonOptions options = brief(3.0);
   options.largest_functions = 64;
   options.errors = {1e-2};
+  options.measure = ErrorMeasure::displacement;
   const Comparison found = compare_responses(scene, options);
   EXPECT_EQ(found.reference.kind, "rigid_flows");
   EXPECT_LT(found.reference.error, 1e-11);
+  EXPECT_LT(found.reference.force_error, 1e-9);
   ASSERT_TRUE(found.recommendations.front().choice);
+  EXPECT_EQ(found.pairs.back().pair, BasisPair::phases());
+  EXPECT_EQ(found.pairs.back().inadmissible, "the contact is rigid");
 }
 
 TEST(Comparison, TakesBothNumbersOfFourierFunctionsOnlyWhereTheSceneKeepsTheNyquistCoefficient) {
@@ -130,7 +116,7 @@ TEST(Comparison, AtTheMiddlesOfTheIntervalsRefusesAsManyFourierFunctionsAsPoints
   options.largest_functions = 16;
   const Comparison found =
       compare_responses(scene_of({"time.sample_offset=0.5", "time.nyquist=keep"}), options);
-  EXPECT_EQ(found.reference.kind, "shooting");
+  EXPECT_EQ(found.reference.kind, "phases");
   int refused = 0;
   for (const SolvePoint& point : found.points)
     if (point.status == "refused") {
@@ -146,13 +132,16 @@ TEST(Comparison, OfNoNamedPairsTakesEveryAdmissibleOneAndSaysWhyTheOthersAreNot)
   options.largest_functions = 8;
   options.points_per_function = {2};
   const Comparison found = compare_responses(scene_of(), options);
-  ASSERT_EQ(found.pairs.size(), 18u);
+  ASSERT_EQ(found.pairs.size(), 19u);
   EXPECT_EQ(found.pairs.front().pair, (BasisPair{"fourier", "fourier"}));
   for (const PairResult& pair : found.pairs) {
     if (pair.pair == BasisPair{"haar", "haar"}) {
       EXPECT_FALSE(pair.inadmissible.empty());
     }
     EXPECT_EQ(pair.inadmissible.empty(), pair.solves > 0) << name_of(pair.pair);
+    if (pair.pair.is_phases()) {
+      EXPECT_TRUE(pair.inadmissible.empty());
+    }
   }
 }
 
@@ -191,7 +180,7 @@ TEST(Comparison, ThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
   EXPECT_EQ(found.status(), "interrupted");
   EXPECT_FALSE(found.points.empty());
   EXPECT_LT(found.points.size(), whole.points.size());
-  for (const SolvePoint& point : found.points) EXPECT_LE(point.functions, 16);
+  for (const SolvePoint& point : found.points) EXPECT_LE(point.functions, point.pair.is_phases() ? 1023 : 16);
   const ComparisonRecord record = comparison_record(scene_of(), found);
   EXPECT_EQ(value_of<std::string>(record.summary, "status"), "interrupted");
   EXPECT_EQ(record.table.rows(), found.points.size());
@@ -201,7 +190,7 @@ TEST(Comparison, ThatHasNoTimeLeftAfterItsReferenceSaysSoAndRecommendsNothing) {
   Comparison found;
   found.reference.converged = true;
   found.reference.status = "converged";
-  found.reference.text = "shooting";
+  found.reference.text = "contact phases";
   found.recommendations.emplace_back().sentences = "No pair reaches an error of 1e-2 within the budget.";
   EXPECT_FALSE(found.converged());
   EXPECT_EQ(found.status(), "no_time");
@@ -213,19 +202,10 @@ TEST(Comparison, ThatHasNoTimeLeftAfterItsReferenceSaysSoAndRecommendsNothing) {
 }
 
 TEST(Comparison, ALongReferenceLeavesTimeForThePairs) {
-  // A stop that stays closed: its Newton matrix has a row for every point, so that the finest level that a
-  // tolerance asks for takes many times the budget.
+  // A stop that stays closed, and a loss factor, which contact phases do not take: its Newton matrix has a
+  // row for every point, so that the finest level that a tolerance asks for takes many times the budget.
   const TemporaryFolder folder;
-  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
-  folder.write("m.mtx", head + "2 2 2\n1 1 2.39\n2 2 2.26\n");
-  folder.write("k.mtx", head + "2 2 3\n1 1 8950\n2 1 -4170\n2 2 4170\n");
-  folder.write("c.mtx", head + "2 2 3\n1 1 6.06\n2 1 -1.87\n2 2 3.81\n");
-  const Scene scene = load_scene(folder.write(
-      "closed.toml",
-      "[structure]\ntype = \"matrices\"\nmass = \"m.mtx\"\nstiffness = \"k.mtx\"\ndamping = \"c.mtx\"\n"
-      "contact_dofs = [2]\n[contact]\nlaw = \"kelvin_voigt\"\nstiffness = 7960.0\ndamping = 104.7\n"
-      "gap = -1.73e-3\ndamping_depth = 3.48e-4\n[forcing]\nload_dofs = [1]\namplitude = 7.5\n"
-      "frequency = 7.74\n[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 63\n"));
+  const Scene scene = closed_stop(folder, {"structure.loss_factor=1e-6"});
   const Comparison found = compare_responses(scene, brief(2.0));
   EXPECT_EQ(found.reference.kind, "finer_balance");
   EXPECT_EQ(found.status(), "converged");
@@ -248,7 +228,8 @@ TEST(PairResults, CountFailuresByStatusAndFitTheOrderAboveTheErrorOfTheReference
     point.points = 2 * functions;
     point.converged = functions != 8;
     point.status = point.converged ? "converged" : "stalled";
-    point.error = std::max(std::pow(functions, -3.0), 1e-6);  // a floor below twice that of the reference
+    point.error = point.displacement_error =
+        std::max(std::pow(functions, -3.0), 1e-6);  // a floor below twice that of the reference
     point.force_error = std::pow(functions, -1.0);
     points.push_back(point);
   }
@@ -289,8 +270,9 @@ TEST(Comparison, OnTwoThreadsHasTheMotionsOfOneToTheLastDigit) {
   int compared = 0;
   for (const SolvePoint& one : expected.points)
     for (const SolvePoint& other : found.points) {
-      const bool same =
-          one.pair == other.pair && one.functions == other.functions && one.points == other.points;
+      const bool same = one.pair == other.pair && one.functions == other.functions &&
+                        one.points == other.points &&
+                        (!one.pair.is_phases() || one.tolerance == other.tolerance);
       if (!same || !one.converged || !other.converged) continue;  // a solve may end for the time it takes
       EXPECT_EQ(one.error, other.error) << name_of(one.pair) << ' ' << one.functions;
       EXPECT_EQ(one.force_error, other.force_error) << name_of(one.pair) << ' ' << one.functions;

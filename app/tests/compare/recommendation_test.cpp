@@ -17,7 +17,7 @@ SolvePoint solved(const BasisPair& pair, int functions, double seconds, double e
   point.functions = functions;
   point.points = 2 * (functions + functions % 2);
   point.seconds = seconds;
-  point.error = error;
+  point.error = point.displacement_error = error;
   point.converged = true;
   point.status = "converged";
   return point;
@@ -42,10 +42,11 @@ TEST(Recommendation, IsTheCheapestThatReachesTheErrorAndSaysHowMuchLongerFourier
   EXPECT_EQ(found.choice->pair, spline);
   EXPECT_EQ(found.matters, BasisMatters::much);
   EXPECT_DOUBLE_EQ(found.fourier_time_ratio(), 8.0);
-  EXPECT_EQ(found.sentences,
-            "For an error of 1e-2 the cheapest is B-spline:B-spline with 64 functions and 128 points: 100 µs "
-            "per solve (error 9.0e-3). The basis matters: Fourier:Fourier with 63 functions and 128 points "
-            "takes 8.0 times as long (800 µs).");
+  EXPECT_EQ(
+      found.sentences,
+      "For an error of 1e-2 of the displacement the cheapest is B-spline:B-spline with 64 functions and "
+      "128 points: 100 µs per solve (error 9.0e-3 of the displacement). The basis matters: Fourier:Fourier with 63 functions and 128 points "
+      "takes 8.0 times as long (800 µs).");
 }
 
 TEST(Recommendation, SaysThatTheBasisMattersLittleUpToTwiceTheTime) {
@@ -101,9 +102,10 @@ TEST(Recommendation, NeverTakesASolveThatFailed) {
   const auto none = recommended({failed(fourier, 31, 1e-6), failed(spline, 32, 1e-6)}, 1e-2);
   EXPECT_FALSE(none.choice);
   EXPECT_EQ(none.matters, BasisMatters::no_choice);
-  EXPECT_EQ(none.sentences,
-            "No pair reaches an error of 1e-2 within the budget. None of the solves has converged with a "
-            "known error.");
+  EXPECT_EQ(
+      none.sentences,
+      "No pair reaches an error of 1e-2 of the displacement within the budget. None of the solves has converged with a "
+      "known error.");
 }
 
 TEST(Recommendation, SaysWhatComesNearestWhereNoPairReachesTheError) {
@@ -111,9 +113,10 @@ TEST(Recommendation, SaysWhatComesNearestWhereNoPairReachesTheError) {
   EXPECT_FALSE(found.choice);
   EXPECT_TRUE(found.time_table.empty());
   EXPECT_TRUE(std::isnan(found.fourier_time_ratio()));
-  EXPECT_EQ(found.sentences,
-            "No pair reaches an error of 1e-4 within the budget. Fourier:Fourier with 63 functions and 128 "
-            "points comes nearest, with 5.0e-3 in 800 µs.");
+  EXPECT_EQ(
+      found.sentences,
+      "No pair reaches an error of 1e-4 of the displacement within the budget. Fourier:Fourier with 63 functions and 128 "
+      "points comes nearest, with 5.0e-3 in 800 µs.");
 }
 
 TEST(Recommendation, SaysThatFourierDoesNotReachTheErrorAndItsSmallest) {
@@ -147,7 +150,7 @@ TEST(Recommendation, KnowsNothingBelowAQuarterOfTheErrorOfTheReference) {
   EXPECT_FALSE(found.choice);
   EXPECT_NE(
       found.sentences.find(
-          "Whether a pair reaches an error of 1e-4 is not known, as that of the "
+          "Whether a pair reaches an error of 1e-4 of the displacement is not known, as that of the "
           "reference is about 3.0e-5; a larger budget refines it. Fourier:Fourier with 63 functions and "
           "128 points is below that in 800 µs."),
       std::string::npos)
@@ -180,6 +183,60 @@ TEST(Recommendation, SaysThatTheBasisMattersLittleWhereFourierMissesTheErrorByLi
       << later.sentences;
   points.front().error = 1.6e-2;
   EXPECT_EQ(recommended(points, 1e-2).matters, BasisMatters::much);
+}
+
+SolvePoint by_phases(double seconds, double error) {
+  SolvePoint point = solved(BasisPair::phases(), 31, seconds, error);
+  point.method = "phases";
+  point.tolerance = 1e-8;
+  return point;
+}
+
+TEST(Recommendation, NamesContactPhasesWhereTheyAreFasterAndKeepsThePair) {
+  const std::vector<SolvePoint> pairs{solved(fourier, 63, 8e-4, 5e-7)};
+  const auto with = [&](double seconds, double error) {
+    std::vector<SolvePoint> points = pairs;
+    points.push_back(by_phases(2.0 * seconds, 1e-12));
+    points.push_back(by_phases(seconds, error));
+    return recommended(points, 1e-6);
+  };
+  const auto faster = with(1e-4, 1e-8);
+  ASSERT_TRUE(faster.choice && faster.phases);
+  EXPECT_EQ(faster.choice->pair, fourier);
+  EXPECT_EQ(faster.phases->seconds, 1e-4);
+  EXPECT_NE(
+      faster.sentences.find(
+          " Contact phases are faster: 100 µs from a balance of 31 Fourier functions and 64 points (error "
+          "1.0e-8 of the displacement). With that balance, analysis.phases = true gives "),
+      std::string::npos)
+      << faster.sentences;
+  for (const auto& found : {with(8e-4, 1e-8), with(1e-2, 1e-8), with(4.1e-4, 1e-5)}) {
+    EXPECT_FALSE(found.phases);
+    EXPECT_EQ(found.sentences.find("phases"), std::string::npos);
+  }
+}
+
+TEST(Recommendation, NamesContactPhasesWhereNoPairReachesTheError) {
+  const auto found = recommended({solved(fourier, 63, 8e-4, 5e-3), by_phases(1e-2, 1e-8)}, 1e-6);
+  EXPECT_FALSE(found.choice);
+  ASSERT_TRUE(found.phases);
+  EXPECT_NE(found.sentences.find(" Contact phases reach it: 10 ms from a balance"), std::string::npos)
+      << found.sentences;
+  // Not known where the reference does not know it.
+  EXPECT_FALSE(recommended({by_phases(1e-2, 1e-8)}, 1e-6, 1e-6).phases);
+}
+
+TEST(Recommendation, SaysWhatReachesTheErrorByTheDisplacementAloneWhereTheForceDoesNot) {
+  SolvePoint rough = solved(fourier, 63, 8e-4, 5e-3);
+  rough.force_error = rough.error = 0.55;
+  const auto found = recommend({rough}, 1e-2, 1e-11, Time{}, ErrorMeasure::both);
+  EXPECT_FALSE(found.choice);
+  EXPECT_NE(found.sentences.find("No pair reaches an error of 1e-2 of displacement and force"),
+            std::string::npos);
+  EXPECT_NE(found.sentences.find("Of the displacement alone, Fourier:Fourier with 63 functions and 128 "
+                                 "points reaches it in 800 µs (--error displacement)."),
+            std::string::npos)
+      << found.sentences;
 }
 
 TEST(Recommendation, GivesTheTimeTableOfItsChoice) {

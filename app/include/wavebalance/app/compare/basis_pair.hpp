@@ -8,17 +8,20 @@
 
 namespace wavebalance::app {
 
-/// Trial and weighting functions, by the names of Time::trial and Time::weight.
+/// Trial and weighting functions, by the names of Time::trial and Time::weight, or phases().
 struct BasisPair {
   std::string trial, weight;
 
+  /// What stands for contact phases beside the pairs of bases: it has no weighting functions.
+  static BasisPair phases() { return {"phases", ""}; }
+  bool is_phases() const { return *this == phases(); }
   bool is_fourier() const { return trial == "fourier" && weight == "fourier"; }
   bool operator==(const BasisPair&) const = default;
 };
 
-/// "haar:fourier", as a command's argument and a table have it.
+/// "haar:fourier", as a command's argument and a table have it; "phases".
 std::string name_of(const BasisPair& pair);
-/// "Haar:Fourier", "DB6:DB6": in pictures and sentences.
+/// "Haar:Fourier", "DB6:DB6", "contact phases": in pictures and sentences.
 std::string label_of(const BasisPair& pair);
 
 /// Reads "fourier:fourier,haar:fourier". Throws std::invalid_argument, which names what is wrong and what is
@@ -33,7 +36,7 @@ std::vector<BasisPair> common_pairs();
 solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scene);
 
 /// `series` in the colour and symbol of the trial functions and the dash of the weights, which are solid
-/// where both are the same.
+/// where both are the same; that of contact phases is black and wider.
 Series styled(Series series, const BasisPair& pair);
 
 }  // namespace wavebalance::app

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,17 +20,19 @@ struct ComparisonOptions {
   int largest_functions = 1 << 15;
   std::vector<int> points_per_function = {1, 2, 4, 8};
   std::vector<double> errors = {1e-2, 1e-4, 1e-6};  ///< for which a choice is recommended
-  int threads = 0;                                  ///< that solve pairs side by side; 0: one per core
+  /// Which error decides; empty: both where that of the force is defined, else that of the displacement.
+  std::optional<ErrorMeasure> measure = {};
+  int threads = 0;  ///< that solve pairs side by side; 0: one per core
 };
 
 /// How a pair did in all its sizes.
 struct PairResult {
   BasisPair pair;
-  std::string inadmissible;   ///< the reason; empty for an admissible pair
-  int solves = 0;             ///< sizes solved
-  int converged = 0;          ///< of these
-  int largest_functions = 0;  ///< solved
-  double smallest_error = solvers::missing;
+  std::string inadmissible;                  ///< the reason; empty for an admissible pair
+  int solves = 0;                            ///< sizes solved
+  int converged = 0;                         ///< of these
+  int largest_functions = 0;                 ///< solved
+  double smallest_error = solvers::missing;  ///< SolvePoint::error
   /// Observed orders over the functions, of displacements and forces, with the most points per function that
   /// have three errors above that of the reference: over the last four of them. NaN without three.
   double order = solvers::missing, force_order = solvers::missing;
@@ -41,8 +44,12 @@ struct PairResult {
 struct Comparison {
   bool interrupted = false;
   Reference reference;
-  std::vector<SolvePoint> points;  ///< those solved, with on_front
-  std::vector<PairResult> pairs;   ///< the inadmissible ones last
+  ErrorMeasure measure = ErrorMeasure::displacement;  ///< which error decides
+  std::string
+      without_force;  ///< why the force is left out, a phrase; empty where it decides or was not asked for
+  bool force_asked = false;        ///< by ComparisonOptions::measure, and not by default
+  std::vector<SolvePoint> points;  ///< those solved, with on_front, phases first
+  std::vector<PairResult> pairs;   ///< phases after the admissible ones, the inadmissible ones last
   std::vector<Recommendation> recommendations;
   double wall_seconds = 0.0;
 
@@ -57,15 +64,18 @@ struct Comparison {
 };
 
 /// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,
-/// the budget is not positive, the threads are negative, or the scene is none to be compared: forced
-/// responses, frequency and amplitude sweeps over one period of the load are. O(pairs).
+/// the budget is not positive, the threads are negative, an error is named for a sweep, or the scene is none
+/// to be compared: forced responses, frequency and amplitude sweeps over one period of the load are.
+/// O(pairs).
 void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and
-/// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. Three tenths
-/// of the budget at most are the reference's. Times are processor seconds of the thread that solves; digits
-/// do not depend on the threads. The observer is called by one thread at a time, not always this one; when it
-/// returns false the comparison ends with what was measured so far. Throws as check_comparison().
+/// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. A tenth of the
+/// budget is the reference's, or three tenths where it is a refined balance. Where it is one by contact
+/// phases these are solved to several tolerances beside the pairs, for at most a tenth of the budget. Times
+/// are processor seconds of the thread that solves; digits do not depend on the threads. The observer is
+/// called by one thread at a time, not always this one; when it returns false the comparison ends with what
+/// was measured so far. Throws as check_comparison().
 Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
                              const solvers::Observer& observer = {});
 

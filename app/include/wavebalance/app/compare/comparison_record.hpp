@@ -27,14 +27,17 @@ struct ComparisonRecord {
 ComparisonRecord comparison_record(const Scene& scene, const Comparison& comparison);
 ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& comparison);
 
-/// trial, weight, functions, points, inner_products, construction_seconds, seconds, displacement_error,
-/// force_error, below_reference, converged, status, on_front.
+/// trial, weight, functions, points, tolerance, inner_products, construction_seconds, seconds, error,
+/// displacement_error, force_error, below_reference, converged, status, on_front. Contact phases have the
+/// trial "phases", the functions and points of the balance that they start from, and a tolerance.
 Table points_table(const Comparison& comparison);
 /// trial, weight, admissible, solves, converged, largest_functions, smallest_error, order, force_order,
 /// order_points_per_function, failures: the reason of an inadmissible pair is its failure.
 Table pairs_table(const Comparison& comparison);
-/// error, trial, weight, functions, quadrature_points, seconds, displacement_error, force_error,
-/// fourier_functions, fourier_seconds, fourier_time_ratio, basis_matters, stability, sentences, time_table.
+/// error, error_of, trial, weight, functions, quadrature_points, seconds, displacement_error, force_error,
+/// fourier_functions, fourier_seconds, fourier_time_ratio, basis_matters, phases_functions, phases_points,
+/// phases_seconds, phases_error, stability, sentences, time_table. Those of phases are there where these are
+/// faster than the choice.
 Table recommendations_table(const std::vector<Recommendation>& recommendations);
 /// trial, weight, functions, points, seconds, curve_points, max_displacement_m,
 /// comparison.peak_column, turning_points, distance_from_finest, status.

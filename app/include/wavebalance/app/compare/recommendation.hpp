@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wavebalance/app/compare/error_measure.hpp"
 #include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
@@ -28,9 +29,10 @@ enum class BasisMatters {
 
 std::string_view to_string(BasisMatters value);
 
-/// What to take for an error of the displacements.
+/// What to take for an error.
 struct Recommendation {
-  double error = 0.0;  ///< relative rms of the contact displacements
+  double error = 0.0;                                 ///< relative rms
+  ErrorMeasure measure = ErrorMeasure::displacement;  ///< of what
   /// The cheapest, or that of Fourier:Fourier where it takes at most a tenth longer; empty where no pair
   /// reaches the error.
   std::optional<SolvePoint> choice;
@@ -42,8 +44,10 @@ struct Recommendation {
   std::optional<SolvePoint> near_miss;
   /// One of Fourier:Fourier that takes at most twice the time of the choice with at most 1.5 times the error.
   std::optional<SolvePoint> fourier_near_miss;
+  /// The fastest of contact phases, where they take less time than the choice, or no pair reaches the error.
+  std::optional<SolvePoint> phases;
   BasisMatters matters = BasisMatters::no_choice;
-  std::string sentences;   ///< two
+  std::string sentences;   ///< two, and one of contact phases where they are faster
   std::string time_table;  ///< "[time]\ntrial = ...": to be pasted into a scene; empty without a choice
   std::string stability;   ///< of the choice's motion; empty where it was not computed
 
@@ -51,11 +55,14 @@ struct Recommendation {
   double fourier_time_ratio() const;
 };
 
+/// Of an error that is asked for: what a reference may have itself.
+inline constexpr double known_share = 0.25;
+
 /// The recommendation from points whose errors are relative to a reference that has an error of its own.
 /// Where that is above a quarter of `error`, no pair is known to reach it. `time` holds what was the same for
-/// all points.
+/// all points, `measure` says of what SolvePoint::error is.
 Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,
-                         const Time& time);
+                         const Time& time, ErrorMeasure measure = ErrorMeasure::displacement);
 
 /// "54 µs", "1.8 ms", "2.1 s"
 std::string duration_text(double seconds);

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compare/error_measure.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
@@ -12,36 +13,45 @@ namespace wavebalance::app {
 /// The response that others are measured against: which one it is and how accurate.
 struct Reference {
   bool converged = false;
-  std::string kind;    ///< "linear", "shooting", "rigid_flows" or "finer_balance"; empty if none was found
+  std::string kind;    ///< "linear", "phases", "rigid_flows" or "finer_balance"; empty if none was found
   std::string status;  ///< "converged" or why not
-  std::string text;    ///< what it is, for a sentence: "shooting"
-  /// Estimated relative rms error of its displacements: smaller differences from it say nothing.
-  double error = solvers::missing;
+  std::string text;    ///< what it is, for a sentence: "contact phases"
+  /// Estimated relative rms errors of its displacements and forces: smaller differences from it say nothing.
+  /// That of the forces is NaN where it is not known or no force acts.
+  double error = solvers::missing, force_error = solvers::missing;
   solvers::Motion motion;  ///< displacements and forces of all contacts, without velocities
   ResponseStability stability;
+  /// Why contact phases are not the reference, a phrase; empty where they are, and where contact never
+  /// closes.
+  std::string without_phases;
   double wall_seconds = 0.0;
+
+  double error_by(ErrorMeasure measure) const { return weighed_error(measure, error, force_error); }
 };
 
 /// The reference of a scene's forced response at `points` uniform times, a power of two:
 ///
-///   contact never closes in the response without contact       that response
-///   one contact with an elastic law                            shooting
-///   a bar against a rigid obstacle                             free and closed linear motion in turn
-///   everything else, and where these find no such motion       the balance with Fourier functions, refined
+///   contact never closes in the response without contact   that response
+///   elastic laws, any number of contacts                   contact phases
+///   a bar against a rigid obstacle                         free and closed linear motion in turn
+///   everything else, and where these find no such motion   the balance with Fourier functions, refined
 ///
-/// Shooting starts from a balance and is taken only where it stays close to it, since there may be several
-/// motions; so are the linear motions in turn. The balance is refined to tolerances of 1e-2 to 1e-8 until
-/// `seconds` (wall time) are used; its error is that which the refinement estimates. An observer that returns
-/// false leaves the reference not converged, with the status "interrupted". Throws what
-/// weighted_residual_response() throws.
+/// The phases start from a balance with an error of 1e-3, or 1e-4 where they are not found from that, and are
+/// solved to tolerances that fall to 1e-12, and once more with more nodes. The distance of the last two is
+/// the error of the forces; that of the displacements is the estimate, times what the estimate before was too
+/// small by. They take a third of `seconds` (wall time). A structure whose modes are reduced for its dynamics
+/// is not taken, as the phases are then those of the reduced one. Phases and linear motions are taken only
+/// where they stay close to the balance, since there may be several motions.
+///
+/// The balance is refined to tolerances of 1e-2 to 1e-8 until `seconds` are used; the error of its
+/// displacements is that which the refinement estimates, that of its forces the distance of the last two
+/// levels. An observer that returns false leaves the reference not converged, with the status "interrupted".
+/// Throws what weighted_residual_response() throws.
 Reference find_reference(const Scene& scene, const StructureModel& model, int points, double seconds,
                          const solvers::Observer& observer = {});
 
-/// shooting_response() as a reference.
-Reference shooting_reference(const Scene& scene);
-
 /// Two linear motions joined where the contact opens and closes, of a structure that has one contact, without
-/// mass, at its last degree of freedom. Twice the points tell its error, and whether a contact is shorter
+/// mass, at its last degree of freedom. Twice the points tell its errors, and whether a contact is shorter
 /// than the distance of two points. Not converged after 1000 periods.
 Reference rigid_flows_reference(const Scene& scene, const StructureModel& model, int points);
 

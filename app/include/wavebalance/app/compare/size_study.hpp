@@ -2,11 +2,13 @@
 #include <functional>
 #include <vector>
 
+#include "wavebalance/app/compare/error_measure.hpp"
 #include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
@@ -17,6 +19,7 @@ struct MeasuredScene {
   StructureModel model;
   /// Displacements and forces of all contacts at uniform points; no forces where they are not compared.
   solvers::Motion reference;
+  ErrorMeasure measure = ErrorMeasure::displacement;  ///< which error decides
 };
 
 /// Which sizes are solved and how each is timed.
@@ -52,6 +55,9 @@ std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vec
 
 /// The scene with a pair and its sizes in place of its own, or of its tolerance.
 Scene discretised(Scene scene, const BasisPair& pair, int functions, int points);
+
+/// The problem before its condensation, which is part of a solve.
+solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model);
 
 /// Relative rms errors of all contacts together; NaN where the reference is zero or missing.
 double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference);

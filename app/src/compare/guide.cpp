@@ -1,0 +1,32 @@
+#include "compare/guide.hpp"
+
+#include <utility>
+
+#include "analysis/tolerance_response.hpp"
+#include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+
+namespace wavebalance::app {
+
+std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& model, double tolerance,
+                                   const solvers::Observer& observer) {
+  Scene refined = discretised(scene, {"fourier", "fourier"}, 0, 0);
+  refined.time.tolerance = tolerance;
+  ResponseOptions options;
+  options.observer = observer;
+  const solvers::ContactLaws laws = make_laws(scene);
+  Response outcome;
+  auto found = solve_to_tolerance(refined, model, laws, options, outcome);
+  if (!outcome.converged || outcome.rounding_error > largest_rounding_error) return std::nullopt;
+  const auto& last = found.levels.back();
+  Guide guide{{std::move(*found.problem), laws, model.dynamics},
+              std::move(found.response),
+              {},
+              found.estimated_error,
+              last.functions,
+              last.points};
+  guide.contacts = guide.problem.motion(guide.response, scene.analysis.output_points);
+  return guide;
+}
+
+}  // namespace wavebalance::app

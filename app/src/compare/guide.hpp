@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::app {
+
+/// A response of the balance with Fourier functions, refined to a tolerance, beside which the motion of a
+/// structure is sought.
+struct Guide {
+  solvers::ContactProblem problem;
+  solvers::PeriodicResponse response;
+  solvers::Motion contacts;      ///< analysis.output_points points
+  double estimated_error = 0.0;  ///< relative rms of the displacements
+  int functions = 0, points = 0;
+};
+
+/// Nothing where the tolerance is not reached. Throws solvers::SingularSystem.
+std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& model, double tolerance,
+                                   const solvers::Observer& observer);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,123 @@
+#include "wavebalance/app/compare/phase_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "compare/phase_reference.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double choosing_tolerance = 1e-6;  // with which the balance is chosen
+constexpr double slack = 10.0;               // of an estimate of an error: beyond, it is another motion
+
+struct PhaseSolve {
+  solvers::PeriodicResponse balance;
+  std::optional<solvers::ResponsePhases> phases;
+};
+
+class PhaseStudy {
+ public:
+  PhaseStudy(const MeasuredScene& measured, const Reference& reference, const PhaseStudyOptions& options)
+      : measured_(measured), reference_(reference), options_(options) {}
+
+  std::vector<SolvePoint> study() {
+    const std::optional<SolvePoint> chosen = choose_balance();
+    if (!chosen) return std::move(points_);
+    for (const double tolerance : options_.tolerances)
+      if (tolerance != choosing_tolerance && goes_on(chosen->functions, tolerance))
+        points_.push_back(point_of(chosen->functions, tolerance));
+    return std::move(points_);
+  }
+
+ private:
+  bool goes_on(int functions, double tolerance) const {
+    return solvers::goes_on(
+        options_.observer, {fmt::format("contact phases to {:.0e} from {} functions", tolerance, functions)});
+  }
+
+  /// The one from which the phases are found soonest.
+  std::optional<SolvePoint> choose_balance() {
+    std::optional<SolvePoint> best;
+    for (int functions = options_.first_functions; functions <= options_.largest_functions;
+         functions = 2 * functions + 1) {
+      if (!goes_on(functions, choosing_tolerance)) break;
+      const SolvePoint point = point_of(functions, choosing_tolerance);
+      points_.push_back(point);
+      const bool found = point.converged && point.displacement_error <= slack * choosing_tolerance;
+      if (best && (!found || point.seconds >= best->seconds)) break;
+      if (found) best = point;
+      if (found && point.seconds > options_.max_seconds) break;
+    }
+    return best;
+  }
+
+  PhaseSolve solve(solvers::ContactProblem& problem, double tolerance) const {
+    problem.condensed().forget_condensation();
+    const solvers::Observer observer = [this](const solvers::Progress& progress) {
+      return solvers::goes_on(options_.observer, progress);
+    };
+    solvers::ForcedResponseOptions options;
+    options.form = measured_.scene.contact.form;
+    options.observer = observer;
+    PhaseSolve found{problem.respond(measured_.scene.forcing.frequency, options), std::nullopt};
+    if (!found.balance.converged()) return found;
+    const solvers::ContactDynamics dynamics(problem.structure());
+    const int nodes = tolerance > 1e-3 ? 4 : tolerance > 1e-5 ? 6 : 8;
+    found.phases = solvers::response_phases(problem.condensed(), problem.laws(), found.balance, dynamics,
+                                            {.tolerance = tolerance, .nodes = nodes, .observer = observer});
+    return found;
+  }
+
+  SolvePoint point_of(int functions, double tolerance) const {
+    const Scene scene = discretised(measured_.scene, {"fourier", "fourier"}, functions, 4 * (functions + 1));
+    SolvePoint point;
+    point.method = "phases";
+    point.pair = BasisPair::phases();
+    point.inner_products = name_of(effective_inner_products(scene.time));
+    point.functions = functions;
+    point.points = scene.time.quadrature_points;
+    point.tolerance = tolerance;
+    point.construction_seconds =
+        least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
+    solvers::ContactProblem problem = uncondensed_problem(scene, measured_.model);
+    PhaseSolve found;
+    try {
+      point.seconds = least_seconds([&] { found = solve(problem, tolerance); }, options_.solve);
+    } catch (const solvers::SingularSystem&) {
+      point.status = "singular";
+      return point;
+    }
+    note(found, point);
+    return point;
+  }
+
+  void note(const PhaseSolve& found, SolvePoint& point) const {
+    point.status = found.phases ? to_string(found.phases->motion.status) : to_string(found.balance.status);
+    point.converged = found.phases && found.phases->motion.converged();
+    if (!point.converged) return;
+    const solvers::Motion motion = sampled(found.phases->motion, measured_.reference.points());
+    point.displacement_error = std::max(displacement_error(motion, measured_.reference), reference_.error);
+    point.force_error = std::max(force_error(motion, measured_.reference), reference_.force_error);
+    point.error = weighed_error(measured_.measure, point.displacement_error, point.force_error);
+  }
+
+  const MeasuredScene& measured_;
+  const Reference& reference_;
+  const PhaseStudyOptions& options_;
+  std::vector<SolvePoint> points_;
+};
+
+}  // namespace
+
+std::vector<SolvePoint> phase_study(const MeasuredScene& measured, const Reference& reference,
+                                    const PhaseStudyOptions& options) {
+  return PhaseStudy(measured, reference, options).study();
+}
+
+}  // namespace wavebalance::app
