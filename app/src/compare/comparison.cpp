@@ -105,12 +105,13 @@ class ResponseComparison {
     found_.force_asked = options_.measure.has_value() && found_.measure != displacement;
     if (found_.measure != displacement) {
       const double of_force = found_.reference.force_error;
-      const double needed = known_share * *std::max_element(options_.errors.begin(), options_.errors.end());
+      double largest = 0.0;
+      for (const double error : options_.errors) largest = std::max(largest, error);
       if (!(found_.reference.motion.force.squaredNorm() > 0.0))
         found_.without_force = "no contact force acts";
       else if (!std::isfinite(of_force))
         found_.without_force = "the error of the reference's force is not known";
-      else if (!found_.force_asked && of_force > needed)
+      else if (!found_.force_asked && of_force > known_share * largest)
         found_.without_force = fmt::format("the error of the reference's force is about {:.0e}", of_force);
       if (!found_.without_force.empty()) found_.measure = displacement;
     }

@@ -18,7 +18,9 @@ struct PhaseLevel {
 constexpr std::array<PhaseLevel, 4> phase_levels{{{1e-6, 8}, {1e-9, 8}, {1e-12, 12}, {1e-12, 16}}};
 constexpr double coarsest_reference = 1e-6;  // with a larger error a refined balance is as good
 constexpr double least_error = 1e-14;        // rounding
-constexpr int most_divided = 64;             // panels: rounding may keep the estimate above the tolerance
+// Where there is one motion alone, of which an estimate may say too little.
+constexpr const char* unchecked = "no time was left to check them with more nodes";
+constexpr int most_divided = 64;  // panels: rounding may keep the estimate above the tolerance
 
 }  // namespace
 
@@ -64,12 +66,13 @@ solvers::Motion sampled(const solvers::PhaseMotion& motion, int points) {
 PhaseReference phase_reference(Guide& guide, const solvers::Observer& observer) {
   PhaseReference best;
   best.error = coarsest_reference;
+  int levels = 0;
   for (const auto& [tolerance, nodes] : phase_levels) {
     const auto found = guide.problem.phases(
         guide.response,
         {.tolerance = tolerance, .nodes = nodes, .max_panels = most_divided, .observer = observer});
     const solvers::PhaseMotion& motion = found->motion;
-    const bool first = best.contacts.points() == 0;
+    const bool first = levels == 0;
     const bool better =
         motion.parts != nullptr && (motion.converged() || motion.estimated_error <= best.error);
     if (!better && first) best.missing_because = phrase_of(motion.status);
@@ -81,11 +84,13 @@ PhaseReference phase_reference(Guide& guide, const solvers::Observer& observer) 
       too_small = std::max(1.0, displacement_error(best.contacts, contacts) / best.error);
       best.force_error = std::max(least_error, force_error(best.contacts, contacts));
     }
+    ++levels;
     best.contacts = std::move(contacts);
     best.error = std::max(least_error, too_small * motion.estimated_error);
     if (!motion.converged()) break;
     best.motion = motion;
   }
+  if (levels == 1) best.missing_because = unchecked;
   return best;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "compare/phase_reference.hpp"
 #include "support/bar_scene.hpp"
 #include "support/brief_comparison.hpp"
 #include "support/chain_files.hpp"
@@ -97,6 +99,31 @@ TEST(PhaseReference, IsNoneOfALossFactorWhichHasTheRefinedBalanceAndTheReason) {
   // The last two levels of the balance.
   EXPECT_GT(reference.force_error, reference.error);
   EXPECT_LT(reference.force_error, 1e-1);
+}
+
+TEST(PhaseReference, IsCheckedByASecondMotionWhereverItIsStopped) {
+  Scene scene = jones_legrand("case2");
+  scene.analysis.output_points = error_points;
+  const StructureModel model = make_model(scene);
+  std::optional<Guide> guide = refined_guide(scene, model, 1e-3, {});
+  ASSERT_TRUE(guide);
+  const PhaseReference whole = phase_reference(*guide, {});
+  ASSERT_EQ(whole.missing_because, "");
+  int known = 0, unknown = 0;
+  for (int steps = 0; steps < 40; steps += 2) {
+    int left = steps;
+    const PhaseReference found = phase_reference(*guide, [&left](const Progress&) { return left-- > 0; });
+    if (!found.missing_because.empty()) {
+      ++unknown;
+      continue;
+    }
+    ++known;
+    EXPECT_TRUE(std::isfinite(found.force_error)) << steps << " steps";
+    EXPECT_LE(displacement_error(found.contacts, whole.contacts), found.error + whole.error)
+        << steps << " steps";
+  }
+  EXPECT_GT(known, 0);
+  EXPECT_GT(unknown, 0);
 }
 
 MeasuredScene measured_scene(const Scene& scene, const Reference& reference) {
