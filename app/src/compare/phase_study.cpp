@@ -14,7 +14,7 @@ namespace wavebalance::app {
 namespace {
 
 constexpr double choosing_tolerance = 1e-6;  // with which the balance is chosen
-constexpr double slack = 10.0;               // of an estimate of an error: beyond, it is another motion
+constexpr double same_motion = 1e-2;         // error below which it is that of the reference
 
 struct PhaseSolve {
   solvers::PeriodicResponse balance;
@@ -49,7 +49,7 @@ class PhaseStudy {
       if (!goes_on(functions, choosing_tolerance)) break;
       const SolvePoint point = point_of(functions, choosing_tolerance);
       points_.push_back(point);
-      const bool found = point.converged && point.displacement_error <= slack * choosing_tolerance;
+      const bool found = point.converged && point.displacement_error <= same_motion;
       if (best && (!found || point.seconds >= best->seconds)) break;
       if (found) best = point;
       if (found && point.seconds > options_.max_seconds) break;

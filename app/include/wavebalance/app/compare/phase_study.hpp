@@ -21,9 +21,10 @@ struct PhaseStudyOptions {
 
 /// The motion of the scene's structure by contact phases, from nothing: a balance with M Fourier functions
 /// and 4 (M + 1) points from the contact-free response, the poles of the structure, and the phases near the
-/// balance. The balance is the one with which a tolerance of 1e-6 is met soonest, of 31, 63, ... functions
-/// until the time rises; those from which the phases are not found are among the rows. Then come the other
-/// tolerances. Errors are those against the reference, which has more nodes, and no smaller than its own.
+/// balance. The balance is the one from which phases to a tolerance of 1e-6 are found soonest, of 31, 63, ...
+/// functions until the time rises; those from which the phases are not found are among the rows. Then come
+/// the other tolerances. Errors are those against the reference, which has more nodes, and no smaller than
+/// its own.
 std::vector<SolvePoint> phase_study(const MeasuredScene& measured, const Reference& reference,
                                     const PhaseStudyOptions& options);
 
