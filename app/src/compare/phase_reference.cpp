@@ -28,13 +28,11 @@ std::string phrase_of(solvers::PhasesStatus status) {
   using enum solvers::PhasesStatus;
   switch (status) {
     case rigid_contact:
-      return "the contact is rigid";
+      return "the contact is rigid and has mass";
     case velocity_and_no_mass:
       return "a force of the velocity acts at a contact without mass";
-    case free_structure:
-      return "the structure is free to move";
-    case undamped:
-      return "a mode of the structure is undamped";
+    case resonant:
+      return "the structure has a motion of this period without contact";
     case structural_damping:
       return "a loss factor has no equation in time";
     case tolerance_missed:

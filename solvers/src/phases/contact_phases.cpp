@@ -79,12 +79,6 @@ void require_start_force(const ContactLaws& laws, const Eigen::MatrixXd& start,
                               (rigid ? ", since a law is rigid" : ", or empty"));
 }
 
-// The last two Legendre coefficients of each panel at its nodes, n, N.
-Eigen::VectorXd last_parts(const PanelForces& forces, const LegendreNodes& nodes) {
-  const Eigen::MatrixXd& coefficients = forces.coefficients();
-  return (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
-}
-
 // The factor from one Legendre coefficient to the next, of the panel where they decay slowest among those
 // with last ones above a ten-thousandth of the largest of these.
 double decay_of(const PanelForces& forces) {
@@ -100,21 +94,20 @@ double decay_of(const PanelForces& forces) {
   return slowest;
 }
 
-// Relative rms errors of the displacements at the nodes: by the next two coefficients, if these go on to
-// decay as the last ones do, and by the residual of the forces.
+// Relative rms errors of the displacements: by the coefficients that are left out, if they go on to decay as
+// the last ones do, and by the residual.
 struct EstimatedError {
   double resolution = 0.0, residual = 0.0;
 
   double all() const { return resolution + residual; }
 };
 
-EstimatedError error_of(const PhaseNewtonResult& solved, const LegendreNodes& nodes, double motion_rms) {
-  if (solved.force_error.size() == 0) return {};
-  const auto rms = [&](const Eigen::VectorXd& forces) {
-    return (solved.displacement * forces).norm() / std::sqrt(double(forces.size())) / motion_rms;
-  };
-  const double decay = std::min(1.0, decay_of(solved.iterate.forces));
-  return {decay * decay * rms(last_parts(solved.iterate.forces, nodes)), rms(solved.force_error)};
+EstimatedError error_of(const PhaseNewtonResult& solved, double motion_rms) {
+  if (solved.iterate.forces.coefficients().size() == 0) return {};
+  constexpr double slowest = 0.9;
+  const double decay = std::min(slowest, decay_of(solved.iterate.forces));
+  return {decay * decay / (1.0 - decay) * solved.resolution_error / motion_rms,
+          solved.residual_error / motion_rms};
 }
 
 double rms_of(const Eigen::MatrixXd& values) { return values.norm() / std::sqrt(double(values.size())); }
@@ -188,8 +181,8 @@ class Search {
  private:
   Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) const {
     Found found;
-    found.newton =
-        detail::solve_phases(model_, std::move(iterate), nodes_, {options_.max_iterations, tolerance, observer_});
+    found.newton = detail::solve_phases(model_, std::move(iterate), nodes_,
+                                        {options_.max_iterations, tolerance, observer_});
     result.iterations += found.newton.iterations;
     found.motion = model_.response.motion(found.newton.iterate.forces.grid(),
                                           found.newton.iterate.forces.coefficients(), nodes_, times_);
@@ -261,8 +254,8 @@ class Search {
     return solved(std::move(iterate), start_of_newton, result);
   }
 
-  // So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, or
-  // divided panels. False where neither is left.
+  // So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
+  // least a third more, or divided panels. False where neither is left.
   bool make_finer(PhaseIterate& iterate, double error) {
     constexpr double margin = 0.3;
     const Index q = nodes_.count();
@@ -271,20 +264,34 @@ class Search {
              divide(iterate, 0.1 * options_.tolerance);
     const double digits = std::log(error / (margin * options_.tolerance)), decay = decay_of(iterate.forces);
     const double more = decay < 1.0 ? std::ceil(digits / -std::log(decay)) : options_.max_nodes;
-    nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, q + std::max<Index>(1, Index(more))));
+    nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, q + std::max<Index>(q / 3, Index(more))));
     return true;
   }
 
+  // Layers of fast modes and laws that are not analytic where contact begins have errors that their
+  // coefficients do not show. What the estimate before was too small by, measured by the motion after it,
+  // multiplies it.
   void refine(Found& found, PhaseMotion& result) {
-    constexpr double part = 0.05, rounding = 1e-14;
-    for (bool tight = false;; tight = true) {
-      const EstimatedError error = error_of(found.newton, nodes_, rms_of(found.motion.displacement));
+    constexpr double part = 0.05, rounding = 1e-14, safety = 3.0;
+    bool tight = false, compared = false;
+    for (double factor = 1.0;; tight = true) {
+      EstimatedError error = error_of(found.newton, rms_of(found.motion.displacement));
+      const double estimate = error.all();
+      error.resolution *= factor;
       result.estimated_error = error.all();
       PhaseIterate finer = found.newton.iterate;
-      const bool finest = error.resolution <= options_.tolerance || !make_finer(finer, error.resolution);
+      const bool resolved = compared && error.resolution <= options_.tolerance;
+      const bool finest = resolved || !make_finer(finer, error.resolution);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
       if (!better.agrees()) return;
+      if (!finest) {
+        const double distance = rms_of(better.motion.displacement - found.motion.displacement) /
+                                rms_of(better.motion.displacement);
+        const double ratio = distance / std::max(estimate, rounding);
+        factor = ratio > 1.0 ? safety * ratio : 1.0;
+        compared = true;
+      }
       found = std::move(better);
     }
   }

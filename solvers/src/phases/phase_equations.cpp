@@ -305,6 +305,35 @@ PanelForces forces_along(const PhaseModel& model, const Layout& layout, const Le
   return {std::move(grid), nodes, values};
 }
 
+namespace {
+
+double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
+  return nodes > 0 ? displacements.head(nodes).norm() / std::sqrt(double(nodes)) : 0.0;
+}
+
+// What the unknowns that a change of the residual asks for do to displacements at nodes and passages, towards
+// their obstacles' other side.
+Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                                 const Lu<double>& factor, const Eigen::VectorXd& residual) {
+  const Eigen::VectorXd unknowns = factor.solve(Eigen::VectorXd(-residual));
+  return now.influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
+}
+
+// The displacements that the last two Legendre coefficients of each panel make, and what answers them.
+Eigen::VectorXd displacement_error(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                                   const Lu<double>& factor) {
+  const Index n = now.force.size();
+  const Eigen::MatrixXd& coefficients = at.forces.coefficients();
+  const Eigen::VectorXd parts =
+      (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
+  const Eigen::VectorXd made = now.influence.displacement.leftCols(n) * parts;
+  const Eigen::MatrixXd none;
+  const Eigen::VectorXd residual = residual_by_motion(now, made, none);
+  return made + displacements_of(at, now, nodes, factor, residual);
+}
+
+}  // namespace
+
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits) {
   constexpr double enough = 1e-9;
@@ -319,9 +348,12 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     const bool stands = result.residual < enough && result.residual > 0.5 * before;
     if (result.residual < limits.tolerance || stands) {
       result.converged = true;
-      result.displacement = now.influence.displacement.topLeftCorner(now.force.size(), now.force.size());
-      if (!factor) factor = factor_of(result.iterate, now, nodes, now.residual.size());
-      result.force_error = factor->solve(now.residual).head(now.force.size());
+      if (!factor || factor->size() != now.residual.size())
+        factor = factor_of(result.iterate, now, nodes, now.residual.size());
+      result.residual_error =
+          rms_at_nodes(displacements_of(result.iterate, now, nodes, *factor, now.residual), now.force.size());
+      result.resolution_error =
+          rms_at_nodes(displacement_error(result.iterate, now, nodes, *factor), now.force.size());
       result.tangent = std::move(now.tangent);
       result.damping = now.damping / model.frequency;
       return result;

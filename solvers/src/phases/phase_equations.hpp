@@ -48,8 +48,9 @@ struct PhaseNewtonResult {
   int iterations = 0;
   double residual = 0.0;
   PhaseIterate iterate;
-  Eigen::MatrixXd displacement;      ///< n x n: at the nodes, by forces at the nodes
-  Eigen::VectorXd force_error;       ///< n, N: by the residual that is left
+  /// rms at the nodes, m: displacements by the last two Legendre coefficients of each panel as if they were
+  /// missing, and by the residual, with what forces and passages do in answer.
+  double resolution_error = 0.0, residual_error = 0.0;
   Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)
 };
 
