@@ -110,7 +110,7 @@ CostEstimate estimate_cost(const Scene& scene) {
   const Sizes sizes = sizes_of(scene);
   CostEstimate cost;
   cost.bytes = structure_bytes(scene, sizes) + output_bytes(scene, sizes);
-  if (!is_balance(scene) || scene.time.tolerance > 0.0) {
+  if (!is_balance(scene) || solves_by_phases(scene) || scene.time.tolerance > 0.0) {
     cost.seconds = std::numeric_limits<double>::quiet_NaN();
     return cost;
   }

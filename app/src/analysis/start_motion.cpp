@@ -137,6 +137,10 @@ void require_start_fits(const StartMotion& start, const Scene& scene) {
   if (!balanced)
     throw std::invalid_argument("--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
                                 "\" has no start; expected forced_response or frequency_sweep");
+  if (solves_by_phases(scene))
+    throw std::invalid_argument(
+        "--start-from: not with time.method = \"phases\", which starts from a coarse balance of its own; expected "
+        "\"balance\"");
   if (scene.time.tolerance > 0.0)
     throw std::invalid_argument(
         "--start-from: not with time.tolerance, which starts from coarser motions of its own; expected "

@@ -10,6 +10,7 @@ using Remedies = std::map<std::string, std::string>;
 const Remedies& of_responses() {
   static const std::string other_sizes =
       "another time.functions (odd for Fourier), more time.quadrature_points, or time.tolerance in place of both";
+  static const std::string balance = "time.method = \"balance\"";
   static const Remedies all{
       {"stalled", other_sizes},
       {"iteration_limit", other_sizes},
@@ -19,6 +20,16 @@ const Remedies& of_responses() {
       {"unbalanced", "a static load that presses the structure against a contact (forcing.terms)"},
       {"size_limit", "a larger time.tolerance"},
       {"stagnated", "a larger time.tolerance"},
+      {"no_start",
+       "time.method = \"balance\" with other time.functions, or analysis.type = \"time_stepping\""},
+      {"no_motion_near",
+       "time.method = \"balance\" with more time.functions, or analysis.type = \"time_stepping\""},
+      {"tolerance_missed", "a larger time.tolerance"},
+      {"rigid_contact", balance},
+      {"velocity_and_no_mass", balance},
+      {"structural_damping", balance},
+      {"no_modes", balance},
+      {"resonant", "another forcing.frequency, or damping such as structure.stiffness_damping"},
       {"not_converged",
        "time.functions and time.quadrature_points in place of time.tolerance, or more damping"}};
   return all;

@@ -31,6 +31,35 @@ std::string with_unit(const Summary& summary, const Quantity& one) {
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
+/// Why a response by phases was not found, and what to take instead; empty for other statuses.
+std::string phases_sentence(const std::string& status) {
+  static const std::map<std::string, std::string> known{
+      {"no_start",
+       "No balance with up to 511 functions converged, and the structure settles to no motion: time.method = "
+       "\"balance\" with more functions may lead to one."},
+      {"no_motion_near",
+       "Near the balances with 63 to 511 functions there is no motion of the structure that the phases find: "
+       "time.method = \"balance\" with more functions solves for the samples alone."},
+      {"tolerance_missed",
+       "The phases do not come as near as time.tolerance demands: a larger one takes the motion found."},
+      {"rigid_contact",
+       "Phases do not take a rigid contact with mass, or with a structure that is free to move: time.method = "
+       "\"balance\" does."},
+      {"velocity_and_no_mass",
+       "Phases do not take a force of the velocity at a contact without mass: time.method = \"balance\" does."},
+      {"resonant",
+       "The structure without contact has a motion of this period of its own: another frequency, or damping, takes "
+       "it away."},
+      {"structural_damping",
+       "A loss factor has no equation in time, by which phases are solved: time.method = \"balance\" takes it, and "
+       "modal_damping = loss_factor / 2 in its place gives phases."},
+      {"no_modes",
+       "The modes of the structure, by which phases are solved, could not be computed: time.method = \"balance\" needs "
+       "none."}};
+  const auto found = known.find(status);
+  return found == known.end() ? "" : " " + found->second;
+}
+
 std::string solution_sentence(const Summary& summary) {
   const bool* converged = value_in<bool>(summary, quantities::converged.name);
   const std::string seconds = with_unit(summary, quantities::wall_seconds);
@@ -45,7 +74,8 @@ std::string solution_sentence(const Summary& summary) {
   const bool shown = std::isfinite(number_in(summary, quantities::max_displacement)) ||
                      number_in(summary, quantities::points) > 0.0;
   return "The scene was not solved (" + spaced(text_in(summary, quantities::status)) + ")" + ending +
-         (shown ? " What follows is not a solution." : " There is no motion to show.");
+         (shown ? " What follows is not a solution." : " There is no motion to show.") +
+         phases_sentence(text_in(summary, quantities::status));
 }
 
 /// How far a displacement passes the gap; empty where there is none.

@@ -17,6 +17,7 @@
 namespace wavebalance::app {
 namespace {
 
+constexpr double least_phases_tolerance = 1e-13;
 constexpr int most_dense_unknowns = 2000;  // time stepping: dense matrices of twice that size; modes: of that
 
 bool is_power_of_two(int value) { return value > 0 && std::has_single_bit(static_cast<unsigned>(value)); }
@@ -63,6 +64,13 @@ void check_tolerance(const Document& document, const Scene& scene) {
   if (is_wavelet(time.trial) && !is_power_of_two(scene.analysis.output_points))
     fail_rule(document, {"analysis.output_points"},
               "expected a power of two for the wavelet basis \"" + time.trial + "\"");
+}
+
+/// Phases to rounding do not estimate an error below 1e-13.
+void check_phases_tolerance(const Document& document, const Scene& scene) {
+  if (!(scene.time.tolerance >= least_phases_tolerance && scene.time.tolerance < 1.0))
+    fail_rule(document, {"time.tolerance"},
+              "expected a number from 1e-13 to below 1 with time.method = \"phases\"");
 }
 
 void check_sample_offset(const Document& document, const Time& time) {
@@ -147,14 +155,16 @@ void check_motions(const Document& document, const Scene& scene) {
 
 /// Each series has what its file and the functions can hold.
 void check_series(const Document& document, const Scene& scene) {
-  const bool balanced = !integrates_in_time(scene.analysis.type) && scene.time.tolerance == 0.0;
-  const int most = (scene.time.functions - 1) / 2 / scene.analysis.subharmonic;
+  const bool phases = solves_by_phases(scene);
+  const bool balanced = !integrates_in_time(scene.analysis.type) && (phases || scene.time.tolerance == 0.0);
+  const int functions = phases ? phases_starts.back() : scene.time.functions;
+  const int most = (functions - 1) / 2 / scene.analysis.subharmonic;
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
     const ForcingTerm& term = scene.forcing.terms[i];
     if (balanced && term.samples.empty() && term.harmonic > most)
       fail_rule(document, {term_section(i) + ".harmonic", "time.functions"},
                 "the functions hold harmonics of the load up to " + std::to_string(most) +
-                    "; expected no more, or more time.functions");
+                    "; expected no more" + (phases ? "" : ", or more time.functions"));
     try {
       harmonics_of(term);
     } catch (const SamplesFault& fault) {
@@ -307,7 +317,9 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_laws(document, scene);
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
-  if (!stepping && !mode) check_time(document, scene);
+  const bool phases = solves_by_phases(scene);
+  if (phases) check_phases_tolerance(document, scene);
+  if (!stepping && !mode && !phases) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
@@ -316,7 +328,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
     check_motions(document, scene);
   if (!mode) check_series(document, scene);
-  if (!stepping && !mode) check_subharmonic(document, scene);
+  if (!stepping && !mode && !phases) check_subharmonic(document, scene);
   if (type == AnalysisType::shooting) check_shooting(document, scene);
   check_branches(document, scene);
   check_dense_size(document, scene);

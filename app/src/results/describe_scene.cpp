@@ -186,7 +186,13 @@ std::string nyquist_text(const Time& time) {
                                                   : " (Nyquist coefficient kept)";
 }
 
+std::string phases_line(const Time& time) {
+  return fmt::format("time       phases of contact to a relative error of {}, from a coarse balance\n",
+                     number_text(time.tolerance));
+}
+
 std::string time_lines(const Time& time) {
+  if (time.method == TimeMethod::phases) return phases_line(time);
   if (time.tolerance > 0.0) return chosen_text(time);
   const auto products = effective_inner_products(time);
   const auto pair = pair_admissibility(time);

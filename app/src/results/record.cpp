@@ -118,11 +118,13 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_attractor(record, response.periods, response);
   if (!response.form.empty()) record.summary.emplace_back(quantities::form, response.form);
   append_rigid(record.summary, response);
-  if (response.phases) append_phases(record, response);
+  if (response.phases) append_phases(record, scene, response);
   if (response.stability) append_stability(record, *response.stability);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
-  if (scene.analysis.type == AnalysisType::forced_response)
+  if (response.structure_harmonics > 0)
+    record.summary.emplace_back(quantities::structure_left_out, response.structure_left_out);
+  if (scene.analysis.type == AnalysisType::forced_response && !solves_by_phases(scene))
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
   if (!response.moves || response.contacts.empty()) return record;
@@ -248,6 +250,7 @@ Record stable_sweep_record(const Scene& scene, const StructureModel& model, cons
 Record forced_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
                      ResponseOptions options) {
   options.stability = scene.analysis.stability;
+  if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
   if (!start.contacts.empty()) {
     StartSamples samples = start_samples(start, scene);
     options.guess = std::move(samples.displacement);

@@ -72,6 +72,9 @@ inline constexpr std::array<NamedValue<AnalysisType>, 6> enum_names<AnalysisType
      {AnalysisType::time_stepping, "time_stepping"},
      {AnalysisType::shooting, "shooting"},
      {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
+template <>
+inline constexpr std::array<NamedValue<TimeMethod>, 2> enum_names<TimeMethod>{
+    {{TimeMethod::balance, "balance"}, {TimeMethod::phases, "phases"}}};
 
 template <class Enum>
 constexpr std::string_view enum_name(Enum value) {

@@ -17,6 +17,7 @@ std::string name_of(Formulation value) { return std::string(enum_name(value)); }
 std::string name_of(InnerProducts value) { return std::string(enum_name(value)); }
 std::string name_of(NyquistCoefficient value) { return std::string(enum_name(value)); }
 std::string name_of(AnalysisType value) { return std::string(enum_name(value)); }
+std::string name_of(TimeMethod value) { return std::string(enum_name(value)); }
 std::string name_of(LoadKind value) { return std::string(enum_name(value)); }
 
 std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
@@ -48,6 +49,10 @@ Scene with_longer_period(Scene scene, int times) {
 
 bool integrates_in_time(AnalysisType type) {
   return type == AnalysisType::time_stepping || type == AnalysisType::shooting;
+}
+
+bool solves_by_phases(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases;
 }
 
 namespace {

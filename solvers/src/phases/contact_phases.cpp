@@ -11,15 +11,9 @@
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "phases/phase_equations.hpp"
+#include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers {
-
-struct PhaseMotion::Parts {
-  detail::PhaseModel model;
-  detail::PhaseIterate iterate;
-  detail::LegendreNodes nodes;
-  detail::PanelForces tangent, damping;  // slopes of the laws, N/m and N s/m
-};
 
 namespace {
 

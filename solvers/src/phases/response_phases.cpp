@@ -4,45 +4,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "phases/phase_loads.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
-#include "wavebalance/solvers/structure/periodic_force.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-// The loads of a structure by harmonics of their period, L x (H + 1): the columns of load_shapes().
-Eigen::MatrixXcd loads_of(const CondensedProblem& problem, int repeats) {
-  const LinearStructure& structure = problem.structure();
-  const Eigen::VectorXcd& harmonics = problem.load_harmonics();
-  std::vector<Eigen::VectorXcd> series{
-      harmonics(Eigen::seqN(0, (harmonics.size() + repeats - 1) / repeats, repeats))};
-  for (const PeriodicForce& force : structure.forces)
-    series.push_back(force.amplitudes(repeats * problem.frequency()));
-  Eigen::Index count = 1;
-  for (const auto& load : series) count = std::max(count, load.size());
-  Eigen::MatrixXcd loads = Eigen::MatrixXcd::Zero(Eigen::Index(series.size()), count);
-  for (std::size_t l = 0; l < series.size(); ++l)
-    loads.row(Eigen::Index(l)).head(series[l].size()) = series[l].transpose();
-  loads.rightCols(count - 1) *= problem.load_factor();
-  return loads;
-}
-
 // C x (H + 1), m: the motion without contact over the period of the problem.
 Eigen::MatrixXcd contact_free_amplitudes(const CondensedProblem& problem, double holding) {
   constexpr int largest_dense = 200;
-  LinearStructure structure = problem.structure();
-  if (holding > 0.0) {
-    const Eigen::SparseMatrix<double> springs =
-        holding * structure.contact_directions.transpose() * structure.contact_directions;
-    structure.stiffness += springs;
-    structure.rigid_modes = {};
-  }
+  const LinearStructure structure = detail::held_by_springs(problem.structure(), holding);
   Condensation condensation(
       structure, structure.size() > largest_dense ? CondensationMethod::sparse : CondensationMethod::dense);
   const int repeats = load_periods(problem), contacts = problem.contacts();
-  const Eigen::MatrixXcd loads = loads_of(problem, repeats);
+  const Eigen::MatrixXcd loads = detail::loads_of(problem, repeats);
   Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(contacts, repeats * (loads.cols() - 1) + 1);
   for (Eigen::Index n = 0; n < loads.cols(); ++n) {
     if (loads.col(n).isZero(0.0)) continue;
@@ -60,14 +37,18 @@ double relative_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& e
 
 }  // namespace
 
+PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws& laws,
+                             const ContactDynamics& dynamics) {
+  return {dynamics, laws, contact_free_amplitudes(problem, dynamics.holding()), problem.frequency()};
+}
+
 ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
                                const PeriodicResponse& response, const ContactDynamics& dynamics,
                                const ContactPhasesOptions& options) {
   constexpr int least_points = 256, most_points = 1024;  // a start needs no more
   const int points = std::clamp(problem.points(), least_points, most_points);
   const Motion balance = contact_motion(problem, response, laws, points);
-  const PhasesProblem phases{dynamics, laws, contact_free_amplitudes(problem, dynamics.holding()),
-                             problem.frequency()};
+  const PhasesProblem phases = phases_problem(problem, laws, dynamics);
   ResponsePhases result{contact_phases(phases, balance.displacement, options, balance.force), missing,
                         missing};
   if (result.motion.parts == nullptr) return result;

@@ -86,6 +86,35 @@ std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& res
   return response_phases(condensed_, laws_, response, *dynamics(), options);
 }
 
+std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
+                                                  const ContactPhasesOptions& options) {
+  constexpr int points = 1024;  // a start needs no more
+  if (!dynamics() || !settled.integrated()) return std::nullopt;
+  load_fully(frequency);
+  const auto samples = [&](const Eigen::MatrixXd& values) {
+    return by_contact(resample(values, points, settled.start), contacts());
+  };
+  return contact_phases(phases_problem(condensed_, laws_, *dynamics()), samples(settled.last.displacement),
+                        options, samples(settled.last.force));
+}
+
+StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,
+                                                 const StructurePhasesOptions& options) {
+  load_fully(frequency);
+  return structure_phases(condensed_, motion, points, options);
+}
+
+MotionStability ContactProblem::stability(double frequency, const PhaseMotion& motion) {
+  if (!dynamics()) return {};
+  if (!motion.converged()) {
+    MotionStability unknown;
+    unknown.status = to_string(motion.status);
+    return unknown;
+  }
+  load_fully(frequency);
+  return motion_stability(condensed_, laws_, {}, *dynamics(), &motion);
+}
+
 MotionStability ContactProblem::stability(const PeriodicResponse& response, const PhaseMotion* motion) {
   if (!dynamics()) return {};
   hold(response);

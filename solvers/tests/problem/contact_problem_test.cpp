@@ -56,6 +56,21 @@ TEST(ContactProblem, AnswersQuestionsInAnyOrder) {
   EXPECT_EQ(problem.respond(0.3).displacement, high.displacement);
 }
 
+TEST(ContactProblem, FindsTheSamePhasesFromTheSettledMotionAsFromABalance) {
+  ContactProblem problem = stopped();
+  const auto balance = problem.phases(problem.respond(0.2), {.tolerance = 1e-11});
+  const auto settled = problem.phases(0.2, problem.settle(0.2), {.tolerance = 1e-11});
+  ASSERT_TRUE(balance && settled);
+  ASSERT_TRUE(balance->motion.converged() && settled->converged());
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
+  const Eigen::MatrixXd expected = balance->motion.displacement(times);
+  EXPECT_LT((settled->displacement(times) - expected).norm(), 1e-9 * expected.norm());
+  const StructurePhases whole = problem.structure_motion(0.2, *settled, 100);
+  EXPECT_LT((whole.motion.displacement - expected).norm(), 2e-9 * expected.norm());
+  EXPECT_EQ(problem.stability(0.2, *settled).status, "stable");
+  EXPECT_EQ(problem.stability(0.2, PhaseMotion{}).status, "no_motion_near");
+}
+
 TEST(ContactProblem, FollowsACurveWhosePointsAreItsResponses) {
   ContactProblem problem = stopped();
   FrequencySweepOptions options;

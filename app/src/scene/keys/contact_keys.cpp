@@ -74,7 +74,7 @@ void add_contact_keys(std::vector<SceneKey>& keys) {
   contact(
       &Contact::form, "form", "",
       "unknown in which contact is solved: the displacement, or for stiff and rigid laws the contact force",
-      optional, only_with(balanced));
+      optional, only_with(balanced && by_balance()));
   contact(
       &Contact::mass, "mass", "",
       "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "

@@ -51,7 +51,8 @@ struct Response {
   int periods = 1;             ///< of the load, over which the motion is written: analysis.subharmonic
   int motion_periods = 1;      ///< of the load, after which it repeats: solvers::motion_periods()
   double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
-  std::string strategy;  ///< solvers::Strategy that found it; empty for time stepping and shooting
+  std::string
+      strategy;  ///< solvers::Strategy that found it, or PhasesStart; empty for time stepping and shooting
   /// rms of the displacements at the quadrature points less those of ResponseOptions::guess, over the rms of
   /// the guess; NaN without one.
   double start_distance = std::numeric_limits<double>::quiet_NaN();
@@ -71,12 +72,17 @@ struct Response {
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   /// Set if converged, with ResponseOptions::stability or by shooting.
   std::optional<ResponseStability> stability;
-  /// Set if converged, in scenes with analysis.phases of a structure whose modes are known.
+  /// Set if converged, in scenes with analysis.phases of a structure whose modes are known, and in scenes by
+  /// phases where a motion was found, then without errors of a response.
   std::optional<solvers::ResponsePhases> phases;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
                               ///< ResponseOptions::structure_points points
+  int start_functions = 0;    ///< of phases: those of the balance that they started from; 0 without one
+  /// Of phases solvers::StructurePhases: the harmonics of `structure`, and the error of those left out.
+  int structure_harmonics = 0;
+  double structure_left_out = std::numeric_limits<double>::quiet_NaN();
 
   /// The motion of the leading contact, 1 x output_points each, and its time histories: output_points values
   /// each, m, m/s and N.
@@ -111,6 +117,15 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
 /// The same for the scene's structure composed before.
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
                                     const ResponseOptions& options = {});
+
+/// The motion of the structure itself by phases of contact, to time.tolerance: of scenes with time.method =
+/// "phases". It starts from a balance with the first of phases_starts Fourier functions near which there is a
+/// motion, and where there is none from the motion that the structure settles to. The status is that of the
+/// phases, or "no_start" where neither leads to a motion and "no_modes" where the structure has none to
+/// compute.
+Response phases_response(const Scene& scene, const ResponseOptions& options = {});
+Response phases_response(const Scene& scene, const StructureModel& model,
+                         const ResponseOptions& options = {});
 
 /// The scene's response by time stepping until two periods agree to analysis.tolerance.
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});

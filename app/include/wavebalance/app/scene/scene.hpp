@@ -39,6 +39,12 @@ enum class AnalysisType {
   shooting,
   nonlinear_mode
 };
+/// What a response solves for, time.method: the balance in a pair of bases, or the motion of the structure
+/// itself by phases of contact.
+enum class TimeMethod { balance, phases };
+/// Fourier functions of the balances from which phases are sought, one after the other until there is a
+/// motion.
+inline constexpr std::array phases_starts{63, 127, 255, 511};
 /// Whether the equation of motion is integrated in time, so that there are no functions: time stepping,
 /// shooting.
 bool integrates_in_time(AnalysisType type);
@@ -199,6 +205,7 @@ struct Time {
   NyquistCoefficient nyquist = NyquistCoefficient::drop;  ///< of an even number of functions
   double sample_offset = 0.0;  ///< 0 or 0.5, of the points t_k = (k + sample_offset) / quadrature_points
   double tolerance = 0.0;      ///< > 0: relative rms error of the tip displacement to be met; 0: none
+  TimeMethod method = TimeMethod::balance;  ///< forced_response
 
   bool operator==(const Time&) const = default;
 };
@@ -276,10 +283,14 @@ std::string name_of(Formulation value);
 std::string name_of(InnerProducts value);
 std::string name_of(NyquistCoefficient value);
 std::string name_of(AnalysisType value);
+std::string name_of(TimeMethod value);
 std::string name_of(LoadKind value);
 
 /// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
 std::vector<std::string> input_files(const Scene& scene);
+
+/// Whether its motion is solved for by phases of contact, without functions and points of its own.
+bool solves_by_phases(const Scene& scene);
 
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,
 /// where that is 0, the first term that is not static. Null without any.

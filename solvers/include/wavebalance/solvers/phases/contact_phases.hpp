@@ -86,6 +86,12 @@ class PhaseMotion {
   /// C x K contact forces, N. O(K C log panels).
   Eigen::MatrixXd force(const Eigen::VectorXd& times) const;
 
+  /// The exact Fourier coefficients of the contact forces, N, C x count: column n belongs to
+  /// Re(a exp(2 pi i n t)), t in periods. Of a structure that is free to move they are less the forces of the
+  /// springs ContactDynamics::holding() at all contacts, with which it is held. Throws std::invalid_argument
+  /// without a motion and for a count below 1. O(panels nodes count).
+  Eigen::MatrixXcd force_harmonics(int count) const;
+
   /// The slopes of the law of a contact along the motion, by displacement (N/m) and by velocity (N s/m), at a
   /// time within one of its phases: the limits from inside at its ends, zero outside all phases. O(panels +
   /// nodes).

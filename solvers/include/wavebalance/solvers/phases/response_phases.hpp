@@ -14,6 +14,11 @@ struct ResponsePhases {
   double displacement_error, force_error;
 };
 
+/// What contact_phases() takes of a problem at its frequency and load. `dynamics` are those of its structure.
+/// O(n^3) for each harmonic of the load.
+PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws& laws,
+                             const ContactDynamics& dynamics);
+
 /// contact_phases() from a response of `problem` to `laws`, at the frequency and load of the problem.
 /// `dynamics` are those of its structure. O(n^3) for each harmonic of the load, beside what contact_phases()
 /// takes.

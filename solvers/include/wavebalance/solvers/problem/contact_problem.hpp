@@ -8,6 +8,7 @@
 #include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/phases/structure_phases.hpp"
 #include "wavebalance/solvers/problem/motion_stability.hpp"
 #include "wavebalance/solvers/problem/structure_dynamics.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -63,6 +64,14 @@ class ContactProblem {
   /// The phases of contact near a response; nothing where the structure has no modes to compute.
   std::optional<ResponsePhases> phases(const PeriodicResponse& response,
                                        const ContactPhasesOptions& options = {});
+  /// The phases of contact near the motion that settle() found at a frequency; nothing where there is none,
+  /// or no modes.
+  std::optional<PhaseMotion> phases(double frequency, const SettledMotion& settled,
+                                    const ContactPhasesOptions& options = {});
+  /// structure_phases() of a motion at a frequency, and its stability where it has converged.
+  StructurePhases structure_motion(double frequency, const PhaseMotion& motion, int points,
+                                   const StructurePhasesOptions& options = {});
+  MotionStability stability(double frequency, const PhaseMotion& motion);
   /// The stability of a response, that of the phases `motion` where it is not null.
   MotionStability stability(const PeriodicResponse& response, const PhaseMotion* motion = nullptr);
   /// Its exponents of the largest multipliers, `most` at most; without values where the structure has no

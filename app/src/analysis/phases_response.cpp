@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/response/complementarity.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// The scene as a balance with so many Fourier functions.
+Scene balance_of(Scene scene, int functions) {
+  scene.analysis.type = AnalysisType::forced_response;
+  scene.time = {};
+  scene.time.trial = scene.time.weight = "fourier";
+  scene.time.functions = functions;
+  scene.time.quadrature_points = 4 * (functions + 1);
+  return scene;
+}
+
+/// The largest harmonic of the load that a balance has to hold.
+int highest_harmonic(const Forcing& forcing) {
+  int highest = 1;
+  for (const ForcingTerm& term : forcing.terms)
+    if (term.samples.empty()) highest = std::max(highest, term.harmonic);
+  return highest;
+}
+
+/// What a search for phases ended with.
+struct PhasesFound {
+  std::string status = "no_start";
+  std::string strategy;
+  int start_functions = 0;
+  std::optional<solvers::PhaseMotion> motion;
+
+  bool may_go_on() const { return !motion || motion->status == solvers::PhasesStatus::no_motion_near; }
+};
+
+void note(PhasesFound& found, solvers::PhaseMotion motion, const char* strategy, int functions) {
+  found.status = to_string(motion.status);
+  found.strategy = strategy;
+  found.start_functions = functions;
+  found.motion = std::move(motion);
+}
+
+/// From one balance after the other.
+PhasesFound from_balances(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  PhasesFound found;
+  if (model.contact_dynamics() == nullptr) {
+    found.status = "no_modes";
+    return found;
+  }
+  for (const int functions : phases_starts) {
+    if ((functions - 1) / 2 < highest_harmonic(scene.forcing)) continue;
+    solvers::ContactProblem problem = compose_problem(balance_of(scene, functions), model);
+    solvers::ForcedResponseOptions options;
+    options.observer = observer;
+    const auto balance = problem.respond(scene.forcing.frequency, options);
+    if (balance.status == solvers::SolveStatus::cancelled) {
+      found.status = to_string(balance.status);
+      return found;
+    }
+    if (!balance.converged()) continue;
+    auto phases = problem.phases(balance, {.tolerance = scene.time.tolerance});
+    note(found, std::move(phases->motion), "from_balance", functions);
+    if (!found.may_go_on()) return found;
+  }
+  return found;
+}
+
+/// From the motion that the structure settles to, where there is one.
+void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Scene& scene,
+                  const Observer& observer) {
+  solvers::SettlingOptions options;
+  options.observer = observer;
+  const solvers::SettledMotion settled = problem.settle(scene.forcing.frequency, options);
+  if (settled.cancelled) found.status = "cancelled";
+  if (settled.cancelled || !settled.integrated() || !settled.last.displacement.allFinite()) return;
+  auto motion = problem.phases(scene.forcing.frequency, settled, {.tolerance = scene.time.tolerance});
+  if (motion) note(found, *std::move(motion), "from_settling", 0);
+}
+
+void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
+                 const StructureModel& model, const ResponseOptions& options, Response& result) {
+  constexpr double least_left_out = 1e-9;
+  const double frequency = scene.forcing.frequency;
+  const Eigen::VectorXd times = time_fractions(scene.analysis.output_points);
+  result.contacts = {motion.displacement(times), motion.velocity(times), motion.force(times)};
+  result.contact = leading_contact(result.contacts, model.gaps);
+  if (is_rigid(scene.contact.law)) {
+    const auto contact_major = [](const Eigen::MatrixXd& values) -> Eigen::VectorXd {
+      return values.transpose().reshaped();
+    };
+    const auto held = solvers::complementarity(contact_major(result.contacts.displacement),
+                                               contact_major(result.contacts.force), model.gaps);
+    result.rigid = {held.max_penetration, held.min_force, held.product};
+  }
+  if (options.structure_points > 0) {
+    solvers::StructurePhases whole =
+        problem.structure_motion(frequency, motion, options.structure_points,
+                                 {.tolerance = std::max(least_left_out, scene.time.tolerance)});
+    result.structure = std::move(whole.motion);
+    result.structure_harmonics = whole.harmonics;
+    result.structure_left_out = whole.left_out;
+  }
+  if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
+}
+
+void solve_by_phases(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                     Response& result) {
+  PhasesFound found = from_balances(scene, model, options.observer);
+  solvers::ContactProblem problem =
+      compose_problem(balance_of(scene, std::max(phases_starts.front(), found.start_functions)), model);
+  const bool searched = found.status == "no_start" || found.motion.has_value();
+  if (searched && found.may_go_on()) try_settling(found, problem, scene, options.observer);
+  result.status = found.status;
+  result.strategy = found.strategy;
+  result.start_functions = found.start_functions;
+  result.residual = std::numeric_limits<double>::quiet_NaN();
+  if (!found.motion) return;
+  const solvers::PhaseMotion& motion = *found.motion;
+  result.phases = {motion, solvers::missing, solvers::missing};
+  result.iterations = motion.iterations;
+  result.unknowns = motion.unknowns;
+  result.converged = motion.converged();
+  result.moves = motion.parts != nullptr;
+  if (!result.moves) return;
+  result.residual = motion.residual;
+  copy_motion(problem, motion, scene, model, options, result);
+}
+
+}  // namespace
+
+Response phases_response(const Scene& scene, const ResponseOptions& options) {
+  return phases_response(scene, make_model(scene, options.observer), options);
+}
+
+Response phases_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  Response result;
+  try {
+    solve_by_phases(scene, model, options, result);
+  } catch (const solvers::SingularSystem& error) {
+    result.converged = result.moves = false;
+    result.status = std::string("singular: ") + error.what();
+    result.residual = std::numeric_limits<double>::quiet_NaN();
+  }
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
+                        (result.stability ? result.stability->wall_seconds : 0.0);
+  return result;
+}
+
+}  // namespace wavebalance::app
