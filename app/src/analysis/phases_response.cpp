@@ -1,3 +1,5 @@
+#include "analysis/phases_response.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <utility>
 
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
 
@@ -111,17 +112,19 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
 }
 
+/// `settling`: whether to start from that motion where no balance leads to one.
 void solve_by_phases(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
-                     Response& result) {
+                     bool settling, Response& result) {
   PhasesFound found = from_balances(scene, model, options.observer);
   solvers::ContactProblem problem =
       compose_problem(balance_of(scene, std::max(phases_starts.front(), found.start_functions)), model);
   const bool searched = found.status == "no_start" || found.motion.has_value();
-  if (searched && found.may_go_on()) try_settling(found, problem, scene, options.observer);
+  if (settling && searched && found.may_go_on()) try_settling(found, problem, scene, options.observer);
   result.status = found.status;
+  result.solved_by = name_of(TimeMethod::phases);
   result.strategy = found.strategy;
   result.start_functions = found.start_functions;
-  result.residual = std::numeric_limits<double>::quiet_NaN();
+  result.residual = solvers::missing;
   if (!found.motion) return;
   const solvers::PhaseMotion& motion = *found.motion;
   result.phases = {motion, solvers::missing, solvers::missing};
@@ -134,25 +137,50 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
   copy_motion(problem, motion, scene, model, options, result);
 }
 
+Response timed_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                        bool settling) {
+  const auto start = std::chrono::steady_clock::now();
+  Response result;
+  try {
+    solve_by_phases(scene, model, options, settling, result);
+  } catch (const solvers::SingularSystem& error) {
+    result.converged = result.moves = false;
+    result.status = std::string("singular: ") + error.what();
+    result.residual = solvers::missing;
+  }
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
+                        (result.stability ? result.stability->wall_seconds : 0.0);
+  return result;
+}
+
+/// Phases take no pair; a scene that names another one than Fourier functions asks for its balance.
+bool may_leave_pair(const Time& time) {
+  return time.trial.empty() || (time.trial == "fourier" && time.weight == "fourier");
+}
+
 }  // namespace
+
+double largest_phases_tolerance(int contacts) {
+  constexpr int few = 6;
+  return contacts <= few ? 1e-6 : 1e-8;
+}
+
+std::optional<Response> phases_to_tolerance(const Scene& scene, const StructureModel& model,
+                                            const ResponseOptions& options) {
+  const double tolerance = scene.time.tolerance;
+  const bool cheaper = tolerance > 0.0 && tolerance < largest_phases_tolerance(model.contacts());
+  if (!cheaper || !may_leave_pair(scene.time)) return std::nullopt;
+  Response found = timed_response(scene, model, options, false);
+  if (!found.converged && found.status != to_string(solvers::SolveStatus::cancelled)) return std::nullopt;
+  return found;
+}
 
 Response phases_response(const Scene& scene, const ResponseOptions& options) {
   return phases_response(scene, make_model(scene, options.observer), options);
 }
 
 Response phases_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  Response result;
-  try {
-    solve_by_phases(scene, model, options, result);
-  } catch (const solvers::SingularSystem& error) {
-    result.converged = result.moves = false;
-    result.status = std::string("singular: ") + error.what();
-    result.residual = std::numeric_limits<double>::quiet_NaN();
-  }
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
-                        (result.stability ? result.stability->wall_seconds : 0.0);
-  return result;
+  return timed_response(scene, model, options, true);
 }
 
 }  // namespace wavebalance::app

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "analysis/phases_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -175,8 +176,10 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
 
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
                                     const ResponseOptions& options) {
+  if (auto phases = phases_to_tolerance(scene, model, options)) return *std::move(phases);
   const auto start = Clock::now();
   Response result;
+  result.solved_by = name_of(TimeMethod::balance);
   result.unknowns = model.contacts() * scene.time.functions;
   try {
     if (scene.time.tolerance > 0.0)

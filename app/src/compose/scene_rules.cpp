@@ -17,7 +17,7 @@
 namespace wavebalance::app {
 namespace {
 
-constexpr double least_phases_tolerance = 1e-13;
+constexpr double least_tolerance = 1e-13;
 constexpr int most_dense_unknowns = 2000;  // time stepping: dense matrices of twice that size; modes: of that
 
 bool is_power_of_two(int value) { return value > 0 && std::has_single_bit(static_cast<unsigned>(value)); }
@@ -45,8 +45,15 @@ void check_pair(const Document& document, const Time& time) {
               "not an admissible trial basis for weight = \"" + time.weight + "\": " + pair.reason);
 }
 
+/// Rounding keeps estimates of errors above about 1e-14.
+void check_least_tolerance(const Document& document, const Scene& scene) {
+  if (!(scene.time.tolerance >= least_tolerance))
+    fail_rule(document, {"time.tolerance"}, "expected a number of at least 1e-13");
+}
+
 /// What a tolerance chooses must not be given too.
 void check_tolerance(const Document& document, const Scene& scene) {
+  check_least_tolerance(document, scene);
   Time time = scene.time;
   if (time.functions != 0 || time.quadrature_points != 0)
     fail_rule(document, {"time.functions", "time.quadrature_points"},
@@ -64,13 +71,6 @@ void check_tolerance(const Document& document, const Scene& scene) {
   if (is_wavelet(time.trial) && !is_power_of_two(scene.analysis.output_points))
     fail_rule(document, {"analysis.output_points"},
               "expected a power of two for the wavelet basis \"" + time.trial + "\"");
-}
-
-/// Phases to rounding do not estimate an error below 1e-13.
-void check_phases_tolerance(const Document& document, const Scene& scene) {
-  if (!(scene.time.tolerance >= least_phases_tolerance && scene.time.tolerance < 1.0))
-    fail_rule(document, {"time.tolerance"},
-              "expected a number from 1e-13 to below 1 with time.method = \"phases\"");
 }
 
 void check_sample_offset(const Document& document, const Time& time) {
@@ -318,7 +318,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
   const bool phases = solves_by_phases(scene);
-  if (phases) check_phases_tolerance(document, scene);
+  if (phases) check_least_tolerance(document, scene);
   if (!stepping && !mode && !phases) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);

@@ -32,7 +32,7 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     attractor_periods{"attractor_periods"}, phases_status{"phases_status"},
     error_of_displacement{"error_of_displacement"}, error_of_force{"error_of_force"},
     phases_estimated_error{"phases_estimated_error"}, phases_unknowns{"phases_unknowns"}, phases{"phases"},
-    structure_left_out{"structure_left_out"}, start_functions{"start_functions"},
+    structure_left_out{"structure_left_out"}, start_functions{"start_functions"}, solved_by{"solved_by"},
     largest_error_of_displacement{"largest_error_of_displacement"},
     largest_error_of_force{"largest_error_of_force"}, points_phases_converged{"points_phases_converged"},
     points_no_motion_near{"points_no_motion_near"}, points_phases_not_known{"points_phases_not_known"},

@@ -108,6 +108,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response)
     record.summary.emplace_back(quantities::strategy, response.strategy);
+  if (!response.solved_by.empty()) record.summary.emplace_back(quantities::solved_by, response.solved_by);
   warn_of_scene(record, scene);
   if (response.moves && scene.contact.law != no_law && !response.contacts.force.any())
     warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
@@ -118,13 +119,13 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_attractor(record, response.periods, response);
   if (!response.form.empty()) record.summary.emplace_back(quantities::form, response.form);
   append_rigid(record.summary, response);
-  if (response.phases) append_phases(record, scene, response);
+  if (response.phases) append_phases(record, scene.time.tolerance, response);
   if (response.stability) append_stability(record, *response.stability);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (response.structure_harmonics > 0)
     record.summary.emplace_back(quantities::structure_left_out, response.structure_left_out);
-  if (scene.analysis.type == AnalysisType::forced_response && !solves_by_phases(scene))
+  if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response))
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
   if (!response.moves || response.contacts.empty()) return record;

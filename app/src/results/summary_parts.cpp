@@ -134,11 +134,14 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
-void append_phases(Record& record, const Scene& scene, const Response& response) {
+bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::phases); }
+
+void append_phases(Record& record, double tolerance, const Response& response) {
   const solvers::ResponsePhases& found = *response.phases;
   const bool known = found.motion.parts != nullptr;
-  if (solves_by_phases(scene)) {
-    record.summary.emplace_back(quantities::tolerance, scene.time.tolerance);
+  if (is_by_phases(response)) {
+    record.summary.emplace_back(quantities::tolerance, tolerance);
+    record.summary.emplace_back(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.summary.emplace_back(quantities::start_functions, std::int64_t{response.start_functions});
   } else {
     record.summary.emplace_back(quantities::phases_status, std::string(to_string(found.motion.status)));
@@ -152,7 +155,7 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
   for (const solvers::ContactPhase& phase : found.motion.phases)
     phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
   record.summary.emplace_back(quantities::phases, std::move(phases));
-  const bool none = found.motion.status == solvers::PhasesStatus::no_motion_near && !solves_by_phases(scene);
+  const bool none = found.motion.status == solvers::PhasesStatus::no_motion_near && !is_by_phases(response);
   if (response.stability && !none)
     record.summary.emplace_back(quantities::stability_by,
                                 std::string(response.stability->by_phases ? "phases" : "balance"));

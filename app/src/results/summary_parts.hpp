@@ -44,6 +44,8 @@ void warn_of_open_contacts(Record& record, double displacement, double gap);
 void append_motion(Summary& summary, const solvers::Motion& leading);
 
 /// The motion of the structure near the response: its phases of contact and the errors of the response.
-void append_phases(Record& record, const Scene& scene, const Response& response);
+void append_phases(Record& record, double tolerance, const Response& response);
+/// Whether the response is the motion of the structure itself, and not a balance beside it.
+bool is_by_phases(const Response& response);
 
 }  // namespace wavebalance::app

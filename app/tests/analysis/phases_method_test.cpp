@@ -135,11 +135,60 @@ TEST(PhasesMethod, RefusesTheKeysOfABalanceByName) {
   EXPECT_THROW(scene_of({"analysis.type=time_stepping", "time.method=phases"}), SceneError);
 }
 
+/// The bar with a tolerance in place of sizes.
+Scene bar_to(const char* tolerance, std::vector<std::string> more = {}) {
+  more.push_back(std::string("time.tolerance=") + tolerance);
+  std::vector<std::string> without{"time.functions", "time.quadrature_points"};
+  return parse_scene(bar_scene, "case.toml", more, without);
+}
+
+TEST(SmallTolerance, IsMetByPhasesFromACoarseBalance) {
+  const Response exact = phases_response(bar_by_phases({"time.tolerance=1e-12"}));
+  for (const char* tolerance : {"1e-7", "1e-9", "1e-11"}) {
+    const Record record = analyse(bar_to(tolerance));
+    ASSERT_TRUE(record.converged) << record.status;
+    EXPECT_EQ(value_of<std::string>(record.summary, "solved_by"), "phases");
+    EXPECT_EQ(value_of<std::int64_t>(record.summary, "start_functions"), 63);
+    EXPECT_LE(value_of<double>(record.summary, "estimated_error"), std::stod(tolerance));
+    const auto values = record.response.numbers("displacement_m");
+    const Eigen::VectorXd found = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    EXPECT_LT(relative_rms_error(found, exact.displacement()), std::stod(tolerance));
+  }
+}
+
+TEST(SmallTolerance, IsMetByARefinedBalanceWherePhasesDoNotApplyAndInBasesThatAreNamed) {
+  const Response large = weighted_residual_response(bar_to("1e-6"));
+  EXPECT_EQ(large.solved_by, "balance");
+  EXPECT_TRUE(large.refinement.has_value());
+  const Response damped = weighted_residual_response(
+      bar_to("5e-7", {"structure.loss_factor=0.02", "structure.stiffness_damping=0"}));
+  EXPECT_TRUE(damped.converged) << damped.status;
+  EXPECT_EQ(damped.solved_by, "balance");
+  const Response named =
+      weighted_residual_response(bar_to("5e-7", {"time.trial=bspline", "time.weight=bspline"}));
+  EXPECT_EQ(named.solved_by, "balance");
+  EXPECT_EQ(named.refinement->trial, "bspline");
+}
+
+TEST(SmallTolerance, HasALimit) {
+  EXPECT_NO_THROW(bar_to("1e-13"));
+  EXPECT_THROW(bar_to("9e-14"), SceneError);
+}
+
 class PhasesMethodOfAChain : public testing::Test {
  protected:
   PhasesMethodOfAChain() { write_chain(folder_); }
   TemporaryFolder folder_;
 };
+
+TEST_F(PhasesMethodOfAChain, MeetsASmallToleranceWithSeveralContacts) {
+  const Response found = weighted_residual_response(
+      load_scene(folder_.write("chain.toml", chain_scene), std::vector<std::string>{"time.tolerance=1e-10"},
+                 std::vector<std::string>{"time.functions"}));
+  ASSERT_TRUE(found.converged) << found.status;
+  EXPECT_EQ(found.solved_by, "phases");
+  EXPECT_LE(found.phases->motion.estimated_error, 1e-10);
+}
 
 TEST_F(PhasesMethodOfAChain, TakesSeveralContacts) {
   const auto place = folder_.write("chain.toml", chain_scene);
