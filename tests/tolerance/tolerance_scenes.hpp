@@ -75,8 +75,8 @@ inline solvers::RefinementResult refine(const app::Scene& scene, const app::Stru
   return solvers::response_to_tolerance(make, law, options);
 }
 
-/// The displacement by shooting, whose own error is below 1e-10. A mass matrix that is not positive definite
-/// is not for shooting: then by `functions` Fourier functions and eight times as many points.
+/// The displacement by contact phases, whose own error is below 1e-10. Of a tip without mass by `functions`
+/// Fourier functions and eight times as many points.
 inline Eigen::VectorXd reference(app::Scene scene, int functions) {
   app::Response response;
   if (scene.structure.massless_tip) {
@@ -86,7 +86,9 @@ inline Eigen::VectorXd reference(app::Scene scene, int functions) {
                   .quadrature_points = 8 * (functions + 1)};
     response = app::weighted_residual_response(scene);
   } else {
-    response = app::shooting_response(scene);
+    scene.time = {};
+    scene.time.tolerance = 1e-11;
+    response = app::phases_response(scene);
   }
   if (!response.converged) throw std::runtime_error("the reference has not converged: " + response.status);
   return response.displacement();

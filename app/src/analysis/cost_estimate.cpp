@@ -130,8 +130,8 @@ std::string slow_stepping_advice(const Scene& scene) {
     return "";
   return fmt::format(
       "time stepping follows all {} modes, the fastest of which may take hours; structure.kept_modes = 8 takes "
-      "the lowest, and analysis.type = \"forced_response\" needs no steps{}",
-      reduced_size(scene), contact_count(scene) == 1 ? ", \"shooting\" none of the fastest mode" : "");
+      "the lowest, and analysis.type = \"forced_response\" needs no steps",
+      reduced_size(scene));
 }
 
 double available_memory() {

@@ -32,6 +32,10 @@ int highest_harmonic(const Forcing& forcing) {
   return highest;
 }
 
+double tolerance_of(const Scene& scene) {
+  return scene.time.tolerance > 0.0 ? scene.time.tolerance : default_phases_tolerance;
+}
+
 /// What a search for phases ended with.
 struct PhasesFound {
   std::string status = "no_start";
@@ -67,7 +71,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
       return found;
     }
     if (!balance.converged()) continue;
-    auto phases = problem.phases(balance, {.tolerance = scene.time.tolerance});
+    auto phases = problem.phases(balance, {.tolerance = tolerance_of(scene)});
     note(found, std::move(phases->motion), "from_balance", functions);
     if (!found.may_go_on()) return found;
   }
@@ -82,7 +86,7 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
   const solvers::SettledMotion settled = problem.settle(scene.forcing.frequency, options);
   if (settled.cancelled) found.status = "cancelled";
   if (settled.cancelled || !settled.integrated() || !settled.last.displacement.allFinite()) return;
-  auto motion = problem.phases(scene.forcing.frequency, settled, {.tolerance = scene.time.tolerance});
+  auto motion = problem.phases(scene.forcing.frequency, settled, {.tolerance = tolerance_of(scene)});
   if (motion) note(found, *std::move(motion), "from_settling", 0);
 }
 
@@ -104,7 +108,7 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
   if (options.structure_points > 0) {
     solvers::StructurePhases whole =
         problem.structure_motion(frequency, motion, options.structure_points,
-                                 {.tolerance = std::max(least_left_out, scene.time.tolerance)});
+                                 {.tolerance = std::max(least_left_out, tolerance_of(scene))});
     result.structure = std::move(whole.motion);
     result.structure_harmonics = whole.harmonics;
     result.structure_left_out = whole.left_out;

@@ -14,7 +14,6 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
@@ -76,51 +75,10 @@ bool wants_structure(const Scene& scene, const ResponseOptions& options) {
   const int points = options.structure_points;
   if (points != 0 && points != scene.analysis.output_points)
     throw std::invalid_argument(
-        fmt::format("ResponseOptions: structure_points is {}; of time stepping and shooting it must be 0 or "
+        fmt::format("ResponseOptions: structure_points is {}; of time stepping it must be 0 or "
                     "analysis.output_points, {}",
                     points, scene.analysis.output_points));
   return points > 0;
-}
-
-/// Starts shooting at the balance with Fourier functions, if there is one.
-bool start_at_balance(const Scene& scene, const StructureModel& model, const Observer& observer,
-                      solvers::ShootingOptions& shooting) {
-  constexpr int instants = 16;  // of which the first is taken
-  Scene balanced = scene;
-  balanced.analysis.type = AnalysisType::forced_response;
-  balanced.time = {};
-  balanced.time.trial = balanced.time.weight = "fourier";
-  balanced.time.tolerance = 1e-3;
-  const Response near =
-      weighted_residual_response(balanced, model, {.structure_points = instants, .observer = observer});
-  if (!near.converged) return false;
-  shooting.settling_periods = 0;
-  shooting.initial_displacement = near.structure.displacement.col(0);
-  shooting.initial_velocity = near.structure.velocity.col(0);
-  return true;
-}
-
-/// What shooting does not take is an error with what to take in its place. Where ten periods do not bring the
-/// state near to a periodic motion, as beside an unstable one, the balance does.
-solvers::ShootingResult shot(const Scene& scene, const StructureModel& model,
-                             const ResponseOptions& options) {
-  solvers::ShootingOptions shooting;
-  shooting.output_points = scene.analysis.output_points;
-  shooting.full_history = wants_structure(scene, options);
-  shooting.observer = options.observer;
-  try {
-    const solvers::AnyContactLaw law = make_laws(scene)[0];
-    auto found = solvers::shoot(model.structure, law, scene.forcing.frequency, shooting);
-    using solvers::ShootingStatus;
-    const bool far =
-        found.status == ShootingStatus::stalled || found.status == ShootingStatus::iteration_limit;
-    if (far && start_at_balance(scene, model, options.observer, shooting))
-      found = solvers::shoot(model.structure, law, scene.forcing.frequency, shooting);
-    return found;
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format(
-        "analysis.type = \"shooting\": {}; expected \"time_stepping\" or \"forced_response\"", error.what()));
-  }
 }
 
 }  // namespace
@@ -230,23 +188,7 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
 }
 
 Response shooting_response(const Scene& scene, const ResponseOptions& options) {
-  return shooting_response(scene, make_model(scene, options.observer), options);
-}
-
-Response shooting_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
-  const auto start = Clock::now();
-  const solvers::ShootingResult found = shot(scene, model, options);
-  Response result;
-  result.wall_seconds = seconds_since(start);
-  result.converged = result.moves = found.status == solvers::ShootingStatus::converged;
-  result.status = to_string(found.status);
-  result.residual = found.residual;
-  result.iterations = found.iterations;
-  result.unknowns = 2 * model.size();
-  result.contacts = found.contacts;
-  result.structure = found.structure;
-  if (result.converged) result.stability = solvers::stability_of_multipliers(found.floquet_multipliers);
-  return result;
+  return phases_response(scene, options);
 }
 
 }  // namespace wavebalance::app

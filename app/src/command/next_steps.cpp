@@ -65,9 +65,16 @@ const Remedies& of_time_stepping() {
 }
 
 const Remedies& of_shooting() {
-  static const std::string others = "analysis.type = \"forced_response\" or \"time_stepping\"";
-  static const Remedies all{
-      {"stalled", others}, {"iteration_limit", others}, {"step_failure", "a softer contact"}};
+  static const std::string others = "analysis.type = \"forced_response\" or \"time_stepping\"",
+                           balance = "analysis.type = \"forced_response\"";
+  static const Remedies all{{"no_start", others},
+                            {"no_motion_near", others},
+                            {"tolerance_missed", "a larger time.tolerance"},
+                            {"rigid_contact", balance},
+                            {"velocity_and_no_mass", balance},
+                            {"structural_damping", balance},
+                            {"no_modes", balance},
+                            {"resonant", of_responses().at("resonant")}};
   return all;
 }
 

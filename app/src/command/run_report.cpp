@@ -21,7 +21,7 @@ std::string heading_of(const Scene& scene) {
       {AnalysisType::amplitude_sweep, "Response over the amplitude of the load"},
       {AnalysisType::nonlinear_mode, "Nonlinear mode"},
       {AnalysisType::time_stepping, "Response by time stepping"},
-      {AnalysisType::shooting, "Response by shooting"}};
+      {AnalysisType::shooting, "Response by contact phases"}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& one) { return one.first == scene.analysis.type; });
   const std::string structure = scene.structure.type == StructureType::matrices

@@ -204,7 +204,7 @@ void check_dense_size(const Document& document, const Scene& scene) {
   if ((!stepping && !mode && !damped) || reduced_size(scene) <= most_dense_unknowns) return;
   const std::string most = "expected at most " + std::to_string(most_dense_unknowns) + " ";
   const std::string why = mode       ? "for a nonlinear mode, which takes all linear modes"
-                          : stepping ? "for time stepping and shooting, whose matrices are dense"
+                          : stepping ? "for time stepping, whose matrices are dense"
                                      : "for modal damping, which takes all linear modes";
   if (scene.structure.type == StructureType::bar) fail_rule(document, {"structure.elements"}, most + why);
   const std::string advice = "; structure.kept_modes reduces them";
@@ -273,21 +273,9 @@ void check_rigid(const Document& document, const Scene& scene) {
   if (integrates_in_time(scene.analysis.type))
     fail_rule(
         document, {"contact.law", "analysis.type"},
-        "not with time stepping and shooting: at a rigid obstacle the motion of a structure cut into elements goes "
+        "not with time stepping: at a rigid obstacle the motion of a structure cut into elements goes "
         "on only with a law of impact, which the scene does not have; expected a stiff \"linear\" law, or "
         "analysis.type = \"forced_response\"");
-}
-
-/// Shooting knows one contact, whose force depends on the displacement alone.
-void check_shooting(const Document& document, const Scene& scene) {
-  const std::string others = "; expected analysis.type = \"time_stepping\" or \"forced_response\"";
-  const int contacts = contact_count(scene);
-  if (contacts != 1)
-    fail_rule(document, {"structure.contact_dofs", "analysis.type"},
-              "there are " + std::to_string(contacts) + " contacts, and shooting knows one" + others);
-  if (make_laws(scene).depend_on_velocity())
-    fail_rule(document, {"contact.law", "analysis.type"},
-              "not with shooting, which knows no force of the velocity" + others);
 }
 
 /// Each number may be in range and their products not.
@@ -329,7 +317,6 @@ void check_scene_rules(const Document& document, Scene& scene) {
     check_motions(document, scene);
   if (!mode) check_series(document, scene);
   if (!stepping && !mode && !phases) check_subharmonic(document, scene);
-  if (type == AnalysisType::shooting) check_shooting(document, scene);
   check_branches(document, scene);
   check_dense_size(document, scene);
 }

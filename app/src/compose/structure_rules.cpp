@@ -62,8 +62,7 @@ void check_loss_factor(const Document& document, const Scene& scene) {
   if (integrates_in_time(scene.analysis.type))
     fail_rule(
         document, {"structure.loss_factor", "analysis.type"},
-        "not with time stepping and shooting: structural damping has no equation in time; expected 0, or " +
-            instead);
+        "not with time stepping: structural damping has no equation in time; expected 0, or " + instead);
   if (scene.analysis.branches)
     fail_rule(
         document, {"structure.loss_factor", "analysis.branches"},

@@ -44,7 +44,6 @@ std::string method_title(const Scene& scene) {
            ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   if (solves_by_phases(scene)) return "contact phases";
-  if (scene.analysis.type == AnalysisType::shooting) return "shooting";
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
 }

@@ -192,7 +192,6 @@ std::string phases_line(const Time& time) {
 }
 
 std::string time_lines(const Time& time) {
-  if (time.method == TimeMethod::phases) return phases_line(time);
   if (time.tolerance > 0.0) return chosen_text(time);
   const auto products = effective_inner_products(time);
   const auto pair = pair_admissibility(time);
@@ -205,6 +204,11 @@ std::string time_lines(const Time& time) {
       pair.admissible ? "admissible" : "NOT admissible: " + pair.reason);
 }
 
+std::string method_lines(const Scene& scene) {
+  if (integrates_in_time(scene.analysis.type)) return "";
+  return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
+}
+
 std::string advice_line(const std::string& advice) {
   return advice.empty() ? "" : "advice     " + advice + "\n";
 }
@@ -213,10 +217,7 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
                        number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
-  if (scene.analysis.type == AnalysisType::shooting)
-    return fmt::format("size       {} states, of which the map of one period is solved by Newton's method\n",
-                       2 * reduced_size(scene));
-  if (scene.time.tolerance > 0.0) return "";
+  if (solves_by_phases(scene) || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
                      contact_count(scene) * functions, reduced_size(scene) * functions);
@@ -311,13 +312,12 @@ std::string warning_lines(const Scene& scene) {
 }  // namespace
 
 std::string describe_scene(const Scene& scene) {
-  const bool stepping = integrates_in_time(scene.analysis.type);
   const std::string first_lines = "analysis   " + name_of(scene.analysis.type) + "\n" +
                                   structure_line(scene) + matrices_lines(scene) + contact_line(scene);
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return first_lines + mode_lines(scene) + cost_line(scene);
-  return first_lines + forcing_line(scene) + (stepping ? "" : time_lines(scene.time)) + size_line(scene) +
-         cost_line(scene) + warning_lines(scene);
+  return first_lines + forcing_line(scene) + method_lines(scene) + size_line(scene) + cost_line(scene) +
+         warning_lines(scene);
 }
 
 }  // namespace wavebalance::app

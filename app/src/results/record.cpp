@@ -106,7 +106,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_dissipation(record.summary, scene, response);
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
-  if (scene.analysis.type == AnalysisType::forced_response)
+  if (scene.analysis.type == AnalysisType::forced_response || is_by_phases(response))
     record.summary.emplace_back(quantities::strategy, response.strategy);
   if (!response.solved_by.empty()) record.summary.emplace_back(quantities::solved_by, response.solved_by);
   warn_of_scene(record, scene);
@@ -277,7 +277,8 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
     case AnalysisType::time_stepping:
       return response_record(scene, model, time_stepping_response(scene, model, options));
     case AnalysisType::shooting:
-      return response_record(scene, model, shooting_response(scene, model, options));
+      options.stability = true;
+      return response_record(scene, model, phases_response(scene, model, options));
     case AnalysisType::forced_response:
       break;
   }

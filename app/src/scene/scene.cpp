@@ -47,12 +47,12 @@ Scene with_longer_period(Scene scene, int times) {
   return scene;
 }
 
-bool integrates_in_time(AnalysisType type) {
-  return type == AnalysisType::time_stepping || type == AnalysisType::shooting;
-}
+bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_stepping; }
 
 bool solves_by_phases(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases;
+  const AnalysisType type = scene.analysis.type;
+  return type == AnalysisType::shooting ||
+         (type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases);
 }
 
 namespace {

@@ -25,7 +25,7 @@ class CaseOfJonesLegrand : public testing::TestWithParam<Reference> {};
 TEST_P(CaseOfJonesLegrand, ShootingMeetsTheReference) {
   const Reference& expected = GetParam();
   const Scene scene = jones_legrand(expected.scene, {"analysis.output_points=65536"});
-  const Response response = shooting_response(scene);
+  const Response response = phases_response(scene);
   ASSERT_TRUE(response.converged) << response.status;
   const Eigen::VectorXd u = response.displacement();
   // The listed values have seven digits.

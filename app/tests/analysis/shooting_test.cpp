@@ -1,9 +1,8 @@
-// analysis.type = "shooting" beside time stepping and the balance.
+// analysis.type = "shooting", another name for the method of phases, beside time stepping and the balance.
 #include <gtest/gtest.h>
 
 #include "support/bar_scene.hpp"
 #include "support/chain_files.hpp"
-#include "support/scene_error.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
@@ -11,7 +10,6 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/results/record.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace {
 
@@ -51,7 +49,7 @@ Scene strip(std::vector<std::string> more) {
 
 // Time stepping would follow the fastest of the modes through its transient.
 TEST(ShootingAnalysis, TakesMatricesWithoutReduction) {
-  const Response shot = shooting_response(strip({by_shooting}));
+  const Response shot = phases_response(strip({by_shooting}));
   const Response balance =
       weighted_residual_response(strip({"time.functions=255", "time.quadrature_points=1024"}));
   ASSERT_TRUE(shot.converged) << shot.status;
@@ -60,62 +58,48 @@ TEST(ShootingAnalysis, TakesMatricesWithoutReduction) {
   EXPECT_LT(relative_rms_error(balance.displacement(), shot.displacement()), 1e-3);
 }
 
-TEST(ShootingAnalysis, FindsAnUnstableMotionToWhichTenPeriodsDoNotLead) {
-  const Scene scene = strip({by_shooting, "forcing.frequency=80", "forcing.amplitude=20"});
-  const StructureModel model = make_model(scene);
-  const auto from_rest =
-      wavebalance::solvers::shoot(model.structure, make_laws(scene)[0], scene.forcing.frequency);
-  ASSERT_NE(from_rest.status, wavebalance::solvers::ShootingStatus::converged);
-  const Response response = shooting_response(scene, model);
-  ASSERT_TRUE(response.converged) << response.status;
-  EXPECT_LT(response.residual, 1e-10);
-  EXPECT_EQ(response.stability->status, "unstable");
+TEST(ShootingAnalysis, FindsAnUnstableMotion) {
+  const Record record = analyse(strip({by_shooting, "forcing.frequency=80", "forcing.amplitude=20"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_LT(value_of<double>(record.summary, "residual"), 1e-8);
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "unstable");
+}
+
+TEST(ShootingAnalysis, IsWhatTheMethodOfPhasesFinds) {
+  const Record shot = analyse(scene_of({by_shooting}));
+  const Record phases = analyse(parse_scene(
+      bar_scene, "case.toml", std::vector<std::string>{"time.method=phases"},
+      std::vector<std::string>{"time.trial", "time.weight", "time.functions", "time.quadrature_points"}));
+  ASSERT_TRUE(shot.converged && phases.converged);
+  EXPECT_EQ(shot.response.numbers("displacement_m"), phases.response.numbers("displacement_m"));
+  EXPECT_EQ(value_of<std::string>(shot.summary, "solved_by"), "phases");
 }
 
 TEST(ShootingAnalysis, IsDescribedBeforeItRuns) {
   const std::string text = describe_scene(scene_of({by_shooting}));
-  EXPECT_NE(text.find("size       50 states"), std::string::npos) << text;
+  EXPECT_NE(text.find("phases of contact to a relative error of 1e-9"), std::string::npos) << text;
   EXPECT_EQ(text.find("functions"), std::string::npos) << text;
 }
 
 class ShootingScene : public testing::Test {
  protected:
   ShootingScene() { write_chain(folder_); }
-  Scene load(const std::string& text) const {
-    return load_scene(folder_.write("case.toml", text), std::vector<std::string>{by_shooting});
+  Record solve(const std::string& text) const {
+    return analyse(load_scene(folder_.write("case.toml", text), std::vector<std::string>{by_shooting}));
   }
-  SceneError::Details error_of(const std::string& text) const {
-    return details_of_error([&](const std::string& one) { load(one); }, text);
-  }
-  std::string one_contact() const { return with(chain_scene, "[2, 3]", "[3]"); }
 
   TemporaryFolder folder_;
 };
 
-TEST_F(ShootingScene, RefusesWhatShootingDoesNotKnowAtItsKey) {
-  const auto several = error_of(chain_scene);
-  EXPECT_EQ(several.key, "structure.contact_dofs");
-  EXPECT_NE(several.allowed.find("there are 2 contacts, and shooting knows one"), std::string::npos);
-  EXPECT_NE(several.allowed.find("expected analysis.type = \"time_stepping\""), std::string::npos);
-  EXPECT_EQ(error_of(with(with(one_contact(), "\"linear\" ", "\"kelvin_voigt\" "),
-                          "gap =", "damping = 10.0\ngap ="))
-                .key,
-            "contact.law");
-  EXPECT_EQ(error_of(with(with(one_contact(), "\"linear\" ", "\"rigid\" "), "stiffness = 1e7", "")).key,
-            "contact.law");
-}
-
-TEST_F(ShootingScene, RefusesDampingThatCouplesTheModesAndWritesNoRecord) {
-  folder_.write("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 1\n1 1 50\n");
-  const std::string damped = with(one_contact(), "modal_damping = 0.01 ", "damping = \"c.mtx\"");
-  const Scene scene = load_scene(folder_.write("case.toml", damped), std::vector<std::string>{by_shooting});
-  try {
-    analyse(scene);
-    FAIL() << "no error";
-  } catch (const std::invalid_argument& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("analysis.type = \"shooting\": shoot: damping couples"), std::string::npos) << text;
-    EXPECT_NE(text.find("expected \"time_stepping\""), std::string::npos) << text;
+TEST_F(ShootingScene, TakesSeveralContactsDampingThatCouplesTheModesAndForcesOfTheVelocity) {
+  folder_.write("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 50\n2 2 20\n3 3 5\n");
+  const std::string coupled = with(chain_scene, "modal_damping = 0.01 ", "damping = \"c.mtx\"");
+  for (const std::string& text :
+       {chain_scene, coupled,
+        with(with(chain_scene, "\"linear\" ", "\"kelvin_voigt\" "), "gap =", "damping = 10.0\ngap =")}) {
+    const Record record = solve(text);
+    EXPECT_TRUE(record.converged) << record.status;
+    EXPECT_EQ(record.contacts.empty(), false);
   }
 }
 

@@ -185,13 +185,6 @@ SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& op
   return solvers::settle(condensed_, laws_, options);
 }
 
-ShootingResult ContactProblem::shoot(double frequency, const ShootingOptions& options) const {
-  if (contacts() != 1)
-    throw std::invalid_argument("ContactProblem::shoot: the structure has " + std::to_string(contacts()) +
-                                " contacts; shooting takes one");
-  return solvers::shoot(structure(), laws_[0], frequency, options);
-}
-
 TimeSteppingResult ContactProblem::integrate(double frequency, const TimeSteppingOptions& options) const {
   return integrate_to_periodic(structure(), laws_, frequency, options);
 }

@@ -11,8 +11,7 @@ std::vector<std::string_view> basis_names() {
 }
 
 SceneValue default_tolerance(const Scene& scene) {
-  constexpr double of_phases = 1e-9;
-  return scene.time.method == TimeMethod::phases ? of_phases : 0.0;
+  return solves_by_phases(scene) ? default_phases_tolerance : 0.0;
 }
 
 }  // namespace
@@ -30,7 +29,7 @@ void add_time_keys(std::vector<SceneKey>& keys) {
        "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
        "these too; with method = \"phases\" that of the phases",
        within(0, 1), derived("none; 1e-9 with method = \"phases\"", default_tolerance),
-       only_with(analysis_is({"forced_response"})));
+       only_with(analysis_is({"forced_response", "shooting"})));
   time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
        required_with(balance), only_with(by_balance()));
   time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),

@@ -46,13 +46,14 @@ struct Response {
   double residual =
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
-  int unknowns = 0;    ///< contact displacements in time; states of the integrator (time stepping, shooting)
+  int unknowns = 0;    ///< contact displacements in time; of phases the forces at nodes and the instants;
+                     ///< states of the integrator (time stepping)
   int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
   int periods = 1;             ///< of the load, over which the motion is written: analysis.subharmonic
   int motion_periods = 1;      ///< of the load, after which it repeats: solvers::motion_periods()
   double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
-  std::string
-      strategy;  ///< solvers::Strategy that found it, or PhasesStart; empty for time stepping and shooting
+  std::string strategy;  ///< solvers::Strategy that found it, or from where phases were found; empty for time
+                         ///< stepping
   /// rms of the displacements at the quadrature points less those of ResponseOptions::guess, over the rms of
   /// the guess; NaN without one.
   double start_distance = std::numeric_limits<double>::quiet_NaN();
@@ -62,7 +63,7 @@ struct Response {
   Eigen::MatrixXcd unknown_coefficients;
   Eigen::VectorXd series_flexibility;
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
-  /// one is singular to working precision, NaN where no such system was solved (time stepping, shooting).
+  /// one is singular to working precision, NaN where no such system was solved (time stepping, phases).
   double condition = std::numeric_limits<double>::quiet_NaN();
   /// solvers::PeriodicResponse::rounding_error; NaN as above. Above largest_rounding_error the response has
   /// not converged, and the status says `inaccurate`.
@@ -70,7 +71,7 @@ struct Response {
   double wall_seconds = 0.0;             ///< composition, solution and samples
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
-  /// Set if converged, with ResponseOptions::stability or by shooting.
+  /// Set if converged, with ResponseOptions::stability.
   std::optional<ResponseStability> stability;
   /// Set if converged, in scenes with analysis.phases of a structure whose modes are known, and in scenes by
   /// phases where a motion was found, then without errors of a response.
@@ -97,13 +98,13 @@ struct Response {
 
 /// What a response holds besides the motion of its contacts, and where its solution starts.
 struct ResponseOptions {
-  int structure_points = 0;  ///< uniform instants of Response::structure; 0: none. Of time stepping and
-                             ///< shooting 0 or analysis.output_points
+  int structure_points = 0;  ///< uniform instants of Response::structure; 0: none. Of time stepping
+                             ///< 0 or analysis.output_points
   Eigen::VectorXd guess{};   ///< displacement at the quadrature points, m; empty: the contact-free response.
                              ///< Not used with time.tolerance
   Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
-  bool stability = false;         ///< of weighted_residual_response() alone
+  bool stability = false;         ///< of weighted_residual_response() and phases_response()
   Observer observer{};
 };
 
@@ -142,11 +143,7 @@ Response time_stepping_response(const Scene& scene, const ResponseOptions& optio
 Response time_stepping_response(const Scene& scene, const StructureModel& model,
                                 const ResponseOptions& options = {});
 
-/// The scene's response by shooting, with its stability: Newton's method on the map of one period, which
-/// takes unstable motions as well as stable ones. Throws std::invalid_argument for what solvers::shoot() does
-/// not take: several contacts, forces of the velocity, damping that couples the modes, rows without mass.
+/// phases_response(), under the name by which comparisons of pairs call it.
 Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
-Response shooting_response(const Scene& scene, const StructureModel& model,
-                           const ResponseOptions& options = {});
 
 }  // namespace wavebalance::app

@@ -45,8 +45,9 @@ enum class TimeMethod { balance, phases };
 /// Fourier functions of the balances from which phases are sought, one after the other until there is a
 /// motion.
 inline constexpr std::array phases_starts{63, 127, 255, 511};
-/// Whether the equation of motion is integrated in time, so that there are no functions: time stepping,
-/// shooting.
+/// time.tolerance of phases unless it is said.
+inline constexpr double default_phases_tolerance = 1e-9;
+/// Whether the equation of motion is integrated in time, so that there are no functions: time stepping.
 bool integrates_in_time(AnalysisType type);
 /// What a further load is, forcing.terms.kind: a force, or the motion of supports.
 enum class LoadKind { force, base_displacement, base_acceleration };
@@ -289,7 +290,8 @@ std::string name_of(LoadKind value);
 /// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
 std::vector<std::string> input_files(const Scene& scene);
 
-/// Whether its motion is solved for by phases of contact, without functions and points of its own.
+/// Whether its motion is solved for by phases of contact, without functions and points of its own:
+/// time.method, and analysis.type = "shooting", which is another name for the same.
 bool solves_by_phases(const Scene& scene);
 
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/phases/structure_phases.hpp"
@@ -98,9 +97,8 @@ class ContactProblem {
   /// All responses of a curve at a value of its parameter, responses_at().
   std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
 
-  /// Motions in time, from rest: settle(), shoot() of one contact, integrate_to_periodic().
+  /// Motions in time, from rest: settle(), integrate_to_periodic().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
-  ShootingResult shoot(double frequency, const ShootingOptions& options = {}) const;
   TimeSteppingResult integrate(double frequency, const TimeSteppingOptions& options = {}) const;
 
  private:
