@@ -71,7 +71,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
       return found;
     }
     if (!balance.converged()) continue;
-    auto phases = problem.phases(balance, {.tolerance = tolerance_of(scene)});
+    auto phases = problem.phases(balance, {.tolerance = tolerance_of(scene), .observer = observer});
     note(found, std::move(phases->motion), "from_balance", functions);
     if (!found.may_go_on()) return found;
   }
@@ -86,7 +86,8 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
   const solvers::SettledMotion settled = problem.settle(scene.forcing.frequency, options);
   if (settled.cancelled) found.status = "cancelled";
   if (settled.cancelled || !settled.integrated() || !settled.last.displacement.allFinite()) return;
-  auto motion = problem.phases(scene.forcing.frequency, settled, {.tolerance = tolerance_of(scene)});
+  auto motion = problem.phases(scene.forcing.frequency, settled,
+                               {.tolerance = tolerance_of(scene), .observer = observer});
   if (motion) note(found, *std::move(motion), "from_settling", 0);
 }
 

@@ -187,8 +187,4 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   return result;
 }
 
-Response shooting_response(const Scene& scene, const ResponseOptions& options) {
-  return phases_response(scene, options);
-}
-
 }  // namespace wavebalance::app

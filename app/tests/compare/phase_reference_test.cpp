@@ -13,6 +13,7 @@
 #include "wavebalance/app/compare/comparison_figure.hpp"
 #include "wavebalance/app/compare/phase_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -47,10 +48,11 @@ TEST_P(PhaseReferenceOfJonesLegrand, IsTheMotionThatShootingFinds) {
   EXPECT_LT(reference.force_error, 1e-7);
   EXPECT_EQ(reference.stability.status, "stable");
   EXPECT_TRUE(reference.stability.by_phases);
-  Scene shot = scene;
-  shot.analysis.output_points = error_points;
-  const Response independent = shooting_response(shot);
-  ASSERT_TRUE(independent.converged);
+  solvers::ShootingOptions options;
+  options.output_points = error_points;
+  const auto independent =
+      solvers::shoot(make_model(scene).structure, make_law(scene.contact), scene.forcing.frequency, options);
+  ASSERT_EQ(independent.status, solvers::ShootingStatus::converged);
   // The steps of shooting end on 1e-11.
   EXPECT_LT(displacement_error(independent.contacts, reference.motion), 1e-9);
   EXPECT_LT(force_error(independent.contacts, reference.motion), 1e-6);

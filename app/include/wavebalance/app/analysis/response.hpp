@@ -47,7 +47,7 @@ struct Response {
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; of phases the forces at nodes and the instants;
-                     ///< states of the integrator (time stepping)
+                       ///< states of the integrator (time stepping)
   int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
   int periods = 1;             ///< of the load, over which the motion is written: analysis.subharmonic
   int motion_periods = 1;      ///< of the load, after which it repeats: solvers::motion_periods()
@@ -142,8 +142,5 @@ Response phases_response(const Scene& scene, const StructureModel& model,
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});
 Response time_stepping_response(const Scene& scene, const StructureModel& model,
                                 const ResponseOptions& options = {});
-
-/// phases_response(), under the name by which comparisons of pairs call it.
-Response shooting_response(const Scene& scene, const ResponseOptions& options = {});
 
 }  // namespace wavebalance::app
