@@ -205,16 +205,31 @@ TEST(PhasesOfASweep, AreThoseOfItsBranchesToo) {
 
 TEST(PhasesOfASweep, NameWhyTheyAreNotKnown) {
   const Scene scene = load_scene(
-      WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep_rigid.toml",
-      Overrides{"analysis.phases=true", "analysis.frequency_from=1225", "analysis.frequency_to=1235"});
+      WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep.toml",
+      Overrides{"analysis.phases=true", "analysis.frequency_from=1225", "analysis.frequency_to=1235",
+                "structure.loss_factor=0.02", "structure.stiffness_damping=0"});
   const Record record = analyse(scene, Observer());
-  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "rigid_contact");
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "structural_damping");
   EXPECT_TRUE(std::isnan(value_of<double>(record.summary, "error_of_displacement")));
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "points_phases_not_known"),
             static_cast<std::int64_t>(record.sweep.rows()));
   for (std::size_t i = 0; i < record.sweep.rows(); ++i) {
-    EXPECT_EQ(record.sweep.texts("phases_status")[i], "rigid_contact");
+    EXPECT_EQ(record.sweep.texts("phases_status")[i], "structural_damping");
     EXPECT_EQ(record.sweep.texts("stability_by")[i], "balance");
+  }
+}
+
+TEST(PhasesOfASweep, AreKnownAgainstARigidObstacleAtATipWithoutMass) {
+  const Scene scene = load_scene(
+      WAVEBALANCE_SCENES "/jones_legrand_2014/case2_sweep_rigid.toml",
+      Overrides{"analysis.phases=true", "analysis.frequency_from=1225", "analysis.frequency_to=1235"});
+  const Record record = analyse(scene, Observer());
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "converged");
+  EXPECT_LT(value_of<double>(record.summary, "error_of_displacement"), 1e-2);
+  for (std::size_t i = 0; i < record.sweep.rows(); ++i) {
+    if (record.sweep.texts("phases_status")[i] != "converged") continue;
+    EXPECT_EQ(record.sweep.texts("stability_by")[i], "phases");
+    EXPECT_GE(record.sweep.numbers("unstable")[i], 0.0);
   }
 }
 

@@ -274,7 +274,8 @@ class Search {
       error.resolution *= factor;
       result.estimated_error = error.all();
       PhaseIterate finer = found.newton.iterate;
-      const bool resolved = compared && error.resolution <= options_.tolerance;
+      const bool free = finer.forces.panels().empty();
+      const bool resolved = free || (compared && error.resolution <= options_.tolerance);
       const bool finest = resolved || !make_finer(finer, error.resolution);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
