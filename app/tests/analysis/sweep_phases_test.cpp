@@ -17,7 +17,8 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-const std::set<std::string> with_errors{"converged", "converged_beside"};
+// At a fold a motion at its frequency is as uncertain as the root of its equations' error.
+const std::set<std::string> with_errors{"converged", "converged_beside", "tolerance_missed"};
 
 /// The oscillator with a stop up to a frequency below its folds, at which the curve is highest.
 Record low_sweep(Overrides more) {

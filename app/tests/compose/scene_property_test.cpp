@@ -124,6 +124,13 @@ Scene any_scene() {
   Scene scene{any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
   scene.forcing.terms = any_terms((scene.time.functions - 1) / 2);
   if (integrates_in_time(scene.analysis.type)) return scene;
+  const bool by_phases = scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0;
+  if (by_phases || scene.analysis.type == AnalysisType::shooting) {
+    scene.time = {};
+    if (by_phases) scene.time.method = TimeMethod::phases;
+    scene.time.tolerance = *rc::gen::inRange(1, 1000) / 1e6;
+    return scene;
+  }
   if (scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0) {
     scene.time.functions = scene.time.quadrature_points = 0;
     scene.time.tolerance = *rc::gen::inRange(1, 1000) / 1e6;

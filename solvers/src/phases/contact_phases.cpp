@@ -263,10 +263,10 @@ class Search {
   }
 
   // Layers of fast modes and laws that are not analytic where contact begins have errors that their
-  // coefficients do not show. What the estimate before was too small by, measured by the motion after it,
-  // multiplies it.
+  // coefficients do not show; beside a fold estimates are too large. What the estimate before was wrong by,
+  // measured by the motion after it, multiplies it.
   void refine(Found& found, PhaseMotion& result) {
-    constexpr double part = 0.05, rounding = 1e-14, safety = 3.0;
+    constexpr double part = 0.05, rounding = 1e-14, safety = 3.0, least = 0.1;
     bool tight = false, compared = false;
     for (double factor = 1.0;; tight = true) {
       EstimatedError error = error_of(found.newton, rms_of(found.motion.displacement));
@@ -283,8 +283,7 @@ class Search {
       if (!finest) {
         const double distance = rms_of(better.motion.displacement - found.motion.displacement) /
                                 rms_of(better.motion.displacement);
-        const double ratio = distance / std::max(estimate, rounding);
-        factor = ratio > 1.0 ? safety * ratio : 1.0;
+        factor = std::max(least, safety * distance / std::max(estimate, rounding));
         compared = true;
       }
       found = std::move(better);
