@@ -13,7 +13,7 @@ foreach(file bin/wavebalance share/man/man1/wavebalance.1 share/bash-completion/
   endif()
 endforeach()
 file(READ ${stage}/share/man/man1/wavebalance.1 page)
-expect("${page}" ".TH WAVEBALANCE 1" ".SS wavebalance run" ".SS wavebalance init" "contact" "130 interrupted")
+expect("${page}" ".TH WAVEBALANCE 1" ".SS wavebalance run" ".SS wavebalance init" "contact" "The command was interrupted")
 
 find_program(pkg_config pkg-config)
 if(pkg_config)

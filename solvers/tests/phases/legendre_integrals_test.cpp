@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "constants.hpp"
 #include "linalg/gauss_rule.hpp"
 
 namespace wavebalance::solvers::detail {
