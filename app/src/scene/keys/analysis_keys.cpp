@@ -134,7 +134,8 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       "true solves for the motion of the structure itself near the response, by phases of contact: its "
       "instants of contact, the errors of the response, and the stability of the structure; of a sweep "
       "errors and stability at every point of its curves, in place of the peak and the special points alone",
-      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"}) && by_balance()));
+      optional,
+      only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"}) && by_balance()));
   analysis(&Analysis::subharmonic, "subharmonic", "",
            "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
            "output_points are then those of n periods",

@@ -34,8 +34,9 @@ StabilityOptions stability_options(const CondensedProblem& problem);
 MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers);
 
 /// The stability of a response, at whose frequency and load the problem is. By the phases of contact of
-/// `motion` where these are known: all multipliers at once, PhaseMotion::multipliers(), which have no harmonics to
-/// truncate. Where the structure has no motion near the response there is no verdict. `motion` may be null.
+/// `motion` where these are known: all multipliers at once, PhaseMotion::multipliers(), which have no
+/// harmonics to truncate. Where the structure has no motion near the response there is no verdict. `motion`
+/// may be null.
 MotionStability motion_stability(const CondensedProblem& problem, const ContactLaws& laws,
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
                                  const PhaseMotion* motion = nullptr);
