@@ -274,12 +274,16 @@ class Search {
       error.resolution *= factor;
       result.estimated_error = error.all();
       PhaseIterate finer = found.newton.iterate;
+      const LegendreNodes nodes = nodes_;
       const bool free = finer.forces.panels().empty();
       const bool resolved = free || (compared && error.resolution <= options_.tolerance);
       const bool finest = resolved || !make_finer(finer, error.resolution);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
-      if (!better.agrees()) return;
+      if (!better.agrees()) {
+        nodes_ = nodes;  // those of the motion that stays
+        return;
+      }
       if (!finest) {
         const double distance = rms_of(better.motion.displacement - found.motion.displacement) /
                                 rms_of(better.motion.displacement);
