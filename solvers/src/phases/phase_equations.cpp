@@ -348,12 +348,14 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     const bool stands = result.residual < enough && result.residual > 0.5 * before;
     if (result.residual < limits.tolerance || stands) {
       result.converged = true;
-      if (!factor || factor->size() != now.residual.size())
-        factor = factor_of(result.iterate, now, nodes, now.residual.size());
-      result.residual_error =
-          rms_at_nodes(displacements_of(result.iterate, now, nodes, *factor, now.residual), now.force.size());
-      result.resolution_error =
-          rms_at_nodes(displacement_error(result.iterate, now, nodes, *factor), now.force.size());
+      if (now.residual.size() > 0) {
+        if (!factor || factor->size() != now.residual.size())
+          factor = factor_of(result.iterate, now, nodes, now.residual.size());
+        result.residual_error = rms_at_nodes(
+            displacements_of(result.iterate, now, nodes, *factor, now.residual), now.force.size());
+        result.resolution_error =
+            rms_at_nodes(displacement_error(result.iterate, now, nodes, *factor), now.force.size());
+      }
       result.tangent = std::move(now.tangent);
       result.damping = now.damping / model.frequency;
       return result;
