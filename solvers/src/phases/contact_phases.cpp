@@ -257,7 +257,9 @@ class Search {
       return static_cast<int>(iterate.forces.panels().size()) < options_.max_panels &&
              divide(iterate, 0.1 * options_.tolerance);
     const double digits = std::log(error / (margin * options_.tolerance)), decay = decay_of(iterate.forces);
-    const double more = decay < 1.0 ? std::ceil(digits / -std::log(decay)) : options_.max_nodes;
+    const double most = options_.max_nodes;  // where they do not decay, or the error is no number
+    const double more =
+        decay < 1.0 ? std::fmax(0.0, std::fmin(most, std::ceil(digits / -std::log(decay)))) : most;
     nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, q + std::max<Index>(q / 3, Index(more))));
     return true;
   }
