@@ -6,12 +6,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "linalg/dense.hpp"
 #include "linalg/enum_table.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
-#include "phases/phase_equations.hpp"
 #include "phases/phase_motion_parts.hpp"
+#include "phases/phase_newton.hpp"
 
 namespace wavebalance::solvers {
 
@@ -146,6 +145,17 @@ struct Found {
   }
 };
 
+bool is_among(const std::vector<Layout>& layouts, const Layout& layout) {
+  return std::any_of(layouts.begin(), layouts.end(), [&](const Layout& other) {
+    int contacts = 0;
+    for (const auto* one : {&layout, &other})
+      for (const detail::Passage& passage : one->passages) contacts = std::max(contacts, passage.contact + 1);
+    for (int c = 0; c < contacts; ++c)
+      if (!detail::same_phases(layout, other, c)) return false;
+    return true;
+  });
+}
+
 class Search {
  public:
   Search(const PhaseModel& model, const ContactPhasesOptions& options, Index samples)
@@ -161,8 +171,16 @@ class Search {
   PhaseMotion run(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_force) {
     PhaseMotion result;
     Found found = at(reach({start, slopes_of(start)}, start_force), result);
-    for (; !found.agrees() && !cancelled_ && result.changes < options_.max_changes; ++result.changes)
+    for (std::vector<Layout> tried; !found.agrees() && !cancelled_ && result.changes < options_.max_changes;
+         ++result.changes) {
+      if (is_among(tried, found.phases_of_motion)) {
+        if (nodes_.count() == options_.max_nodes) break;
+        nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, 2 * nodes_.count()));
+        tried.clear();
+      }
+      tried.push_back(found.phases_of_motion);
       found = at(found.reach, result);
+    }
     if (found.agrees()) refine(found, result);
     if (found.agrees()) {
       const Eigen::MatrixXd own =
@@ -187,7 +205,8 @@ class Search {
     const Eigen::MatrixXd force =
         rigid ? detail::force_at(found.newton.iterate.forces, model_, times_) : Eigen::MatrixXd();
     found.reach = reach(found.motion, force);
-    found.phases_of_motion = detail::layout_of(model_.laws, found.reach.displacement, found.reach.velocity);
+    found.phases_of_motion =
+        detail::layout_of(model_.laws, model_.frequency, found.reach.displacement, found.reach.velocity);
     for (const detail::LawPieces& law : model_.laws) {
       const auto c = Index(found.complementary.size());
       found.complementary.push_back(
@@ -227,7 +246,7 @@ class Search {
   Found at(const ContactMotion& motion, PhaseMotion& result) {
     constexpr double rough = 0.03, start_of_newton = 1e-4;
     constexpr Index many_nodes = 12;
-    Layout layout = detail::layout_of(model_.laws, motion.displacement, motion.velocity);
+    Layout layout = detail::layout_of(model_.laws, model_.frequency, motion.displacement, motion.velocity);
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
     for (int level = 0; level < 6; ++level) {
@@ -354,46 +373,6 @@ std::string_view to_string(PhasesStatus status) {
                                         {cancelled, "cancelled"}},
                                        status);
 }
-
-Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {
-  return parts->model.motion(parts->iterate.forces, parts->nodes, times).displacement;
-}
-
-Eigen::MatrixXd PhaseMotion::velocity(const Eigen::VectorXd& times) const {
-  return parts->model.frequency * parts->model.motion(parts->iterate.forces, parts->nodes, times).velocity;
-}
-
-Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd forces = detail::force_at(parts->iterate.forces, parts->model, times);
-  if (parts->model.holding() > 0.0) forces += parts->model.holding() * displacement(times);
-  return forces;
-}
-
-bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
-
-Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
-  Eigen::VectorXcd values = parts->model.response.free_multipliers();
-  if (!parts->iterate.forces.panels().empty()) {
-    const Eigen::MatrixXd map = detail::monodromy_of(parts->model, parts->iterate, parts->nodes);
-    const bool computed = map.rows() <= max_states && map.allFinite();
-    values = computed ? detail::eigenvalues(map) : Eigen::VectorXcd();
-  }
-  if (!values.allFinite()) return {};
-  std::sort(values.begin(), values.end(),
-            [](std::complex<double> a, std::complex<double> b) { return std::abs(a) > std::abs(b); });
-  return values;
-}
-
-bool PhaseMotion::is_rigid() const {
-  return parts != nullptr && std::any_of(parts->model.laws.begin(), parts->model.laws.end(),
-                                         [](const detail::LawPieces& law) { return law.rigid(); });
-}
-
-double PhaseMotion::tangent(int contact, double time) const {
-  return parts->tangent.at(contact, time) + parts->model.holding();
-}
-
-double PhaseMotion::damping(int contact, double time) const { return parts->damping.at(contact, time); }
 
 PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                            const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {

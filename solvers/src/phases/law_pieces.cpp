@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace wavebalance::solvers::detail {
+namespace {
+
+bool is_none(const ForceSlopes& at) { return at.force == 0.0 && at.tangent == 0.0 && at.damping == 0.0; }
+
+}  // namespace
 
 LawPieces::LawPieces(AnyContactLaw law, double length, double holding, const Yielding& yielding)
     : law_(std::move(law)),
@@ -19,10 +24,8 @@ LawPieces::LawPieces(AnyContactLaw law, double length, double holding, const Yie
   }
   std::erase_if(breakpoints_, [](double at) { return !std::isfinite(at); });
   const auto force_at = [&](double displacement) {
-    for (const double velocity : {0.0, -length, length}) {
-      const ForceSlopes at = law_.at(displacement, velocity);
-      if (at.force != 0.0 || at.tangent != 0.0 || at.damping != 0.0) return true;
-    }
+    for (const double velocity : {0.0, -length, length})
+      if (!is_none(law_.at(displacement, velocity))) return true;
     return false;
   };
   for (int piece = 0; piece < count(); ++piece) {
@@ -50,6 +53,17 @@ double LawPieces::inside(int piece, double displacement) const {
   return displacement;
 }
 
+bool LawPieces::vanishes(int piece, double displacement, double velocity) const {
+  return may_vanish() && exerts(piece) && is_none(law_.at(inside(piece, displacement), velocity));
+}
+
+// By a force that is linear in the velocity, as those of the catalogue are.
+ForceSlopes LawPieces::continued(double displacement, double velocity) const {
+  const ForceSlopes rest = law_.at(displacement, 0.0), back = law_.at(displacement, -velocity);
+  return {2.0 * rest.force - back.force, 2.0 * rest.tangent - back.tangent,
+          2.0 * rest.damping - back.damping};
+}
+
 ForceSlopes LawPieces::at(int piece, double displacement, double velocity) const {
   if (rigid_) {
     if (!exerts(piece)) return {};
@@ -57,8 +71,10 @@ ForceSlopes LawPieces::at(int piece, double displacement, double velocity) const
     return {.force = (displacement - law_.gap()) / yielding_.displacement,
             .tangent = 1.0 / yielding_.displacement};
   }
+  if (piece >= count()) return {-holding_ * displacement, -holding_, 0.0};
   const double within = inside(piece, displacement);
-  ForceSlopes value = law_.at(within, velocity);
+  ForceSlopes value =
+      vanishes(piece, displacement, velocity) ? continued(within, velocity) : law_.at(within, velocity);
   value.force += value.tangent * (displacement - within) - holding_ * displacement;
   value.tangent -= holding_;
   return value;

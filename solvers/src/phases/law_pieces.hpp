@@ -12,7 +12,8 @@ struct Yielding {
 };
 
 /// A contact law by its analytic pieces, which meet at its breakpoints. Each is continued smoothly beyond its
-/// ends, by a line, so that Newton's method may leave it.
+/// ends, by a line, so that Newton's method may leave it; and beyond the velocity at which its force
+/// vanishes, where the law does not pull.
 class LawPieces {
  public:
   /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that
@@ -26,7 +27,14 @@ class LawPieces {
   /// The breakpoint above piece `piece` < count() - 1.
   double breakpoint(int piece) const { return breakpoints_[static_cast<std::size_t>(piece)]; }
   /// Whether the law has a force there.
-  bool exerts(int piece) const { return exerts_[static_cast<std::size_t>(piece)]; }
+  bool exerts(int piece) const { return piece < count() && exerts_[static_cast<std::size_t>(piece)]; }
+  /// The number of a piece where its force vanishes, since the law does not pull, and the number without it.
+  int released(int piece) const { return piece + count(); }
+  int without_release(int piece) const { return piece % count(); }
+  /// Whether a force may vanish on a piece that exerts one.
+  bool may_vanish() const { return !rigid_ && law_.depends_on_velocity(); }
+  /// Whether it does, m and m/s.
+  bool vanishes(int piece, double displacement, double velocity) const;
   /// Whether there is one in the equations: that, or the one which takes the spring back.
   bool acts(int piece) const { return holding_ > 0.0 || exerts(piece); }
   bool rigid() const { return rigid_; }
@@ -40,6 +48,7 @@ class LawPieces {
 
  private:
   double inside(int piece, double displacement) const;
+  ForceSlopes continued(double displacement, double velocity) const;
 
   AnyContactLaw law_;
   bool rigid_;

@@ -16,6 +16,7 @@ struct Cubic {
     return {u0, v0, 3.0 * (u1 - u0) - 2.0 * v0 - v1, 2.0 * (u0 - u1) + v0 + v1};
   }
   double at(double t) const { return a + t * (b + t * (c + t * d)); }
+  double slope(double t) const { return b + t * (2.0 * c + t * 3.0 * d); }
   // Where its slope vanishes in (0, 1), ascending.
   std::vector<double> extremes() const {
     std::vector<double> places;
@@ -39,6 +40,18 @@ struct Cubic {
   }
 };
 
+// A motion that is a cubic between samples at times l / N of displacements, m, and velocities, m per period.
+struct SampledMotion {
+  Eigen::RowVectorXd displacement, velocity;
+
+  Index samples() const { return displacement.size(); }
+  Cubic after(Index l) const {
+    const double length = 1.0 / double(samples());
+    const Index next = (l + 1) % samples();
+    return Cubic::between(displacement[l], length * velocity[l], displacement[next], length * velocity[next]);
+  }
+};
+
 // A passage with the pieces before and after it.
 struct Step {
   double time;
@@ -58,38 +71,99 @@ void append_steps(std::vector<Step>& steps, const LawPieces& law, const Cubic& m
   }
 }
 
-std::vector<Step> steps_of(const LawPieces& law, const Eigen::RowVectorXd& displacement,
-                           const Eigen::RowVectorXd& velocity) {
-  const int first = law.piece_at(displacement[0]);
+// From the piece at the beginning to itself, then by breakpoints.
+std::vector<Step> steps_of(const LawPieces& law, const SampledMotion& motion) {
+  const int first = law.piece_at(motion.displacement[0]);
   std::vector<Step> steps{{0.0, first, first}};
-  const Index samples = displacement.size();
+  const Index samples = motion.samples();
   const double length = 1.0 / double(samples);
   for (Index l = 0; l < samples; ++l) {
-    const Index next = (l + 1) % samples;
     const double start = length * double(l);
-    const Cubic motion =
-        Cubic::between(displacement[l], length * velocity[l], displacement[next], length * velocity[next]);
+    const Cubic own = motion.after(l);
     double from = 0.0;
-    for (const double extreme : motion.extremes()) {
-      append_steps(steps, law, motion, from, extreme, motion.at(extreme), start, length);
+    for (const double extreme : own.extremes()) {
+      append_steps(steps, law, own, from, extreme, own.at(extreme), start, length);
       from = extreme;
     }
-    append_steps(steps, law, motion, from, 1.0, displacement[next], start, length);
+    append_steps(steps, law, own, from, 1.0, motion.displacement[(l + 1) % samples], start, length);
   }
-  steps.erase(steps.begin());
   return steps;
 }
 
-void append_phases(Layout& layout, int contact, const LawPieces& law, const std::vector<Step>& steps,
-                   int piece_at_start) {
+// At times from one passage to the next: whether the force vanishes though the contact is on a piece that
+// exerts one. Its changes between samples are found by bisection.
+class ForceAlong {
+ public:
+  ForceAlong(const LawPieces& law, double frequency, const SampledMotion& motion)
+      : law_(law), frequency_(frequency), motion_(motion) {}
+
+  int state(int piece, double time) const {
+    const double samples = double(motion_.samples()), place = (time - std::floor(time)) * samples;
+    const Index l = std::min(Index(place), motion_.samples() - 1);
+    const Cubic own = motion_.after(l);
+    const double t = place - double(l), velocity = frequency_ * samples * own.slope(t);
+    return law_.vanishes(piece, own.at(t), velocity) ? law_.released(piece) : piece;
+  }
+
+  void append_changes(std::vector<Step>& steps, int piece, double begin, double end) const {
+    const double samples = double(motion_.samples());
+    for (double from = begin; from < end;) {
+      const double to = std::min(end, (std::floor(from * samples + 1e-9) + 1.0) / samples);
+      const int next = state(piece, to), now = steps.back().to;
+      if (next != now) steps.push_back({change(piece, now, from, to), now, next});
+      from = to;
+    }
+  }
+
+ private:
+  double change(int piece, int state_before, double before, double after) const {
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (before + after);
+      (state(piece, middle) == state_before ? before : after) = middle;
+    }
+    return 0.5 * (before + after);
+  }
+
+  const LawPieces& law_;
+  double frequency_;
+  const SampledMotion& motion_;
+};
+
+// All passages of a contact, by time, with those at which its force vanishes; before them the state at the
+// beginning.
+std::vector<Step> all_steps_of(const LawPieces& law, double frequency, const SampledMotion& motion) {
+  const std::vector<Step> by_piece = steps_of(law, motion);
+  if (!law.may_vanish()) return by_piece;
+  const ForceAlong force(law, frequency, motion);
+  const int first = force.state(by_piece.front().to, 0.0);
+  std::vector<Step> steps{{0.0, first, first}};
+  for (std::size_t i = 0; i < by_piece.size(); ++i) {
+    const int piece = by_piece[i].to;
+    if (i > 0) steps.push_back({by_piece[i].time, steps.back().to, force.state(piece, by_piece[i].time)});
+    force.append_changes(steps, piece, by_piece[i].time,
+                         i + 1 < by_piece.size() ? by_piece[i + 1].time : 1.0);
+  }
+  return steps;
+}
+
+Passage passage_of(int contact, const LawPieces& law, const Step& step) {
+  const int from = law.without_release(step.from), to = law.without_release(step.to);
+  const bool leaves = law.jumps() && law.exerts(from) && !law.exerts(to);
+  if (from == to) return {contact, step.time, 0.0, true};
+  return {contact, step.time, law.breakpoint(std::min(from, to)), leaves};
+}
+
+void append_phases(Layout& layout, int contact, const LawPieces& law, std::vector<Step> steps) {
+  const int piece_at_start = steps.front().to;
+  steps.erase(steps.begin());
+  std::erase_if(steps, [&](const Step& step) { return !law.acts(step.from) && !law.acts(step.to); });
   if (steps.empty()) {
     if (law.acts(piece_at_start))
       layout.phases.push_back({contact, piece_at_start, -1, -1, 1.0, {0.25, 0.5, 0.75}});
     return;
   }
   const int first = static_cast<int>(layout.passages.size());
-  for (const Step& step : steps)
-    layout.passages.push_back({contact, step.time, law.breakpoint(std::min(step.from, step.to))});
+  for (const Step& step : steps) layout.passages.push_back(passage_of(contact, law, step));
   const int count = static_cast<int>(steps.size());
   for (int i = 0; i < count; ++i) {
     const int piece = steps[static_cast<std::size_t>(i)].to;
@@ -170,26 +244,33 @@ CellGrid Layout::grid() const {
   return grid;
 }
 
-Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
+Layout layout_of(const std::vector<LawPieces>& laws, double frequency, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity) {
   Layout layout;
   for (Index c = 0; c < displacement.rows(); ++c) {
     const LawPieces& law = laws[static_cast<std::size_t>(c)];
-    append_phases(layout, static_cast<int>(c), law, steps_of(law, displacement.row(c), velocity.row(c)),
-                  law.piece_at(displacement(c, 0)));
+    append_phases(layout, static_cast<int>(c), law,
+                  all_steps_of(law, frequency, {displacement.row(c), velocity.row(c)}));
   }
   return layout;
 }
 
 bool same_phases(const Layout& a, const Layout& b, int contact) {
-  constexpr double near = 1e-3;  // periods: far more than the error of a cubic between samples
-  const auto close = [](double s, double t) { return std::abs(s - t - std::round(s - t)) < near; };
+  // Periods: far more than the error of a cubic between samples. A force may vanish slowly.
+  constexpr double near = 1e-3, near_release = 1e-2;
+  const auto close = [](double s, double t, bool released) {
+    return std::abs(s - t - std::round(s - t)) < (released ? near_release : near);
+  };
+  const auto released = [&](int passage) {
+    return passage >= 0 && a.passages[static_cast<std::size_t>(passage)].released;
+  };
   const auto same_passage = [&](const Passage& p, const Passage& q) {
-    return q.contact == p.contact && q.breakpoint == p.breakpoint && close(q.time, p.time);
+    return q.contact == p.contact && q.breakpoint == p.breakpoint && q.released == p.released &&
+           close(q.time, p.time, p.released);
   };
   const auto same_phase = [&](const Phase& p, const Phase& q) {
     return q.contact == p.contact && q.piece == p.piece && (q.begin < 0) == (p.begin < 0) &&
-           close(b.begin(q), a.begin(p)) && close(b.end(q), a.end(p));
+           close(b.begin(q), a.begin(p), released(p.begin)) && close(b.end(q), a.end(p), released(p.end));
   };
   const auto all_have = [contact](const auto& from, const auto& among, const auto& same) {
     const auto of_contact = [contact](const auto& one) { return one.contact == contact; };

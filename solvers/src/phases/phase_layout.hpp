@@ -7,11 +7,12 @@
 
 namespace wavebalance::solvers::detail {
 
-/// An instant at which a contact passes a breakpoint of its law.
+/// An instant at which a contact passes a breakpoint of its law, or at which its force vanishes.
 struct Passage {
   int contact = 0;
   double time = 0.0;        ///< periods
   double breakpoint = 0.0;  ///< m
+  bool released = false;    ///< the force vanishes instead
 };
 
 /// A phase between two passages, or one that lasts the whole period, with passages -1.
@@ -36,7 +37,8 @@ struct Layout {
 
 /// The phases of a motion that is sampled at times l / N: displacements, m, and velocities, m per period, C x
 /// N each. Between two samples it is the cubic that has both. Whether contacts graze between them is noticed.
-Layout layout_of(const std::vector<LawPieces>& laws, const Eigen::MatrixXd& displacement,
+/// The frequency in Hz.
+Layout layout_of(const std::vector<LawPieces>& laws, double frequency, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity);
 
 /// Whether a contact has the same phases at about the same instants in both, in any order.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "phases/phase_loads.hpp"
+#include "phases/phase_motion_parts.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
@@ -28,6 +29,20 @@ Eigen::MatrixXcd contact_free_amplitudes(const CondensedProblem& problem, double
     amplitudes.col(repeats * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
   }
   return amplitudes;
+}
+
+// By what the force of a contact grows where phases end and begin, N.
+double force_jump(const detail::PhaseIterate& iterate, int contact, double time) {
+  const auto is_now = [time](double at) { return std::abs(at - time - std::round(at - time)) < 1e-12; };
+  double jump = 0.0;
+  for (std::size_t p = 0; p < iterate.layout.phases.size(); ++p) {
+    const detail::Phase& phase = iterate.layout.phases[p];
+    if (phase.contact != contact || phase.begin < 0) continue;
+    const double begin = iterate.layout.begin(phase), end = iterate.layout.end(phase);
+    if (is_now(begin)) jump += iterate.forces.in_phase(static_cast<int>(p), begin);
+    if (is_now(end)) jump -= iterate.forces.in_phase(static_cast<int>(p), end);
+  }
+  return jump;
 }
 
 double relative_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exact) {
@@ -74,13 +89,8 @@ PeriodicStiffness contact_stiffness(const PhaseMotion& motion) {
   if (!motion.depends_on_velocity()) return result;
   result.damping = [motion](int contact, double time) { return motion.damping(contact, time); };
   result.impulse = [motion](int contact, double time) {
-    const auto at = [time](double end) { return std::abs(end - time - std::round(end - time)) < 1e-12; };
-    const Eigen::VectorXd instant = Eigen::VectorXd::Constant(1, time);
-    const double speed = motion.velocity(instant)(contact, 0), force = motion.force(instant)(contact, 0);
-    const bool ends = std::any_of(motion.phases.begin(), motion.phases.end(), [&](const ContactPhase& phase) {
-      return phase.contact == contact && at(phase.end);
-    });
-    return speed != 0.0 ? (ends ? -force : force) / speed : 0.0;
+    const double speed = motion.velocity(Eigen::VectorXd::Constant(1, time))(contact, 0);
+    return speed != 0.0 ? force_jump(motion.parts->iterate, contact, time) / speed : 0.0;
   };
   return result;
 }

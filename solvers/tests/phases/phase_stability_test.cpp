@@ -11,8 +11,8 @@
 namespace wavebalance::solvers {
 namespace {
 
-using testing::DampedStop, testing::cosine_load, testing::LinearStop, testing::RandomCase,
-    testing::with_massless_contacts;
+using testing::expect_same, testing::DampedStop, testing::cosine_load, testing::LinearStop,
+    testing::RandomCase, testing::with_massless_contacts;
 
 TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
   std::mt19937 generator(7);
@@ -33,15 +33,6 @@ TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
       EXPECT_EQ(counts.back(), counts.front());
     }
     EXPECT_GE(counts.size(), 2u) << trial;
-  }
-}
-
-/// The multipliers of both lists, by falling modulus, where they are above 1e-6.
-void expect_same(const Eigen::VectorXcd& found, const Eigen::VectorXcd& expected, double tolerance) {
-  for (const std::complex<double> multiplier : expected) {
-    if (std::abs(multiplier) < 1e-6) continue;
-    const double nearest = (found.array() - multiplier).abs().minCoeff();
-    EXPECT_LT(nearest, tolerance) << multiplier;
   }
 }
 

@@ -34,6 +34,15 @@ inline void expect_motion(const PhaseMotion& motion, const ContactLaws& laws, do
           << "contact " << c << " at " << times[k];
 }
 
+//// The multipliers of both lists, by falling modulus, where they are above 1e-6.
+inline void expect_same(const Eigen::VectorXcd& found, const Eigen::VectorXcd& expected, double tolerance) {
+  for (const std::complex<double> multiplier : expected) {
+    if (std::abs(multiplier) < 1e-6) continue;
+    const double nearest = (found.array() - multiplier).abs().minCoeff();
+    EXPECT_LT(nearest, tolerance) << multiplier;
+  }
+}
+
 struct LinearStop {
   double stiffness, start;
   double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
@@ -49,6 +58,52 @@ struct DampedStop {
   double tangent(double u, double) const { return u >= start ? stiffness : 0.0; }
   double damping(double u, double) const { return u >= start ? dashpot : 0.0; }
   double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+};
+
+/// That stop where it does not pull. The dashpot may rise over a depth, as in the catalogue's law.
+struct PushingStop {
+  double stiffness, dashpot, start, depth = 0.0;
+
+  double share(double u) const {
+    const double x = depth > 0.0 ? std::min((u - start) / depth, 1.0) : 1.0;
+    return x * x * (3.0 - 2.0 * x);
+  }
+  double rise(double u) const {
+    const double x = depth > 0.0 ? (u - start) / depth : 1.0;
+    return x < 1.0 ? 6.0 * x * (1.0 - x) / depth : 0.0;
+  }
+  double force(double u, double v) const {
+    return u > start ? std::max(stiffness * (u - start) + dashpot * share(u) * v, 0.0) : 0.0;
+  }
+  bool pushes(double u, double v) const { return force(u, v) > 0.0; }
+  double tangent(double u, double v) const { return pushes(u, v) ? stiffness + dashpot * rise(u) * v : 0.0; }
+  double damping(double u, double v) const { return pushes(u, v) ? dashpot * share(u) : 0.0; }
+  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
+  double gap() const { return start; }
+  std::vector<double> breakpoints() const {
+    return depth > 0.0 ? std::vector{start, start + depth} : std::vector{start};
+  }
+};
+
+/// Hunt and Crossley's law, which does not pull.
+struct HuntCrossley {
+  double stiffness, power, dissipation, start;
+
+  bool pushes(double u, double v) const { return u > start && 1.0 + dissipation * v > 0.0; }
+  double force(double u, double v) const {
+    return pushes(u, v) ? stiffness * std::pow(u - start, power) * (1.0 + dissipation * v) : 0.0;
+  }
+  double tangent(double u, double v) const {
+    return pushes(u, v) ? power * stiffness * std::pow(u - start, power - 1.0) * (1.0 + dissipation * v)
+                        : 0.0;
+  }
+  double damping(double u, double v) const {
+    return pushes(u, v) ? dissipation * stiffness * std::pow(u - start, power) : 0.0;
+  }
+  double potential(double u) const {
+    return u > start ? stiffness / (power + 1.0) * std::pow(u - start, power + 1.0) : 0.0;
+  }
   double gap() const { return start; }
 };
 

@@ -24,6 +24,10 @@ class KelvinVoigtLaw {
 
   double gap() const { return gap_; }
   std::vector<double> kinks() const { return {gap_}; }
+  /// The gap, and the end of the depth, beyond which the damper is constant.
+  std::vector<double> breakpoints() const {
+    return depth_ > 0.0 ? std::vector{gap_, gap_ + depth_} : std::vector{gap_};
+  }
   static constexpr bool unilateral() { return true; }
 
   double force(double displacement, double velocity) const { return evaluate(displacement, velocity).force; }

@@ -1,0 +1,57 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "phases/phase_equations.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// The end of a panel at which the law's force is to vanish; panel -1 where a passage has no such condition.
+struct Release {
+  int panel = -1;
+  bool at_end = true;
+
+  bool exists() const { return panel >= 0; }
+};
+
+/// One evaluation of the equations: n forces, then m passages.
+struct Evaluation {
+  CellGrid grid;
+  Eigen::VectorXd force;  ///< n, N
+  Influence influence;
+  Eigen::VectorXd residual;          ///< n + m
+  Eigen::VectorXd tangent, damping;  ///< n: by displacement and by velocity per period
+  Eigen::VectorXd own;               ///< n: of the residual by its force; 0 for a rigid law
+  Eigen::VectorXd passing;           ///< m, m per period
+  std::vector<Release> released;     ///< m
+  double holding = 0.0;              ///< N/m
+  double force_size = 0.0, displacement_size = 0.0;
+
+  double softness() const { return displacement_size / force_size; }
+  double force_error() const {
+    return force.size() > 0 ? residual.head(force.size()).cwiseAbs().maxCoeff() / force_size : 0.0;
+  }
+  double error() const {
+    const Eigen::Index m = residual.size() - force.size();
+    const double places = m > 0 ? residual.tail(m).cwiseAbs().maxCoeff() / displacement_size : 0.0;
+    return std::max(force_error(), places);
+  }
+};
+
+Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes);
+
+/// 1 for each force, and for each passage the impulse, N, that it adds if it comes later.
+Eigen::VectorXd impulses_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes);
+
+/// The derivative of the residual by a motion that forces move towards them: displacements at nodes and
+/// passages, velocities at nodes, by any unknowns.
+Eigen::MatrixXd residual_by_motion(const Evaluation& now, const Eigen::MatrixXd& displacement,
+                                   const Eigen::MatrixXd& node_velocity);
+
+/// The derivative of the residual by forces and passages, (n + m) x (n + m), for their influence on the
+/// motion.
+Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                         const Influence& influence);
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,41 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "phases/phase_layout.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Where and when a displacement or a velocity is wanted.
+struct Instant {
+  int contact = 0;
+  double time = 0.0;  ///< periods
+};
+
+/// What does not change while a motion is sought.
+struct PhaseModel {
+  PhaseModel(const PhasesProblem& problem, double length);
+
+  PoleResponse response;
+  std::vector<LawPieces> laws;    // one per contact
+  Eigen::MatrixXcd contact_free;  // C x (H + 1), m
+  double frequency;               // Hz
+  bool velocity = false;          // whether a force depends on it
+
+  /// N/m, of the springs that hold a structure which is free to move.
+  double holding() const { return laws.empty() ? 0.0 : laws.front().holding(); }
+
+  /// Displacement (m) and velocity (m per period) without contact at instants.
+  Eigen::VectorXd free_displacement(const std::vector<Instant>& instants) const;
+  Eigen::VectorXd free_velocity(const std::vector<Instant>& instants) const;
+  /// Displacement (m) and velocity (m per period) of all contacts at K times, C x K.
+  ContactMotion free_motion(const Eigen::VectorXd& times) const;
+  ContactMotion motion(const PanelForces& forces, const LegendreNodes& nodes,
+                       const Eigen::VectorXd& times) const;
+};
+
+/// The instants of q nodes of each panel, by panel.
+std::vector<Instant> instants_of(const std::vector<Panel>& panels, const LegendreNodes& nodes);
+
+}  // namespace wavebalance::solvers::detail

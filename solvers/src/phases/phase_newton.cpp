@@ -1,0 +1,132 @@
+#include "phases/phase_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "linalg/dense.hpp"
+#include "linalg/index.hpp"
+#include "phases/phase_evaluation.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// Newton's matrix of the first `count` unknowns.
+Lu<double> factor_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes, Index count) {
+  return Lu<double>(jacobian(at, now, nodes, now.influence).topLeftCorner(count, count));
+}
+
+// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
+// more than a fiftieth of the period behind.
+double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts) {
+  constexpr double longest = 0.02;
+  double part = 1.0;
+  if (shifts.size() > 0) part = std::min(part, longest / std::max(longest, shifts.cwiseAbs().maxCoeff()));
+  for (const Phase& phase : layout.phases) {
+    if (phase.begin < 0) continue;
+    const double length = layout.end(phase) - layout.begin(phase);
+    const double lost =
+        shifts[phase.begin] - (phase.begin == phase.end ? shifts[phase.begin] : shifts[phase.end]);
+    if (lost > 0.0) part = std::min(part, 0.5 * length / lost);
+  }
+  return part;
+}
+
+bool has_collapsed(const Layout& layout) {
+  constexpr double shortest = 1e-11;
+  return std::any_of(layout.phases.begin(), layout.phases.end(), [&](const Phase& phase) {
+    const double length = layout.end(phase) - layout.begin(phase);
+    return !(length > shortest && length < 1.0 + shortest);
+  });
+}
+
+double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
+  return nodes > 0 ? displacements.head(nodes).norm() / std::sqrt(double(nodes)) : 0.0;
+}
+
+// What the unknowns that a change of the residual asks for do to displacements at nodes and passages, towards
+// their obstacles' other side.
+Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                                 const Lu<double>& factor, const Eigen::VectorXd& residual) {
+  const Eigen::VectorXd unknowns = factor.solve(Eigen::VectorXd(-residual));
+  return now.influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
+}
+
+// The displacements that the last two Legendre coefficients of each panel make, and what answers them.
+Eigen::VectorXd displacement_error(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                                   const Lu<double>& factor) {
+  const Index n = now.force.size();
+  const Eigen::MatrixXd& coefficients = at.forces.coefficients();
+  const Eigen::VectorXd parts =
+      (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
+  const Eigen::VectorXd made = now.influence.displacement.leftCols(n) * parts;
+  const Eigen::MatrixXd none;
+  const Eigen::VectorXd residual = residual_by_motion(now, made, none);
+  return made + displacements_of(at, now, nodes, factor, residual);
+}
+
+}  // namespace
+
+PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
+                               const NewtonLimits& limits) {
+  constexpr double enough = 1e-9;
+  PhaseNewtonResult result;
+  result.iterate = std::move(start);
+  double before = std::numeric_limits<double>::infinity();
+  std::optional<Lu<double>> factor;
+  for (;; ++result.iterations) {
+    Evaluation now = evaluate(model, result.iterate, nodes);
+    result.residual = now.error();
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force);
+    const bool stands = result.residual < enough && result.residual > 0.5 * before;
+    if (result.residual < limits.tolerance || stands) {
+      result.converged = true;
+      if (now.residual.size() > 0) {
+        if (!factor || factor->size() != now.residual.size())
+          factor = factor_of(result.iterate, now, nodes, now.residual.size());
+        result.residual_error = rms_at_nodes(
+            displacements_of(result.iterate, now, nodes, *factor, now.residual), now.force.size());
+        result.resolution_error =
+            rms_at_nodes(displacement_error(result.iterate, now, nodes, *factor), now.force.size());
+      }
+      result.tangent = std::move(now.tangent);
+      result.damping = now.damping / model.frequency;
+      return result;
+    }
+    before = result.residual;
+    if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
+    if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
+    factor = factor_of(result.iterate, now, nodes, now.residual.size());
+    const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
+    if (!step.allFinite()) return result;
+    const Index n = now.force.size(), m = step.size() - n;
+    const double part = admissible_part(result.iterate.layout, step.tail(m));
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force + part * step.head(n));
+    for (Index i = 0; i < m; ++i)
+      result.iterate.layout.passages[static_cast<std::size_t>(i)].time += part * step[n + i];
+    result.collapsed = has_collapsed(result.iterate.layout);
+    if (result.collapsed) return result;
+  }
+}
+
+PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
+                               const NewtonLimits& limits) {
+  PhaseNewtonResult result;
+  result.iterate = std::move(start);
+  for (;; ++result.iterations) {
+    const Evaluation now = evaluate(model, result.iterate, nodes);
+    result.residual = now.force_error();
+    result.converged = result.residual < limits.tolerance;
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force);
+    if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual))
+      return result;
+    if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
+    const Lu<double> factor = factor_of(result.iterate, now, nodes, now.force.size());
+    const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
+    if (!step.allFinite()) return result;
+    result.iterate.forces = PanelForces(now.grid, nodes, now.force + step);
+  }
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "phases/phase_equations.hpp"
+
+namespace wavebalance::solvers::detail {
+
+struct PhaseNewtonResult {
+  bool converged = false;
+  bool collapsed = false;  ///< a phase has no length any more
+  int iterations = 0;
+  double residual = 0.0;
+  PhaseIterate iterate;
+  /// rms at the nodes, m: displacements by the last two Legendre coefficients of each panel as if they were
+  /// missing, and by the residual, with what forces and passages do in answer.
+  double resolution_error = 0.0, residual_error = 0.0;
+  Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)
+};
+
+struct NewtonLimits {
+  int max_iterations;
+  double tolerance;  ///< of the residual, relative to the largest force and displacement
+  const Observer& observer;
+};
+
+/// Newton's method on the forces at q nodes of each panel and the instants of all passages. A residual below
+/// 1e-9 that falls no more is converged, too.
+PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
+                               const NewtonLimits& limits);
+/// The same on the forces alone.
+PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
+                               const NewtonLimits& limits);
+
+}  // namespace wavebalance::solvers::detail
