@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "linalg/dense.hpp"
+#include "phases/pole_response_parts.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -30,88 +30,12 @@ void decay(Complex rate, const Eigen::Ref<const Eigen::VectorXd>& times, Complex
   }
 }
 
-// The real states of poles: one of each real pole, the real and imaginary part of each pair.
-class StatesOfPoles {
- public:
-  explicit StatesOfPoles(const Eigen::VectorXcd& exponents) {
-    for (const Complex exponent : exponents) {
-      begins_.push_back(size_);
-      pairs_.push_back(exponent.imag() > 0.0);
-      size_ += pairs_.back() ? 2 : 1;
-    }
-  }
-
-  Index size() const { return size_; }
-
-  // Re(row factor state) of equations by complex states, for the real ones: equations x size().
-  Eigen::MatrixXd columns(const Eigen::MatrixXd& real, const Eigen::MatrixXd& imag,
-                          const Eigen::VectorXcd& factors) const {
-    Eigen::MatrixXd result(real.rows(), size_);
-    for (std::size_t r = 0; r < begins_.size(); ++r) {
-      const Complex factor = factors[Index(r)];
-      result.col(begins_[r]) = factor.real() * real.col(Index(r)) - factor.imag() * imag.col(Index(r));
-      if (pairs_[r])
-        result.col(begins_[r] + 1) = -factor.imag() * real.col(Index(r)) - factor.real() * imag.col(Index(r));
-    }
-    return result;
-  }
-
-  Eigen::MatrixXd rows(const Eigen::MatrixXcd& states) const {
-    Eigen::MatrixXd result(size_, states.cols());
-    for (std::size_t r = 0; r < begins_.size(); ++r) {
-      result.row(begins_[r]) = states.row(Index(r)).real();
-      if (pairs_[r]) result.row(begins_[r] + 1) = states.row(Index(r)).imag();
-    }
-    return result;
-  }
-
-  // What multiplies each complex state by its factor.
-  Eigen::MatrixXd diagonal(const Eigen::VectorXcd& factors) const {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size_, size_);
-    for (std::size_t r = 0; r < begins_.size(); ++r) {
-      const Index i = begins_[r];
-      const Complex factor = factors[Index(r)];
-      result(i, i) = factor.real();
-      if (!pairs_[r]) continue;
-      result(i + 1, i + 1) = factor.real();
-      result(i + 1, i) = factor.imag();
-      result(i, i + 1) = -factor.imag();
-    }
-    return result;
-  }
-
- private:
-  std::vector<Index> begins_;
-  std::vector<bool> pairs_;
-  Index size_ = 0;
-};
-
 }  // namespace
 
 double CellGrid::length(int cell) const {
   const auto j = static_cast<std::size_t>(cell);
   return cell + 1 == cells() ? boundaries[0] + 1.0 - boundaries[j] : boundaries[j + 1] - boundaries[j];
 }
-
-// A cell with the panels in it; without any there are no integrals.
-struct PoleResponse::Cell {
-  double length;
-  std::vector<std::size_t> panels;
-  std::optional<CellWaves> waves;
-  Eigen::VectorXcd decay;  // poles
-};
-
-// The equations that begin at a boundary, by the states there: rows x poles, and their numbers.
-struct PoleResponse::Rows {
-  Eigen::MatrixXd real, imag;
-  std::vector<Index> numbers;
-};
-
-// The unknowns that end at a boundary, by the states that they leave there: poles x columns.
-struct PoleResponse::Sources {
-  Eigen::MatrixXcd states;
-  std::vector<Index> numbers;
-};
 
 PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : constant_(dynamics.constant()) {
   const Index contacts = constant_.rows();
@@ -283,73 +207,6 @@ Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nod
 Influence PoleResponse::split(const Eigen::MatrixXd& all, Index n, Index m, bool velocity) {
   Influence result{all.topRows(n + m), {}, all.block(n + m, 0, m, n)};
   if (velocity) result.node_velocity = all.bottomRows(n);
-  return result;
-}
-
-Eigen::VectorXcd PoleResponse::free_multipliers() const {
-  std::vector<Complex> multipliers;
-  for (const Complex exponent : exponents_) {
-    multipliers.push_back(std::exp(exponent));
-    if (exponent.imag() > 0.0) multipliers.push_back(std::conj(multipliers.back()));
-  }
-  return Eigen::VectorXcd::Map(multipliers.data(), Index(multipliers.size()));
-}
-
-FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
-  constexpr double negligible = 1e-18;
-  const auto n = nodes.count() * Index(grid.panels.size()), m = Index(grid.marks.size());
-  const std::vector<Cell> cells = cells_of(grid, nodes);
-  const std::vector<Rows> rows = rows_of(grid, cells, nodes.count(), velocity);
-  const std::vector<Sources> sources = sources_of(grid, cells, nodes);
-  const std::size_t count = cells.size();
-  std::size_t first = 0;
-  double longest = 0.0;
-  for (std::size_t j = 0; j < count; ++j)
-    if (cells[j].panels.empty() && cells[j].length > longest) {
-      longest = cells[j].length;
-      first = (j + 1) % count;
-    }
-  const auto at = [&](std::size_t step) { return (first + step) % count; };
-  Index left = 0;
-  while (left < exponents_.size() && std::exp(longest * exponents_[left].real()) > negligible) ++left;
-  const StatesOfPoles states(exponents_.head(left));
-
-  const Index equations = n + 2 * m + (velocity ? n : 0);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(equations, n + m), by_states(equations, states.size());
-  FreePeriod result;
-  result.states_by.resize(states.size(), n + m);
-  // From the beginning of the period, of the states, and from each boundary on, of what has left it.
-  Eigen::VectorXcd gone = Eigen::VectorXcd::Ones(exponents_.size());
-  for (std::size_t t = 0; t < count; ++t) {
-    by_states(rows[at(t)].numbers, Eigen::all) =
-        states.columns(rows[at(t)].real.leftCols(left), rows[at(t)].imag.leftCols(left), gone.head(left));
-    gone.array() *= cells[at(t)].decay.array();
-  }
-  result.states_by_states = states.diagonal(gone.head(left));
-  for (std::size_t s = 0; s <= count; ++s) {
-    const Sources& source = sources[at(s)];
-    // At its beginning the period has impulses, and at its end what the last cell leaves.
-    std::vector<Index> chosen;
-    for (Index k = 0; k < Index(source.numbers.size()); ++k) {
-      const bool impulse = source.numbers[static_cast<std::size_t>(k)] >= n;
-      if (s == 0 ? impulse : s < count || !impulse) chosen.push_back(k);
-    }
-    if (chosen.empty()) continue;
-    std::vector<Index> numbers;
-    for (const Index k : chosen) numbers.push_back(source.numbers[static_cast<std::size_t>(k)]);
-    Eigen::MatrixXcd moving = source.states(Eigen::all, chosen);
-    for (std::size_t t = s; t < count; ++t) {
-      if (!rows[at(t)].numbers.empty())
-        all(rows[at(t)].numbers, numbers) =
-            product(rows[at(t)].real, moving.real()) - product(rows[at(t)].imag, moving.imag());
-      moving = cells[at(t)].decay.asDiagonal() * moving;
-    }
-    result.states_by(Eigen::all, numbers) = states.rows(moving.topRows(left));
-  }
-  add_within_cells(grid, cells, nodes, velocity, all);
-  result.influence = split(all, n, m, velocity);
-  result.displacement_by = by_states.topRows(n + m);
-  if (velocity) result.velocity_by = by_states.bottomRows(n);
   return result;
 }
 
