@@ -11,6 +11,7 @@
 #include "linalg/option_checks.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "phases/phase_newton.hpp"
+#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers {
 
@@ -72,63 +73,6 @@ void require_start_force(const ContactLaws& laws, const Eigen::MatrixXd& start,
                               (rigid ? ", since a law is rigid" : ", or empty"));
 }
 
-// The factor from one Legendre coefficient to the next, of the panel where they decay slowest among those
-// with last ones above a ten-thousandth of the largest of these.
-double decay_of(const PanelForces& forces) {
-  const Eigen::MatrixXd& coefficients = forces.coefficients();
-  const Index q = coefficients.rows(), middle = q / 2 - 1;
-  const double limit = 1e-4 * coefficients.bottomRows(2).cwiseAbs().maxCoeff();
-  double slowest = 0.1;
-  for (Index p = 0; p < coefficients.cols(); ++p) {
-    const auto own = coefficients.col(p).cwiseAbs();
-    const double last = own.tail(2).maxCoeff(), before = own.segment(middle, 2).maxCoeff();
-    if (last > limit) slowest = std::max(slowest, std::pow(last / before, 1.0 / double(q - 2 - middle)));
-  }
-  return slowest;
-}
-
-// Relative rms errors of the displacements: by the coefficients that are left out, if they go on to decay as
-// the last ones do, and by the residual.
-struct EstimatedError {
-  double resolution = 0.0, residual = 0.0;
-
-  double all() const { return resolution + residual; }
-};
-
-EstimatedError error_of(const PhaseNewtonResult& solved, double motion_rms) {
-  if (solved.iterate.forces.coefficients().size() == 0) return {};
-  constexpr double slowest = 0.9;
-  const double decay = std::min(slowest, decay_of(solved.iterate.forces));
-  return {decay * decay / (1.0 - decay) * solved.resolution_error / motion_rms,
-          solved.residual_error / motion_rms};
-}
-
-double rms_of(const Eigen::MatrixXd& values) { return values.norm() / std::sqrt(double(values.size())); }
-
-// Cuts the phases where the last coefficients of a panel are above `share` of the largest force: near an end
-// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
-bool divide(PhaseIterate& iterate, double share) {
-  constexpr double layer = 0.15;
-  const Eigen::MatrixXd& coefficients = iterate.forces.coefficients();
-  const double limit = share * coefficients.cwiseAbs().maxCoeff();
-  bool cut = false;
-  for (std::size_t p = 0; p < iterate.forces.panels().size(); ++p) {
-    const detail::Panel& panel = iterate.forces.panels()[p];
-    if (coefficients.col(Index(p)).tail(2).cwiseAbs().maxCoeff() <= limit) continue;
-    detail::Phase& phase = iterate.layout.phases[static_cast<std::size_t>(panel.phase)];
-    const double begin = iterate.layout.begin(phase), length = iterate.layout.end(phase) - begin;
-    const double from = (panel.begin - begin) / length, to = (panel.end - begin) / length, size = to - from;
-    constexpr double edge = 1e-6;
-    const bool first = phase.begin >= 0 && from < edge, last = phase.begin >= 0 && to > 1.0 - edge;
-    if (first) phase.cuts.push_back(from + layer * size);
-    if (last) phase.cuts.push_back(to - layer * size);
-    if (!first && !last) phase.cuts.push_back(from + 0.5 * size);
-    std::sort(phase.cuts.begin(), phase.cuts.end());
-    cut = true;
-  }
-  return cut;
-}
-
 // One solution of the equations for a list of phases, and the motion that belongs to it.
 struct Found {
   PhaseNewtonResult newton;
@@ -142,6 +86,11 @@ struct Found {
       same = complementary[c] ||
              detail::same_phases(newton.iterate.layout, phases_of_motion, static_cast<int>(c));
     return same;
+  }
+  // Whether the residual is about as large as the forces, so that the motion says nothing about its phases.
+  bool is_lost() const {
+    constexpr double large = 0.5;
+    return !(newton.residual < large);
   }
 };
 
@@ -169,17 +118,20 @@ class Search {
         }) {}
 
   PhaseMotion run(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_force) {
+    const Index more_nodes = std::min(options_.max_nodes, 2 * options_.nodes);
     PhaseMotion result;
-    Found found = at(reach({start, slopes_of(start)}, start_force), result);
+    const ContactMotion first = reach({start, slopes_of(start)}, start_force);
+    Found found = at(first, result);
     for (std::vector<Layout> tried; !found.agrees() && !cancelled_ && result.changes < options_.max_changes;
          ++result.changes) {
-      if (is_among(tried, found.phases_of_motion)) {
-        if (nodes_.count() == options_.max_nodes) break;
-        nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, 2 * nodes_.count()));
+      const bool lost = found.is_lost();
+      if (lost || is_among(tried, found.phases_of_motion)) {
+        if (nodes_.count() >= more_nodes) break;
+        nodes_ = LegendreNodes(more_nodes);
         tried.clear();
       }
-      tried.push_back(found.phases_of_motion);
-      found = at(found.reach, result);
+      if (!lost) tried.push_back(found.phases_of_motion);
+      found = at(lost ? first : found.reach, result);
     }
     if (found.agrees()) refine(found, result);
     if (found.agrees()) {
@@ -262,25 +214,9 @@ class Search {
       if (nodes_.count() < many_nodes)
         nodes_ = LegendreNodes(many_nodes);
       else
-        divide(iterate, rough);
+        detail::divide(iterate, rough);
     }
     return solved(std::move(iterate), start_of_newton, result);
-  }
-
-  // So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
-  // least a third more, or divided panels. False where neither is left.
-  bool make_finer(PhaseIterate& iterate, double error) {
-    constexpr double margin = 0.3;
-    const Index q = nodes_.count();
-    if (q == options_.max_nodes)
-      return static_cast<int>(iterate.forces.panels().size()) < options_.max_panels &&
-             divide(iterate, 0.1 * options_.tolerance);
-    const double digits = std::log(error / (margin * options_.tolerance)), decay = decay_of(iterate.forces);
-    const double most = options_.max_nodes;  // where they do not decay, or the error is no number
-    const double more =
-        decay < 1.0 ? std::fmax(0.0, std::fmin(most, std::ceil(digits / -std::log(decay)))) : most;
-    nodes_ = LegendreNodes(std::min<Index>(options_.max_nodes, q + std::max<Index>(q / 3, Index(more))));
-    return true;
   }
 
   // Layers of fast modes and laws that are not analytic where contact begins have errors that their
@@ -290,7 +226,8 @@ class Search {
     constexpr double part = 0.05, rounding = 1e-14, safety = 3.0, least = 0.1;
     bool tight = false, compared = false;
     for (double factor = 1.0;; tight = true) {
-      EstimatedError error = error_of(found.newton, rms_of(found.motion.displacement));
+      detail::EstimatedError error =
+          detail::error_of(found.newton, detail::rms_of(found.motion.displacement));
       const double estimate = error.all();
       error.resolution *= factor;
       result.estimated_error = error.all();
@@ -298,7 +235,7 @@ class Search {
       const LegendreNodes nodes = nodes_;
       const bool free = finer.forces.panels().empty();
       const bool resolved = free || (compared && error.resolution <= options_.tolerance);
-      const bool finest = resolved || !make_finer(finer, error.resolution);
+      const bool finest = resolved || !detail::make_finer(finer, nodes_, error.resolution, options_);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
       if (!better.agrees()) {
@@ -306,8 +243,8 @@ class Search {
         return;
       }
       if (!finest) {
-        const double distance = rms_of(better.motion.displacement - found.motion.displacement) /
-                                rms_of(better.motion.displacement);
+        const double distance = detail::rms_of(better.motion.displacement - found.motion.displacement) /
+                                detail::rms_of(better.motion.displacement);
         factor = std::max(least, safety * distance / std::max(estimate, rounding));
         compared = true;
       }

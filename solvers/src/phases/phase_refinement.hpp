@@ -1,0 +1,31 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "phases/phase_newton.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Relative rms errors of the displacements: by the coefficients that are left out, if they go on to decay as
+/// the last ones do, and by the residual.
+struct EstimatedError {
+  double resolution = 0.0, residual = 0.0;
+
+  double all() const { return resolution + residual; }
+};
+
+/// Of a solution whose displacements have this rms, m.
+EstimatedError error_of(const PhaseNewtonResult& solved, double motion_rms);
+
+double rms_of(const Eigen::MatrixXd& values);
+
+/// Cuts the phases where the last coefficients of a panel are above `share` of the largest force: near an end
+/// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
+bool divide(PhaseIterate& iterate, double share);
+
+/// So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
+/// least a third more, or divided panels. False where neither is left.
+bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, double error,
+                const ContactPhasesOptions& options);
+
+}  // namespace wavebalance::solvers::detail
