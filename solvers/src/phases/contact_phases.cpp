@@ -9,6 +9,7 @@
 #include "linalg/enum_table.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
+#include "phases/phase_agreement.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "phases/phase_newton.hpp"
 #include "phases/phase_refinement.hpp"
@@ -19,21 +20,10 @@ namespace {
 
 using detail::ContactMotion, detail::Layout, detail::LegendreNodes, detail::PanelForces, detail::PhaseIterate,
     detail::PhaseModel, detail::PhaseNewtonResult;
+using Found = detail::PhaseSolution;
 
 // At least so many instants at which the motion found is held against its phases.
 constexpr Index least_samples = 256;
-constexpr double tiny = 1e-300;
-
-// Slopes at times l / N of the cubic spline through periodic samples that central differences of fourth order
-// give, per period.
-Eigen::MatrixXd slopes_of(const Eigen::MatrixXd& samples) {
-  const Index count = samples.cols();
-  Eigen::MatrixXd slopes(samples.rows(), count);
-  const auto at = [&](Index l) { return samples.col((l % count + count) % count); };
-  for (Index l = 0; l < count; ++l)
-    slopes.col(l) = double(count) / 12.0 * (8.0 * (at(l + 1) - at(l - 1)) - (at(l + 2) - at(l - 2)));
-  return slopes;
-}
 
 PhasesStatus refusal(const PhasesProblem& problem) {
   const ContactDynamics& dynamics = problem.dynamics;
@@ -73,27 +63,6 @@ void require_start_force(const ContactLaws& laws, const Eigen::MatrixXd& start,
                               (rigid ? ", since a law is rigid" : ", or empty"));
 }
 
-// One solution of the equations for a list of phases, and the motion that belongs to it.
-struct Found {
-  PhaseNewtonResult newton;
-  ContactMotion motion, reach;
-  Layout phases_of_motion;
-  std::vector<bool> complementary;  // of each contact, where its force jumps: whether it is where it must be
-
-  bool agrees() const {
-    bool same = newton.converged;
-    for (std::size_t c = 0; c < complementary.size() && same; ++c)
-      same = complementary[c] ||
-             detail::same_phases(newton.iterate.layout, phases_of_motion, static_cast<int>(c));
-    return same;
-  }
-  // Whether the residual is about as large as the forces, so that the motion says nothing about its phases.
-  bool is_lost() const {
-    constexpr double large = 0.5;
-    return !(newton.residual < large);
-  }
-};
-
 bool is_among(const std::vector<Layout>& layouts, const Layout& layout) {
   return std::any_of(layouts.begin(), layouts.end(), [&](const Layout& other) {
     int contacts = 0;
@@ -120,7 +89,7 @@ class Search {
   PhaseMotion run(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_force) {
     const Index more_nodes = std::min(options_.max_nodes, 2 * options_.nodes);
     PhaseMotion result;
-    const ContactMotion first = reach({start, slopes_of(start)}, start_force);
+    const ContactMotion first = detail::reach(model_, {start, detail::periodic_slopes(start)}, start_force);
     Found found = at(first, result);
     for (std::vector<Layout> tried; !found.agrees() && !cancelled_ && result.changes < options_.max_changes;
          ++result.changes) {
@@ -144,53 +113,10 @@ class Search {
 
  private:
   Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) const {
-    Found found;
-    found.newton = detail::solve_phases(model_, std::move(iterate), nodes_,
-                                        {options_.max_iterations, tolerance, observer_});
-    result.iterations += found.newton.iterations;
-    found.motion = model_.response.motion(found.newton.iterate.forces.grid(),
-                                          found.newton.iterate.forces.coefficients(), nodes_, times_);
-    found.motion.displacement = free_.displacement - found.motion.displacement;
-    found.motion.velocity = free_.velocity - found.motion.velocity;
-    const bool rigid =
-        std::any_of(model_.laws.begin(), model_.laws.end(), [](const auto& law) { return law.rigid(); });
-    const Eigen::MatrixXd force =
-        rigid ? detail::force_at(found.newton.iterate.forces, model_, times_) : Eigen::MatrixXd();
-    found.reach = reach(found.motion, force);
-    found.phases_of_motion =
-        detail::layout_of(model_.laws, model_.frequency, found.reach.displacement, found.reach.velocity);
-    for (const detail::LawPieces& law : model_.laws) {
-      const auto c = Index(found.complementary.size());
-      found.complementary.push_back(
-          law.jumps() && is_complementary(found.motion.displacement.row(c), force.row(c), law.breakpoint(0)));
-    }
-    return found;
-  }
-
-  // Whether a rigid contact pushes only, and does not pass the gap.
-  static bool is_complementary(const Eigen::RowVectorXd& displacement, const Eigen::RowVectorXd& force,
-                               double gap) {
-    constexpr double small = 1e-4;
-    const double length = small * displacement.cwiseAbs().maxCoeff(), push = force.cwiseAbs().maxCoeff();
-    return (displacement.array() < gap + length).all() && (force.array() >= -small * push).all();
-  }
-
-  // A motion with what each rigid contact would yield to its force at once, were it not held: beyond the gap
-  // while there is contact. Where the force jumps there is no slope to interpolate by.
-  ContactMotion reach(ContactMotion motion, const Eigen::MatrixXd& force) const {
-    for (Index c = 0; c < force.rows(); ++c) {
-      const detail::LawPieces& law = model_.laws[static_cast<std::size_t>(c)];
-      if (!law.rigid()) continue;
-      const double softness = law.jumps() ? motion.displacement.row(c).cwiseAbs().maxCoeff() /
-                                                std::max(force.row(c).cwiseAbs().maxCoeff(), tiny)
-                                          : law.yielding().displacement;
-      motion.displacement.row(c) += softness * force.row(c);
-      if (law.jumps())
-        motion.velocity.row(c).setZero();
-      else
-        motion.velocity.row(c) = slopes_of(motion.displacement.row(c));
-    }
-    return motion;
+    PhaseNewtonResult newton = detail::solve_phases(model_, std::move(iterate), nodes_,
+                                                    {options_.max_iterations, tolerance, observer_});
+    result.iterations += newton.iterations;
+    return {model_, std::move(newton), nodes_, times_, free_};
   }
 
   // Stiff contact does not fit the panels at first: with the passages held they are refined until they
@@ -263,18 +189,7 @@ class Search {
       result.status = PhasesStatus::converged;
     else if (!cancelled_)
       result.status = PhasesStatus::tolerance_missed;
-    for (const detail::Phase& phase : iterate.layout.phases) {
-      if (!model_.laws[static_cast<std::size_t>(phase.contact)].exerts(phase.piece)) continue;
-      const double begin = iterate.layout.begin(phase), whole = std::floor(begin);
-      result.phases.push_back({phase.contact, phase.piece, begin - whole, iterate.layout.end(phase) - whole});
-    }
-    std::sort(result.phases.begin(), result.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
-      return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
-    });
-    const detail::CellGrid& grid = iterate.forces.grid();
-    result.parts = std::make_shared<PhaseMotion::Parts>(
-        PhaseMotion::Parts{model_, iterate, nodes_, PanelForces(grid, nodes_, found.newton.tangent),
-                           PanelForces(grid, nodes_, found.newton.damping)});
+    detail::set_parts(result, model_, found.newton, nodes_);
     return result;
   }
 

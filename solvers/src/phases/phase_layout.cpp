@@ -244,6 +244,15 @@ CellGrid Layout::grid() const {
   return grid;
 }
 
+Eigen::MatrixXd periodic_slopes(const Eigen::MatrixXd& samples) {
+  const Index count = samples.cols();
+  Eigen::MatrixXd slopes(samples.rows(), count);
+  const auto at = [&](Index l) { return samples.col((l % count + count) % count); };
+  for (Index l = 0; l < count; ++l)
+    slopes.col(l) = double(count) / 12.0 * (8.0 * (at(l + 1) - at(l - 1)) - (at(l + 2) - at(l - 2)));
+  return slopes;
+}
+
 Layout layout_of(const std::vector<LawPieces>& laws, double frequency, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity) {
   Layout layout;

@@ -41,6 +41,10 @@ struct Layout {
 Layout layout_of(const std::vector<LawPieces>& laws, double frequency, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity);
 
+/// Slopes at times l / N of the cubic spline through periodic samples, C x N, that central differences of
+/// fourth order give, per period.
+Eigen::MatrixXd periodic_slopes(const Eigen::MatrixXd& samples);
+
 /// Whether a contact has the same phases at about the same instants in both, in any order.
 bool same_phases(const Layout& a, const Layout& b, int contact);
 

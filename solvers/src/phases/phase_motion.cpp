@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <complex>
 
 #include "linalg/dense.hpp"
@@ -46,4 +47,24 @@ double PhaseMotion::tangent(int contact, double time) const {
 
 double PhaseMotion::damping(int contact, double time) const { return parts->damping.at(contact, time); }
 
+namespace detail {
+
+void set_parts(PhaseMotion& motion, const PhaseModel& model, const PhaseNewtonResult& solved,
+               const LegendreNodes& nodes) {
+  const PhaseIterate& iterate = solved.iterate;
+  for (const Phase& phase : iterate.layout.phases) {
+    if (!model.laws[static_cast<std::size_t>(phase.contact)].exerts(phase.piece)) continue;
+    const double begin = iterate.layout.begin(phase), whole = std::floor(begin);
+    motion.phases.push_back({phase.contact, phase.piece, begin - whole, iterate.layout.end(phase) - whole});
+  }
+  std::sort(motion.phases.begin(), motion.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
+    return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
+  });
+  const CellGrid& grid = iterate.forces.grid();
+  motion.parts = std::make_shared<PhaseMotion::Parts>(
+      PhaseMotion::Parts{model, iterate, nodes, PanelForces(grid, nodes, solved.tangent),
+                         PanelForces(grid, nodes, solved.damping)});
+}
+
+}  // namespace detail
 }  // namespace wavebalance::solvers

@@ -1,5 +1,5 @@
 #pragma once
-#include "phases/phase_equations.hpp"
+#include "phases/phase_newton.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
@@ -11,4 +11,11 @@ struct PhaseMotion::Parts {
   detail::PanelForces tangent, damping;  // slopes of the laws, N/m and N s/m
 };
 
+namespace detail {
+
+/// Gives a motion its phases and its parts, those of a solution.
+void set_parts(PhaseMotion& motion, const PhaseModel& model, const PhaseNewtonResult& solved,
+               const LegendreNodes& nodes);
+
+}  // namespace detail
 }  // namespace wavebalance::solvers
