@@ -1,6 +1,8 @@
 #include "phases/phase_loads.hpp"
 
 #include <algorithm>
+#include <complex>
+#include <numbers>
 #include <vector>
 
 #include "wavebalance/solvers/structure/periodic_force.hpp"
@@ -8,18 +10,21 @@
 namespace wavebalance::solvers::detail {
 
 Eigen::MatrixXcd loads_of(const CondensedProblem& problem, int repeats) {
-  const LinearStructure& structure = problem.structure();
-  const Eigen::VectorXcd& harmonics = problem.load_harmonics();
+  return loads_of(problem.structure(), problem.load_harmonics(), repeats, problem.frequency(),
+                  problem.load_factor());
+}
+
+Eigen::MatrixXcd loads_of(const LinearStructure& structure, const Eigen::VectorXcd& harmonics, int repeats,
+                          double frequency, double factor) {
   std::vector<Eigen::VectorXcd> series{
       harmonics(Eigen::seqN(0, (harmonics.size() + repeats - 1) / repeats, repeats))};
-  for (const PeriodicForce& force : structure.forces)
-    series.push_back(force.amplitudes(repeats * problem.frequency()));
+  for (const PeriodicForce& force : structure.forces) series.push_back(force.amplitudes(repeats * frequency));
   Eigen::Index count = 1;
   for (const auto& load : series) count = std::max(count, load.size());
   Eigen::MatrixXcd loads = Eigen::MatrixXcd::Zero(Eigen::Index(series.size()), count);
   for (std::size_t l = 0; l < series.size(); ++l)
     loads.row(Eigen::Index(l)).head(series[l].size()) = series[l].transpose();
-  loads.rightCols(count - 1) *= problem.load_factor();
+  loads.rightCols(count - 1) *= factor;
   return loads;
 }
 
@@ -31,6 +36,34 @@ LinearStructure held_by_springs(const LinearStructure& structure, double holding
   held.stiffness += springs;
   held.rigid_modes = {};
   return held;
+}
+
+namespace {
+
+CondensationMethod method_for(const LinearStructure& structure) {
+  constexpr int largest_dense = 200;
+  return structure.size() > largest_dense ? CondensationMethod::sparse : CondensationMethod::dense;
+}
+
+}  // namespace
+
+FreeContacts::FreeContacts(const LinearStructure& structure, Eigen::VectorXcd harmonics, double holding)
+    : structure_(structure),
+      harmonics_(std::move(harmonics)),
+      repeats_(repeats_within_period(harmonics_)),
+      condensation_(held_by_springs(structure, holding), method_for(structure)) {}
+
+Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
+  const int contacts = structure_.contacts();
+  const Eigen::MatrixXcd loads = loads_of(structure_, harmonics_, repeats_, frequency, factor);
+  Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(contacts, repeats_ * (loads.cols() - 1) + 1);
+  for (Eigen::Index n = 0; n < loads.cols(); ++n) {
+    if (loads.col(n).isZero(0.0)) continue;
+    const std::complex<double> rate(0.0, 2.0 * std::numbers::pi * repeats_ * frequency * double(n));
+    const CondensedPoint point = condensation_.dynamic_compliance({rate * rate, rate, 1.0}, {});
+    amplitudes.col(repeats_ * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
+  }
+  return amplitudes;
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/structure/condensation.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -9,8 +10,31 @@ namespace wavebalance::solvers::detail {
 /// `repeats`, N: a row for each column of LinearStructure::load_shapes(), a column for each harmonic.
 Eigen::MatrixXcd loads_of(const CondensedProblem& problem, int repeats);
 
+/// The same at a frequency of the problem, Hz, with every harmonic but the static one times `factor`.
+Eigen::MatrixXcd loads_of(const LinearStructure& structure, const Eigen::VectorXcd& harmonics, int repeats,
+                          double frequency, double factor);
+
 /// The structure, and where it is free to move with the springs ContactDynamics::holding() along all
 /// contacts.
 LinearStructure held_by_springs(const LinearStructure& structure, double holding);
+
+/// How the contacts move without contact forces, with the springs ContactDynamics::holding(), over frequency
+/// and size of the load. One object per thread.
+class FreeContacts {
+ public:
+  /// `harmonics` as of CondensedProblem. O(n^3), or a reordering of the sparse matrices.
+  FreeContacts(const LinearStructure& structure, Eigen::VectorXcd harmonics, double holding);
+
+  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods. The frequency is that of the
+  /// problem, Hz; every harmonic of the load but the static one is multiplied by `factor`. O(n^3) for each
+  /// harmonic of the load.
+  Eigen::MatrixXcd at(double frequency, double factor);
+
+ private:
+  LinearStructure structure_;
+  Eigen::VectorXcd harmonics_;
+  int repeats_;
+  Condensation condensation_;
+};
 
 }  // namespace wavebalance::solvers::detail

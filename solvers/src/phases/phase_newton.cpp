@@ -17,8 +17,28 @@ Lu<double> factor_of(const PhaseIterate& at, const Evaluation& now, const Legend
   return Lu<double>(jacobian(at, now, nodes, now.influence).topLeftCorner(count, count));
 }
 
-// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
-// more than a fiftieth of the period behind.
+double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
+  return nodes > 0 ? displacements.head(nodes).norm() / std::sqrt(double(nodes)) : 0.0;
+}
+
+// What the unknowns that answer a residual do to displacements at nodes and passages, towards their
+// obstacles' other side.
+Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                                 const Eigen::VectorXd& unknowns) {
+  return now.influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
+}
+
+// The displacements that the last two Legendre coefficients of each panel make.
+Eigen::VectorXd displacements_of_last(const PanelForces& forces, const Evaluation& now,
+                                      const LegendreNodes& nodes) {
+  const Eigen::MatrixXd& coefficients = forces.coefficients();
+  const Eigen::VectorXd parts =
+      (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
+  return now.influence.displacement.leftCols(now.force.size()) * parts;
+}
+
+}  // namespace
+
 double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts) {
   constexpr double longest = 0.02;
   double part = 1.0;
@@ -41,32 +61,19 @@ bool has_collapsed(const Layout& layout) {
   });
 }
 
-double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
-  return nodes > 0 ? displacements.head(nodes).norm() / std::sqrt(double(nodes)) : 0.0;
-}
-
-// What the unknowns that a change of the residual asks for do to displacements at nodes and passages, towards
-// their obstacles' other side.
-Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
-                                 const Lu<double>& factor, const Eigen::VectorXd& residual) {
-  const Eigen::VectorXd unknowns = factor.solve(Eigen::VectorXd(-residual));
-  return now.influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
-}
-
-// The displacements that the last two Legendre coefficients of each panel make, and what answers them.
-Eigen::VectorXd displacement_error(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
-                                   const Lu<double>& factor) {
+void set_errors(PhaseNewtonResult& result, const Evaluation& now, const LegendreNodes& nodes,
+                double frequency, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer) {
+  result.tangent = now.tangent;
+  result.damping = now.damping / frequency;
+  if (now.residual.size() == 0) return;
+  const PhaseIterate& at = result.iterate;
   const Index n = now.force.size();
-  const Eigen::MatrixXd& coefficients = at.forces.coefficients();
-  const Eigen::VectorXd parts =
-      (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
-  const Eigen::VectorXd made = now.influence.displacement.leftCols(n) * parts;
+  const Eigen::VectorXd last = displacements_of_last(at.forces, now, nodes);
   const Eigen::MatrixXd none;
-  const Eigen::VectorXd residual = residual_by_motion(now, made, none);
-  return made + displacements_of(at, now, nodes, factor, residual);
+  const Eigen::VectorXd answered = answer(residual_by_motion(now, last, none));
+  result.residual_error = rms_at_nodes(displacements_of(at, now, nodes, answer(now.residual)), n);
+  result.resolution_error = rms_at_nodes(last + displacements_of(at, now, nodes, answered), n);
 }
-
-}  // namespace
 
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits) {
@@ -82,16 +89,10 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     const bool stands = result.residual < enough && result.residual > 0.5 * before;
     if (result.residual < limits.tolerance || stands) {
       result.converged = true;
-      if (now.residual.size() > 0) {
-        if (!factor || factor->size() != now.residual.size())
-          factor = factor_of(result.iterate, now, nodes, now.residual.size());
-        result.residual_error = rms_at_nodes(
-            displacements_of(result.iterate, now, nodes, *factor, now.residual), now.force.size());
-        result.resolution_error =
-            rms_at_nodes(displacement_error(result.iterate, now, nodes, *factor), now.force.size());
-      }
-      result.tangent = std::move(now.tangent);
-      result.damping = now.damping / model.frequency;
+      if (now.residual.size() > 0 && (!factor || factor->size() != now.residual.size()))
+        factor = factor_of(result.iterate, now, nodes, now.residual.size());
+      set_errors(result, now, nodes, model.frequency,
+                 [&](const Eigen::VectorXd& residual) { return factor->solve(Eigen::VectorXd(-residual)); });
       return result;
     }
     before = result.residual;

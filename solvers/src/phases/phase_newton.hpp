@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 
 #include "phases/phase_equations.hpp"
+#include "phases/phase_evaluation.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -30,5 +32,16 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
 /// The same on the forces alone.
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits);
+
+/// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
+/// more than a fiftieth of the period behind.
+double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts);
+/// Whether a phase has no length, or more than a period.
+bool has_collapsed(const Layout& layout);
+
+/// Sets what a converged solution tells beside its iterate. `answer`: the unknowns by which Newton's method
+/// answers a residual.
+void set_errors(PhaseNewtonResult& result, const Evaluation& now, const LegendreNodes& nodes,
+                double frequency, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer);
 
 }  // namespace wavebalance::solvers::detail

@@ -2,34 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "phases/phase_loads.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
-#include "wavebalance/solvers/structure/condensation.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-// C x (H + 1), m: the motion without contact over the period of the problem.
-Eigen::MatrixXcd contact_free_amplitudes(const CondensedProblem& problem, double holding) {
-  constexpr int largest_dense = 200;
-  const LinearStructure structure = detail::held_by_springs(problem.structure(), holding);
-  Condensation condensation(
-      structure, structure.size() > largest_dense ? CondensationMethod::sparse : CondensationMethod::dense);
-  const int repeats = load_periods(problem), contacts = problem.contacts();
-  const Eigen::MatrixXcd loads = detail::loads_of(problem, repeats);
-  Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(contacts, repeats * (loads.cols() - 1) + 1);
-  for (Eigen::Index n = 0; n < loads.cols(); ++n) {
-    if (loads.col(n).isZero(0.0)) continue;
-    const std::complex<double> rate(0.0, 2.0 * std::numbers::pi * repeats * problem.frequency() * double(n));
-    const CondensedPoint point = condensation.dynamic_compliance({rate * rate, rate, 1.0}, {});
-    amplitudes.col(repeats * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
-  }
-  return amplitudes;
-}
 
 // By what the force of a contact grows where phases end and begin, N.
 double force_jump(const detail::PhaseIterate& iterate, int contact, double time) {
@@ -54,7 +34,8 @@ double relative_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& e
 
 PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws& laws,
                              const ContactDynamics& dynamics) {
-  return {dynamics, laws, contact_free_amplitudes(problem, dynamics.holding()), problem.frequency()};
+  detail::FreeContacts free(problem.structure(), problem.load_harmonics(), dynamics.holding());
+  return {dynamics, laws, free.at(problem.frequency(), problem.load_factor()), problem.frequency()};
 }
 
 ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,

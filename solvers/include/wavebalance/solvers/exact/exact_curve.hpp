@@ -1,0 +1,69 @@
+#pragma once
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "wavebalance/solvers/exact/phase_family.hpp"
+#include "wavebalance/solvers/stability/curve_stability.hpp"
+
+namespace wavebalance::solvers {
+
+/// Where an exact curve starts and ends, and how it is followed. Arc lengths: a change of the parameter by
+/// parameter_scale, and a change of the displacements by as much as the first motion vibrates (rms), have
+/// length 1 each.
+struct ExactCurveOptions {
+  double from = 0.0;             ///< Hz or load scale, where the first motion is
+  double to = 0.0;               ///< either side of `from`
+  double parameter_scale = 0.0;  ///< Hz or load scale; 0: a 20th of the interval
+  double first_step = 0.02;      ///< arc length
+  double largest_step = 0.2;     ///< arc length
+  double smallest_step = 1e-7;   ///< arc length; the curve is lost below
+  int max_points = 5000;
+  bool stability = true;             ///< multipliers at each point, and the points where they pass the circle
+  ContactPhasesOptions phases = {};  ///< tolerance, nodes and panels of each motion
+  Observer observer = {};            ///< called after each point with its value
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// A motion of the structure on a curve.
+struct ExactPoint {
+  double value = 0.0;  ///< Hz or load scale
+  PhaseMotion motion;
+  double slope = 0.0;            ///< of the parameter by arc length: its sign is that in which the curve goes
+  Eigen::VectorXcd multipliers;  ///< PhaseMotion::multipliers(); empty unless asked for, or not found
+  int unstable = -1;             ///< multipliers outside the unit circle; -1 where not known
+};
+
+/// A special point, solved for with the parameter as unknown.
+struct ExactEvent {
+  SpecialPointType type = SpecialPointType::fold;
+  double value = 0.0;                                 ///< Hz or load scale
+  std::complex<double> multiplier{missing, missing};  ///< the one at the unit circle, Im >= 0
+  PhaseMotion motion;
+  std::size_t next_point = 0;  ///< index of the first point of the curve behind it
+};
+
+/// A curve of motions of the structure.
+struct ExactCurve {
+  SweepStatus status = SweepStatus::no_start;
+  std::vector<ExactPoint> points;
+  std::vector<ExactEvent> events;
+};
+
+/// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
+/// that has converged at options.from until it leaves the interval: predicted by polynomials in the arc
+/// length, corrected by Newton's method with the unknown that changes fastest held, so that folds are points
+/// as any other. Where a phase appears or vanishes the grazing motion is solved for, and the curve goes on
+/// with the other phases.
+///
+/// Special points are zeros along the curve: of the parameter's slope (fold), of a multiplier's modulus less
+/// 1 (period doubling, Neimark-Sacker, branch), of the distance from a breakpoint (grazing).
+///
+/// Throws std::invalid_argument for options out of range and a first motion that is not known. `lost` where
+/// rigid contact begins or ends, and where phases change by forces that vanish. O(n^3 + n^2 poles) for each
+/// Newton step of n unknowns, O(s^3) for the multipliers of s states.
+ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+
+}  // namespace wavebalance::solvers

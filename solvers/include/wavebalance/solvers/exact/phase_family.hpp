@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+
+namespace wavebalance::solvers {
+
+/// What contact_phases() takes of a problem, over the frequency of its load (Hz) or its load scale.
+///
+/// One object per thread.
+class PhaseFamily {
+ public:
+  /// Takes the structure, the load and the other parameter from `problem`, which may change afterwards.
+  /// `dynamics` are those of its structure and must outlive the object. Throws std::invalid_argument for laws
+  /// that are neither one nor one for each contact.
+  PhaseFamily(const CondensedProblem& problem, ContactLaws laws, const ContactDynamics& dynamics,
+              SweepParameter parameter);
+  PhaseFamily(PhaseFamily&&) noexcept;
+  PhaseFamily& operator=(PhaseFamily&&) noexcept;
+  ~PhaseFamily();
+
+  SweepParameter parameter() const;
+  const ContactLaws& laws() const;
+  const ContactDynamics& dynamics() const;
+  /// O(n^3) for each harmonic of the load.
+  PhasesProblem at(double value) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace wavebalance::solvers

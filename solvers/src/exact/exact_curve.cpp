@@ -1,0 +1,202 @@
+#include "wavebalance/solvers/exact/exact_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <stdexcept>
+#include <string>
+
+#include "exact/exact_events.hpp"
+#include "exact/phase_switch.hpp"
+#include "linalg/index.hpp"
+#include "linalg/option_checks.hpp"
+#include "phases/phase_motion_parts.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using detail::Held, detail::PathModel, detail::PathPoint, detail::Prediction, detail::Switch;
+
+double slope_of(const PathPoint& point) { return point.direction[point.direction.size() - 1]; }
+
+// Follows one curve: `points_` are the last ones with the same phases.
+class Tracer {
+ public:
+  Tracer(const PathModel& model, ExactCurve& curve)
+      : model_(model), options_(model.options()), curve_(curve), step_(options_.first_step) {}
+
+  void run(PathPoint first) {
+    accept(std::move(first));
+    while (curve_.status == SweepStatus::no_start) {
+      if (static_cast<int>(curve_.points.size()) >= options_.max_points)
+        curve_.status = SweepStatus::point_limit;
+      else if (!goes_on(options_.observer,
+                        {"exact curve", static_cast<int>(curve_.points.size()), points_.back().value}))
+        curve_.status = SweepStatus::cancelled;
+      else
+        advance();
+    }
+  }
+
+ private:
+  bool within(double value) const {
+    return value >= std::min(options_.from, options_.to) && value <= std::max(options_.from, options_.to);
+  }
+
+  void advance() {
+    if (std::optional<Switch> over = detail::disappearance(model_, points_.back())) {
+      go_over(std::move(*over));
+      return;
+    }
+    std::optional<PathPoint> next = corrected();
+    if (next && !next->agrees) {
+      if (std::optional<Switch> over = detail::appearance(model_, points_.back(), *next)) {
+        if (within(over->grazing.value)) note_events(over->grazing);
+        go_over(std::move(*over));
+        return;
+      }
+      next.reset();
+    }
+    if (!next) {
+      step_ *= 0.5;
+      if (step_ < options_.smallest_step) curve_.status = SweepStatus::lost;
+      return;
+    }
+    step_ = std::min(options_.largest_step, step_ * growth_);
+    if (!within(next->value)) {
+      end_before(*next);
+      return;
+    }
+    note_events(*next);
+    accept(std::move(*next));
+  }
+
+  // The next point, if it lies where it is expected.
+  std::optional<PathPoint> corrected() {
+    constexpr double near = 0.05, farthest = 0.25, longest = 2.5;
+    const PathPoint& last = points_.back();
+    Prediction expected = points_.size() > 1 ? detail::through(neighbours(), last.place + step_)
+                                             : detail::along_tangent(last, step_, model_.speed(last));
+    if (!(expected.value > 0.0) || shrinks(last.iterate.layout, expected.iterate.layout)) return std::nullopt;
+    const Held held = model_.fastest(last, true);
+    std::optional<PathPoint> next =
+        model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, held));
+    if (!next) return std::nullopt;
+    const double off = model_.distance(expected, *next), arc = model_.arc_length(last, *next);
+    if (off > farthest * step_ || arc > longest * step_) return std::nullopt;
+    growth_ = off < near * step_ ? 1.5 : 1.0;
+    next->place = last.place + arc;
+    return next;
+  }
+
+  // Whether an interval would lose more than half of its length.
+  static bool shrinks(const detail::Layout& layout, const detail::Layout& next) {
+    for (const detail::Interval& interval : detail::intervals_of(layout)) {
+      const auto moved = [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        return next.passages[at].time - layout.passages[at].time;
+      };
+      if (moved(interval.from) - moved(interval.to) > 0.5 * interval.length) return true;
+    }
+    return false;
+  }
+
+  std::vector<const PathPoint*> neighbours() const {
+    std::vector<const PathPoint*> all;
+    for (const PathPoint& point : points_) all.push_back(&point);
+    return all;
+  }
+
+  Eigen::VectorXcd multipliers_of(const PathPoint& point) const {
+    return options_.stability ? point.motion.multipliers() : Eigen::VectorXcd();
+  }
+
+  void accept(PathPoint point) {
+    constexpr std::size_t most = 4;
+    ExactPoint& added = curve_.points.emplace_back();
+    added.value = point.value;
+    added.motion = point.motion;
+    added.slope = slope_of(point) / model_.speed(point);
+    added.multipliers = multipliers_of(point);
+    added.unstable = detail::unstable_of(added.multipliers);
+    points_.push_back(std::move(point));
+    if (points_.size() > most) points_.pop_front();
+  }
+
+  void note_events(const PathPoint& next) {
+    for (ExactEvent& event : detail::events_between(model_, points_.back(), next,
+                                                    curve_.points.back().multipliers, multipliers_of(next))) {
+      event.next_point = curve_.points.size();
+      curve_.events.push_back(std::move(event));
+    }
+  }
+
+  SweepStatus end_at(double value) const {
+    return (value > options_.from) == (options_.to > options_.from) && value != options_.from
+               ? SweepStatus::reached_end
+               : SweepStatus::returned;
+  }
+
+  void go_over(Switch over) {
+    if (!within(over.grazing.value)) {
+      curve_.status = end_at(over.grazing.value);
+      return;
+    }
+    curve_.events.push_back({SpecialPointType::grazing,
+                             over.grazing.value,
+                             {missing, missing},
+                             over.grazing.motion,
+                             curve_.points.size()});
+    points_.clear();
+    step_ = std::min(step_, options_.first_step);
+    accept(std::move(over.next));
+  }
+
+  void end_before(const PathPoint& next) {
+    const SweepStatus status = end_at(next.value);
+    const double limit = status == SweepStatus::reached_end ? options_.to : options_.from;
+    std::optional<PathPoint> last =
+        detail::zero_between(model_, points_.back(), next, model_.fastest(points_.back(), true),
+                             [limit](const PathPoint& point) { return point.value - limit; });
+    curve_.status = status;
+    if (!last) return;
+    note_events(*last);
+    accept(std::move(*last));
+  }
+
+  const PathModel& model_;
+  const ExactCurveOptions& options_;
+  ExactCurve& curve_;
+  double step_, growth_ = 1.5;
+  std::deque<PathPoint> points_;
+};
+
+}  // namespace
+
+void ExactCurveOptions::validate() const {
+  phases.validate();
+  detail::require_positive("exact_curve", "from", from);
+  detail::require_positive("exact_curve", "to", to);
+  if (from == to) throw std::invalid_argument("exact_curve: from and to are the same");
+  if (!(parameter_scale >= 0.0)) detail::require_positive("exact_curve", "parameter_scale", parameter_scale);
+  detail::require_positive("exact_curve", "first_step", first_step);
+  detail::require_positive("exact_curve", "largest_step", largest_step);
+  detail::require_positive("exact_curve", "smallest_step", smallest_step);
+  detail::require_at_least("exact_curve", "max_points", max_points, 1);
+}
+
+ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
+                       const ExactCurveOptions& options) {
+  options.validate();
+  if (first.parts == nullptr)
+    throw std::invalid_argument("exact_curve: first has the status " + std::string(to_string(first.status)) +
+                                "; it must be a motion");
+  ExactCurve curve;
+  const PathModel model(family, first, options);
+  std::optional<PathPoint> start =
+      model.solve(options.from, first.parts->iterate, Held{}, options.to > options.from ? 1.0 : -1.0);
+  if (start && start->agrees) Tracer(model, curve).run(std::move(*start));
+  return curve;
+}
+
+}  // namespace wavebalance::solvers

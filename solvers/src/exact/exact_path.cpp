@@ -1,0 +1,222 @@
+#include "exact/exact_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/root.hpp"
+#include "linalg/index.hpp"
+#include "phases/phase_motion_parts.hpp"
+#include "phases/phase_refinement.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// A passage that moves by so much of a period has made a unit of arc length, and a force that changes by so
+// much of the largest one.
+constexpr double passage_scale = 0.05, force_scale = 0.5;
+
+// At least so many instants of a period at which motions are held against their phases.
+constexpr Index samples = 256;
+
+double vibration_of(const Eigen::MatrixXd& displacement) {
+  return rms_of(displacement.colwise() - displacement.rowwise().mean());
+}
+
+Eigen::VectorXd uniform(Index count) {
+  return Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / double(count));
+}
+
+// The value of an unknown in an iterate; forces at nodes are not compared by value.
+double& passage_of(PhaseIterate& iterate, Index i) {
+  return iterate.layout.passages[static_cast<std::size_t>(i)].time;
+}
+
+}  // namespace
+
+PathModel::PathModel(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options)
+    : family_(family), options_(options), times_(uniform(samples)) {
+  const Eigen::MatrixXd displacement = first.displacement(times_);
+  length_ = displacement.cwiseAbs().maxCoeff();
+  vibration_ = vibration_of(displacement);
+  parameter_scale_ =
+      options.parameter_scale > 0.0 ? options.parameter_scale : std::abs(options.to - options.from) / 20.0;
+}
+
+double PathModel::arc_length(const PathPoint& from, const PathPoint& to) const {
+  const double vibration = std::max(vibration_, from.vibration);
+  const double moved = rms_of(to.displacement - from.displacement) / vibration;
+  return std::hypot(moved, (to.value - from.value) / parameter_scale_);
+}
+
+Held PathModel::fastest(const PathPoint& at, bool parameter) const {
+  const Index m = Index(at.iterate.layout.passages.size()), n = at.direction.size() - m - 1;
+  Held best{Held::Kind::force, 0};
+  double most = -1.0;
+  const auto offer = [&](Held::Kind kind, Index index, double share) {
+    if (share > most) {
+      most = share;
+      best = {kind, index};
+    }
+  };
+  if (parameter) offer(Held::Kind::parameter, 0, std::abs(at.direction[n + m]) / parameter_scale_);
+  for (Index i = 0; i < m; ++i) offer(Held::Kind::passage, i, std::abs(at.direction[n + i]) / passage_scale);
+  for (Index i = 0; i < n && m == 0; ++i)
+    offer(Held::Kind::force, i, std::abs(at.direction[i]) / (force_scale * at.force_size));
+  return best;
+}
+
+double PathModel::speed(const PathPoint& at) const {
+  const Index m = Index(at.iterate.layout.passages.size()), n = at.direction.size() - m - 1;
+  double fastest = std::abs(at.direction[n + m]) / parameter_scale_;
+  if (m > 0) fastest = std::max(fastest, at.direction.segment(n, m).cwiseAbs().maxCoeff() / passage_scale);
+  if (n > 0)
+    fastest = std::max(fastest, at.direction.head(n).cwiseAbs().maxCoeff() / (force_scale * at.force_size));
+  return fastest;
+}
+
+double PathModel::sign_of(const PathPoint& at, const Held& held) const {
+  const Index m = Index(at.iterate.layout.passages.size()), n = at.direction.size() - m - 1;
+  return at.direction[held.number(n, m)] < 0.0 ? -1.0 : 1.0;
+}
+
+double PathModel::distance(const Prediction& expected, const PathPoint& found) const {
+  double farthest = std::abs(found.value - expected.value) / parameter_scale_;
+  for (std::size_t i = 0; i < expected.iterate.layout.passages.size(); ++i) {
+    const double moved = found.iterate.layout.passages[i].time - expected.iterate.layout.passages[i].time;
+    farthest = std::max(farthest, std::abs(moved) / passage_scale);
+  }
+  return farthest;
+}
+
+PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const {
+  const PhaseModel model(family_.at(solution.value), length_);
+  const ContactMotion free = model.free_motion(times_);
+  const PhaseSolution own(model, std::move(solution.newton), nodes, times_, free);
+  PathPoint point;
+  point.value = solution.value;
+  point.iterate = own.newton.iterate;
+  point.direction = std::move(solution.direction);
+  point.displacement = own.motion.displacement.reshaped();
+  point.vibration = vibration_of(own.motion.displacement);
+  point.phases_of_motion = own.phases_of_motion;
+  point.agrees = own.agrees();
+  if (own.newton.iterate.forces.coefficients().size() > 0)
+    point.force_size = own.newton.iterate.forces.coefficients().cwiseAbs().maxCoeff();
+  point.motion.status = PhasesStatus::converged;
+  point.motion.residual = own.newton.residual;
+  point.motion.iterations = own.newton.iterations;
+  point.motion.unknowns = static_cast<int>(point.direction.size());
+  point.motion.estimated_error = error;
+  set_parts(point.motion, model, own.newton, nodes);
+  return point;
+}
+
+std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, const Held& held,
+                                          double forwards) const {
+  constexpr double rounding = 1e-13;
+  constexpr int most_refinements = 12;
+  LegendreNodes nodes(start.forces.coefficients().rows() > 0 ? start.forces.coefficients().rows()
+                                                             : Index(options_.phases.nodes));
+  for (int i = 0;; ++i) {
+    HeldSolution found = solve_held(family_, length_, value, start, nodes, held,
+                                    {options_.phases.max_iterations, rounding, options_.phases.observer});
+    if (!found.newton.converged || !found.direction.allFinite()) return std::nullopt;
+    const double error = error_of(found.newton, vibration_).resolution;
+    start = found.newton.iterate;
+    value = found.value;
+    const bool movable = held.kind != Held::Kind::force;  // the nodes of others are others
+    if (error <= options_.phases.tolerance || !movable || i == most_refinements ||
+        !make_finer(start, nodes, error, options_.phases)) {
+      found.direction *= forwards;
+      return point_of(std::move(found), nodes, error);
+    }
+  }
+}
+
+Prediction along_tangent(const PathPoint& at, double distance, double speed) {
+  const double step = distance / speed;
+  Prediction result{at.value + step * at.direction[at.direction.size() - 1], at.iterate};
+  const auto m = Index(at.iterate.layout.passages.size());
+  const Index n = at.direction.size() - m - 1;
+  if (n > 0) {
+    const PanelForces& forces = at.iterate.forces;
+    const LegendreNodes nodes(forces.coefficients().rows());
+    const Eigen::VectorXd values = (nodes.values.leftCols(nodes.count()) * forces.coefficients()).reshaped();
+    result.iterate.forces = PanelForces(forces.grid(), nodes, values + step * at.direction.head(n));
+  }
+  for (Index i = 0; i < m; ++i) passage_of(result.iterate, i) += step * at.direction[n + i];
+  return result;
+}
+
+namespace {
+
+Eigen::VectorXd lagrange_weights(const std::vector<const PathPoint*>& points, double place) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Index(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != i) weights[Index(i)] *= (place - points[j]->place) / (points[i]->place - points[j]->place);
+  return weights;
+}
+
+// The forces of the points at the same share of a phase, weighted.
+double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::VectorXd& weights, int phase,
+                      double share) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const Layout& layout = points[j]->iterate.layout;
+    const Phase& own = layout.phases[static_cast<std::size_t>(phase)];
+    const double begin = layout.begin(own), time = begin + share * (layout.end(own) - begin);
+    sum += weights[Index(j)] * points[j]->iterate.forces.in_phase(phase, time);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Prediction through(const std::vector<const PathPoint*>& points, double place) {
+  const Eigen::VectorXd weights = lagrange_weights(points, place);
+  Prediction result{0.0, points.back()->iterate};
+  Layout& layout = result.iterate.layout;
+  for (Passage& passage : layout.passages) passage.time = 0.0;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    result.value += weights[Index(j)] * points[j]->value;
+    for (std::size_t i = 0; i < layout.passages.size(); ++i)
+      layout.passages[i].time += weights[Index(j)] * points[j]->iterate.layout.passages[i].time;
+  }
+  const Index q = points.back()->iterate.forces.coefficients().rows();
+  if (q == 0) return result;
+  const LegendreNodes nodes(q);
+  CellGrid grid = layout.grid();
+  Eigen::VectorXd values(q * Index(grid.panels.size()));
+  for (std::size_t p = 0; p < grid.panels.size(); ++p) {
+    const Panel& panel = grid.panels[p];
+    const Phase& phase = layout.phases[static_cast<std::size_t>(panel.phase)];
+    const double begin = layout.begin(phase), length = layout.end(phase) - begin;
+    for (Index i = 0; i < q; ++i)
+      values[q * Index(p) + i] =
+          weighted_force(points, weights, panel.phase, (panel.time(nodes.points[i]) - begin) / length);
+  }
+  result.iterate.forces = PanelForces(std::move(grid), nodes, values);
+  return result;
+}
+
+std::optional<PathPoint> zero_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+                                      const Held& held,
+                                      const std::function<double(const PathPoint&)>& function) {
+  std::optional<PathPoint> last;
+  const double forwards = model.sign_of(a, held);
+  const auto at = [&](double share) {
+    const double place = a.place + share * (b.place - a.place);
+    Prediction expected = through({&a, &b}, place);
+    last = model.solve(expected.value, std::move(expected.iterate), held, forwards);
+    if (!last) return missing;
+    last->place = place;
+    return function(*last);
+  };
+  const std::optional<double> share = root(at, {0.0, function(a)}, {1.0, function(b)}, 1e-14);
+  if (!share) return std::nullopt;
+  at(*share);
+  return last;
+}
+
+}  // namespace wavebalance::solvers::detail

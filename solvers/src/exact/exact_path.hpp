@@ -1,0 +1,78 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "exact/held_newton.hpp"
+#include "phases/phase_agreement.hpp"
+#include "wavebalance/solvers/exact/exact_curve.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// A motion of a curve, and how the curve goes on from it.
+struct PathPoint {
+  double value = 0.0;
+  double place = 0.0;  ///< arc length from the first point with these phases
+  PhaseIterate iterate;
+  Eigen::VectorXd direction;     ///< as of HeldSolution, forwards along the curve
+  Eigen::VectorXd displacement;  ///< m, of all contacts at times l / N
+  double vibration = 0.0;        ///< m, rms of the displacement about its mean
+  double force_size = 1.0;       ///< N
+  PhaseMotion motion;
+  Layout phases_of_motion;  ///< others than those of the iterate where it is no motion of the structure
+  bool agrees = false;
+};
+
+/// What is expected at another place of the curve.
+struct Prediction {
+  double value = 0.0;
+  PhaseIterate iterate;
+};
+
+/// What does not change along a curve.
+class PathModel {
+ public:
+  PathModel(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+
+  const PhaseFamily& family() const { return family_; }
+  const ExactCurveOptions& options() const { return options_; }
+  double length() const { return length_; }
+  double parameter_scale() const { return parameter_scale_; }
+  double arc_length(const PathPoint& from, const PathPoint& to) const;
+  /// The unknown that changes fastest forwards from a point, of passages, forces and, if it may be held, the
+  /// parameter; and by what share of a unit of arc length it does.
+  Held fastest(const PathPoint& at, bool parameter) const;
+  double speed(const PathPoint& at) const;
+  /// Of the change of the unknown held, forwards: 1 or -1.
+  double sign_of(const PathPoint& at, const Held& held) const;
+  /// Of a point from where it was expected, of the parameter and the passages; as arc length.
+  double distance(const Prediction& expected, const PathPoint& found) const;
+
+  /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs.
+  /// `forwards`: the sign of the change of the unknown held along the curve. Nothing where Newton's method
+  /// does not converge.
+  std::optional<PathPoint> solve(double value, PhaseIterate start, const Held& held, double forwards) const;
+
+ private:
+  PathPoint point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const;
+
+  const PhaseFamily& family_;
+  const ExactCurveOptions& options_;
+  double length_, vibration_, parameter_scale_;
+  Eigen::VectorXd times_;
+};
+
+/// Along the tangent, to first order.
+Prediction along_tangent(const PathPoint& at, double distance, double speed);
+/// By the polynomial through points with the same phases, which may have other panels.
+Prediction through(const std::vector<const PathPoint*>& points, double place);
+
+/// A zero of a function of the points between two neighbours, at which it has different signs, to rounding.
+/// `held`: an unknown that changes monotonically from one to the other. Nothing where a point between them is
+/// not found.
+std::optional<PathPoint> zero_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+                                      const Held& held,
+                                      const std::function<double(const PathPoint&)>& function);
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,141 @@
+#include "exact/grazing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/root.hpp"
+#include "linalg/index.hpp"
+#include "phases/phase_motion_parts.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// Numbers of the passages of a contact, in the order of its phases around the period.
+std::vector<int> passages_of(const Layout& layout, int contact) {
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < layout.passages.size(); ++i)
+    if (layout.passages[i].contact == contact) numbers.push_back(static_cast<int>(i));
+  return numbers;
+}
+
+int contacts_of(const Layout& layout) {
+  int count = 0;
+  for (const Passage& passage : layout.passages) count = std::max(count, passage.contact + 1);
+  return count;
+}
+
+Passage& passage(Layout& layout, int number) { return layout.passages[static_cast<std::size_t>(number)]; }
+
+const Passage& passage(const Layout& layout, int number) {
+  return layout.passages[static_cast<std::size_t>(number)];
+}
+
+// The phases on both sides of an interval become one; where they are the same, one that lasts the period.
+void join(std::vector<Phase>& phases, const Interval& interval) {
+  const auto before =
+      std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.end == interval.from; });
+  const auto after =
+      std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.begin == interval.to; });
+  if (before == phases.end() || after == phases.end()) return;
+  if (before == after) {
+    *before = {before->contact, before->piece, -1, -1, 1.0, {0.25, 0.5, 0.75}};
+    return;
+  }
+  before->end = after->end;
+  before->cuts.clear();
+  phases.erase(after);
+}
+
+// The whole turns that bring the end of each phase behind its begin.
+void set_turns(Layout& layout) {
+  for (Phase& phase : layout.phases) {
+    if (phase.begin < 0) continue;
+    const double length = passage(layout, phase.end).time - passage(layout, phase.begin).time;
+    phase.turns = 1.0 - std::ceil(length);
+    if (length + phase.turns <= 0.0) phase.turns += 1.0;
+  }
+}
+
+void erase_passage(Layout& layout, int number) {
+  layout.passages.erase(layout.passages.begin() + number);
+  for (Phase& phase : layout.phases) {
+    if (phase.begin > number) --phase.begin;
+    if (phase.end > number) --phase.end;
+  }
+}
+
+}  // namespace
+
+std::vector<Interval> intervals_of(const Layout& layout) {
+  std::vector<Interval> intervals;
+  for (int c = 0; c < contacts_of(layout); ++c) {
+    const std::vector<int> numbers = passages_of(layout, c);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const bool last = i + 1 == numbers.size();
+      const int from = numbers[i], to = numbers[last ? 0 : i + 1];
+      const Passage &a = passage(layout, from), &b = passage(layout, to);
+      if (a.breakpoint != b.breakpoint || a.released || b.released || from == to) continue;
+      intervals.push_back({c, from, to, a.time, b.time - a.time + (last ? 1.0 : 0.0)});
+    }
+  }
+  std::sort(intervals.begin(), intervals.end(),
+            [](const Interval& a, const Interval& b) { return a.length < b.length; });
+  return intervals;
+}
+
+double growth(const PathPoint& at, const Interval& interval) {
+  const Index n = at.direction.size() - 1 - Index(at.iterate.layout.passages.size());
+  return at.direction[n + interval.to] - at.direction[n + interval.from];
+}
+
+Layout without(Layout layout, std::vector<Interval> intervals) {
+  std::vector<int> numbers;
+  for (const Interval& interval : intervals) {
+    std::erase_if(layout.phases, [&](const Phase& phase) {
+      return phase.begin == interval.from && phase.end == interval.to;
+    });
+    join(layout.phases, interval);
+    numbers.push_back(interval.from);
+    numbers.push_back(interval.to);
+  }
+  std::sort(numbers.rbegin(), numbers.rend());
+  for (const int number : numbers) erase_passage(layout, number);
+  set_turns(layout);
+  return layout;
+}
+
+Grazing grazing_of(const PathPoint& at, const Layout& layout, const Interval& interval) {
+  const double middle = interval.begin + 0.5 * interval.length;
+  const double there = at.motion.displacement(Eigen::VectorXd::Constant(1, middle))(interval.contact, 0);
+  const double breakpoint = passage(layout, interval.from).breakpoint;
+  return {interval.contact, breakpoint, middle, interval.length, there > breakpoint};
+}
+
+double passed_by(const PathPoint& at, const Grazing& grazing) {
+  constexpr double least = 1e-3, most = 0.1;
+  const auto velocity = [&](double time) {
+    return at.motion.velocity(Eigen::VectorXd::Constant(1, time))(grazing.contact, 0);
+  };
+  for (double width = std::max(least, grazing.width); width < most; width *= 2.0) {
+    const double from = grazing.time - width, to = grazing.time + width;
+    const std::optional<double> time = root(velocity, {from, velocity(from)}, {to, velocity(to)}, 1e-13);
+    if (!time) continue;
+    const double extremum = at.motion.displacement(Eigen::VectorXd::Constant(1, *time))(grazing.contact, 0);
+    return grazing.above ? extremum - grazing.breakpoint : grazing.breakpoint - extremum;
+  }
+  return missing;
+}
+
+PhaseIterate with_layout(const PathPoint& at, Layout layout) {
+  const PanelForces& old = at.iterate.forces;
+  const LegendreNodes nodes(std::max<Index>(4, old.coefficients().rows()));
+  CellGrid grid = layout.grid();
+  Eigen::VectorXd values(nodes.count() * Index(grid.panels.size()));
+  for (std::size_t p = 0; p < grid.panels.size(); ++p)
+    for (Index i = 0; i < nodes.count(); ++i)
+      values[nodes.count() * Index(p) + i] =
+          old.at(grid.panels[p].contact, grid.panels[p].time(nodes.points[i]));
+  return {std::move(layout), PanelForces(std::move(grid), nodes, values)};
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,101 @@
+#include "exact/held_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linalg/dense.hpp"
+#include "linalg/index.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+Eigen::VectorXd slope_by_parameter(const PhaseFamily& family, double length, double value,
+                                   const PhaseIterate& at, const Evaluation& now,
+                                   const LegendreNodes& nodes) {
+  const double change = 1e-7 * value;
+  const PhaseModel beside(family.at(value + change), length);
+  return (evaluate(beside, at, nodes).residual - now.residual) / change;
+}
+
+// Newton's matrix with the slope by the parameter in the place of that by the unknown held.
+struct HeldMatrix {
+  Lu<double> factor;
+  Eigen::VectorXd column;  // of the unknown held
+};
+
+HeldMatrix matrix_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes, Index held,
+                     const Eigen::VectorXd& by_parameter) {
+  Eigen::MatrixXd matrix = jacobian(at, now, nodes, now.influence);
+  if (held == now.residual.size()) return {Lu<double>(matrix), by_parameter};
+  const Eigen::VectorXd column = matrix.col(held);
+  matrix.col(held) = by_parameter;
+  return {Lu<double>(matrix), column};
+}
+
+// The unknowns with the parameter last: `solved` has it in the place of the one held, which is `own`.
+Eigen::VectorXd ordered(Eigen::VectorXd solved, Index held, double own) {
+  const Index count = solved.size();
+  solved.conservativeResize(count + 1);
+  solved[count] = own;
+  if (held < count) std::swap(solved[held], solved[count]);
+  return solved;
+}
+
+double part_of_step(const PhaseIterate& at, const Eigen::VectorXd& step, Index forces, double value) {
+  constexpr double largest_change = 0.05;
+  const Index passages = step.size() - 1 - forces;
+  const double change = std::abs(step[step.size() - 1] / value);
+  return std::min(admissible_part(at.layout, step.segment(forces, passages)),
+                  largest_change / std::max(largest_change, change));
+}
+
+}  // namespace
+
+Index Held::number(Index forces, Index passages) const {
+  if (kind == Kind::parameter) return forces + passages;
+  return kind == Kind::passage ? forces + index : index;
+}
+
+HeldSolution solve_held(const PhaseFamily& family, double length, double value, PhaseIterate start,
+                        const LegendreNodes& nodes, const Held& held, const NewtonLimits& limits) {
+  constexpr double enough = 1e-9;
+  HeldSolution result{{}, value, {}};
+  PhaseIterate& at = result.newton.iterate;
+  at = std::move(start);
+  double before = std::numeric_limits<double>::infinity();
+  for (;; ++result.newton.iterations) {
+    const PhaseModel model(family.at(result.value), length);
+    const Evaluation now = evaluate(model, at, nodes);
+    const Index n = now.force.size(), m = now.passing.size(), number = held.number(n, m);
+    result.newton.residual = now.error();
+    at.forces = PanelForces(now.grid, nodes, now.force);
+    const double residual = result.newton.residual;
+    if (!std::isfinite(residual)) return result;
+    const HeldMatrix matrix =
+        matrix_of(at, now, nodes, number, slope_by_parameter(family, length, result.value, at, now, nodes));
+    if (residual < limits.tolerance || (residual < enough && residual > 0.5 * before)) {
+      result.newton.converged = true;
+      result.direction = ordered(matrix.factor.solve(Eigen::VectorXd(-matrix.column)), number, 1.0);
+      set_errors(result.newton, now, nodes, model.frequency, [&](const Eigen::VectorXd& by) {
+        Eigen::VectorXd answer = matrix.factor.solve(Eigen::VectorXd(-by));
+        if (number < answer.size()) answer[number] = 0.0;
+        return answer;
+      });
+      return result;
+    }
+    before = residual;
+    if (result.newton.iterations == limits.max_iterations) return result;
+    if (!goes_on(limits.observer, {"exact curve", result.newton.iterations, residual})) return result;
+    const Eigen::VectorXd step = ordered(matrix.factor.solve(Eigen::VectorXd(-now.residual)), number, 0.0);
+    if (!step.allFinite()) return result;
+    const double part = part_of_step(at, step, n, result.value);
+    at.forces = PanelForces(now.grid, nodes, now.force + part * step.head(n));
+    for (Index i = 0; i < m; ++i) at.layout.passages[static_cast<std::size_t>(i)].time += part * step[n + i];
+    result.value += part * step[n + m];
+    result.newton.collapsed = has_collapsed(at.layout);
+    if (result.newton.collapsed || !(result.value > 0.0)) return result;
+  }
+}
+
+}  // namespace wavebalance::solvers::detail

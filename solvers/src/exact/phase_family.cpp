@@ -1,0 +1,40 @@
+#include "wavebalance/solvers/exact/phase_family.hpp"
+
+#include "phases/phase_loads.hpp"
+
+namespace wavebalance::solvers {
+
+struct PhaseFamily::Parts {
+  ContactLaws laws;
+  const ContactDynamics* dynamics;
+  SweepParameter parameter;
+  detail::FreeContacts free;
+  double frequency, factor, full_load;
+  int periods;
+};
+
+PhaseFamily::PhaseFamily(const CondensedProblem& problem, ContactLaws laws, const ContactDynamics& dynamics,
+                         SweepParameter parameter)
+    : parts_(std::make_unique<Parts>(
+          Parts{std::move(laws), &dynamics, parameter,
+                detail::FreeContacts(problem.structure(), problem.load_harmonics(), dynamics.holding()),
+                problem.frequency(), problem.load_factor(), problem.full_load(), problem.periods()})) {
+  parts_->laws.require(problem.contacts());
+}
+
+PhaseFamily::PhaseFamily(PhaseFamily&&) noexcept = default;
+PhaseFamily& PhaseFamily::operator=(PhaseFamily&&) noexcept = default;
+PhaseFamily::~PhaseFamily() = default;
+
+SweepParameter PhaseFamily::parameter() const { return parts_->parameter; }
+const ContactLaws& PhaseFamily::laws() const { return parts_->laws; }
+const ContactDynamics& PhaseFamily::dynamics() const { return *parts_->dynamics; }
+
+PhasesProblem PhaseFamily::at(double value) const {
+  const bool varies = parts_->parameter == SweepParameter::frequency;
+  const double frequency = varies ? value / parts_->periods : parts_->frequency,
+               factor = varies ? parts_->factor : value / parts_->full_load;
+  return {*parts_->dynamics, parts_->laws, parts_->free.at(frequency, factor), frequency};
+}
+
+}  // namespace wavebalance::solvers

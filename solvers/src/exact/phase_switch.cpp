@@ -1,0 +1,126 @@
+#include "exact/phase_switch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linalg/index.hpp"
+#include "phases/phase_motion_parts.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// Periods. The length of a new interval grows like the root of the distance from grazing, so that intervals
+// of this length lie very near to it; the cubics between samples still see them.
+constexpr double short_interval = 1e-2, vanishing_interval = 6e-3;
+
+// The shortest interval of the motion that the equations do not have.
+std::optional<Interval> new_interval(const PathPoint& point) {
+  for (const Interval& interval : intervals_of(point.phases_of_motion))
+    if (!same_phases(point.iterate.layout, point.phases_of_motion, interval.contact)) return interval;
+  return std::nullopt;
+}
+
+// A point beyond grazing whose motion has the new interval with about the length that is wanted.
+std::optional<PathPoint> slightly_beyond(const PathModel& model, const PathPoint& grazing,
+                                         const PathPoint& next, double length, const Held& held,
+                                         double forwards) {
+  if (length <= short_interval) return next;
+  const double share = std::pow(short_interval / length, 2);
+  const double place = grazing.place + share * (next.place - grazing.place);
+  Prediction expected = through({&grazing, &next}, place);
+  return model.solve(expected.value, std::move(expected.iterate), held, forwards);
+}
+
+PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
+  constexpr Index instants = 1024;
+  const PhaseModel own(model.family().at(at.value), model.length());
+  const LegendreNodes& nodes = at.motion.parts->nodes;
+  const ContactMotion motion = own.motion(
+      at.iterate.forces, nodes, Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / double(instants)));
+  Layout layout = layout_of(own.laws, own.frequency, motion.displacement, motion.velocity);
+  PanelForces forces = forces_along(own, layout, nodes, motion);
+  return {std::move(layout), std::move(forces)};
+}
+
+void turn_around(PathPoint& point) { point.direction = -point.direction; }
+
+// The solution with the phases of its own motion, of which the end of the new interval is held.
+std::optional<PathPoint> with_new_interval(const PathModel& model, const PathPoint& beyond) {
+  PhaseIterate start = along_own_motion(model, beyond);
+  const std::vector<Interval> intervals = intervals_of(start.layout);
+  for (const Interval& interval : intervals) {
+    if (interval.length > 3.0 * short_interval) break;
+    const Held held{Held::Kind::passage, interval.to};
+    std::optional<PathPoint> found = model.solve(beyond.value, start, held, 1.0);
+    if (!found || !found->agrees) continue;
+    if (growth(*found, interval) < 0.0) turn_around(*found);
+    return found;
+  }
+  return std::nullopt;
+}
+
+// Where the phases without an interval graze, over the parameter, by the secant method; and forwards from
+// there, towards motions that do not pass the breakpoint.
+std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint& start,
+                                         const Grazing& grazing) {
+  constexpr int most = 20;
+  const Held held{};
+  double before = start.value, passed_before = passed_by(start, grazing);
+  double now = before * (1.0 + 1e-7);
+  std::optional<PathPoint> point;
+  PhaseIterate iterate = start.iterate;
+  for (int i = 0; i < most; ++i) {
+    point = model.solve(now, iterate, held, 1.0);
+    if (!point) return std::nullopt;
+    const double passed = passed_by(*point, grazing), slope = (passed - passed_before) / (now - before);
+    if (!std::isfinite(slope)) return std::nullopt;
+    const double step = -passed / slope;
+    if (std::abs(step) < 1e-14 * now || passed == passed_before) {
+      if (slope > 0.0) turn_around(*point);
+      return point;
+    }
+    if (std::abs(step) > 0.2 * model.parameter_scale()) return std::nullopt;
+    iterate = point->iterate;
+    before = now;
+    passed_before = passed;
+    now += step;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Switch> appearance(const PathModel& model, const PathPoint& current, const PathPoint& next) {
+  const std::optional<Interval> interval = new_interval(next);
+  if (!interval) return std::nullopt;
+  const Grazing grazing = grazing_of(next, next.phases_of_motion, *interval);
+  const bool turns = current.direction.tail(1)[0] * next.direction.tail(1)[0] < 0.0;
+  const Held held = model.fastest(current, !turns);
+  std::optional<PathPoint> at = zero_between(
+      model, current, next, held, [&](const PathPoint& point) { return passed_by(point, grazing); });
+  if (!at) return std::nullopt;
+  const std::optional<PathPoint> beyond =
+      slightly_beyond(model, *at, next, interval->length, held, model.sign_of(current, held));
+  if (!beyond) return std::nullopt;
+  std::optional<PathPoint> behind = with_new_interval(model, *beyond);
+  if (!behind) return std::nullopt;
+  return Switch{std::move(*at), std::move(*behind)};
+}
+
+std::optional<Switch> disappearance(const PathModel& model, const PathPoint& current) {
+  std::vector<Interval> vanishing = intervals_of(current.iterate.layout);
+  std::erase_if(vanishing, [&](const Interval& interval) {
+    return interval.length > vanishing_interval || growth(current, interval) >= 0.0;
+  });
+  if (vanishing.empty()) return std::nullopt;
+  const Grazing grazing = grazing_of(current, current.iterate.layout, vanishing.front());
+  const std::optional<PathPoint> start = model.solve(
+      current.value, with_layout(current, without(current.iterate.layout, vanishing)), Held{}, 1.0);
+  if (!start) return std::nullopt;
+  std::optional<PathPoint> at = grazing_without(model, *start, grazing);
+  if (!at) return std::nullopt;
+  PathPoint next = *at;
+  return Switch{std::move(*at), std::move(next)};
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+
+#include "exact/grazing.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Where a curve goes on with other phases: the grazing motion, and the first point behind it.
+struct Switch {
+  PathPoint grazing;  ///< without the interval that appears or vanishes
+  PathPoint next;
+};
+
+/// An interval that `next`, a solution with the phases of `current`, has beyond them appears between the two.
+/// Nothing where it is none that grows from no length, or the solutions are not found.
+std::optional<Switch> appearance(const PathModel& model, const PathPoint& current, const PathPoint& next);
+
+/// The shortest interval of `current` vanishes soon behind it: it is short and becomes shorter. Nothing where
+/// it does not.
+std::optional<Switch> disappearance(const PathModel& model, const PathPoint& current);
+
+}  // namespace wavebalance::solvers::detail
