@@ -17,8 +17,6 @@ namespace {
 
 using detail::Held, detail::PathModel, detail::PathPoint, detail::Prediction, detail::Switch;
 
-double slope_of(const PathPoint& point) { return point.direction[point.direction.size() - 1]; }
-
 // Follows one curve: `points_` are the last ones with the same phases.
 class Tracer {
  public:
@@ -73,10 +71,13 @@ class Tracer {
 
   // The next point, if it lies where it is expected.
   std::optional<PathPoint> corrected() {
-    constexpr double near = 0.05, farthest = 0.25, longest = 2.5;
+    constexpr double near = 0.05, farthest = 0.25, longest = 2.5, sharper = 0.3;
     const PathPoint& last = points_.back();
-    Prediction expected = points_.size() > 1 ? detail::through(neighbours(), last.place + step_)
-                                             : detail::along_tangent(last, step_, model_.speed(last));
+    // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
+    const bool smooth =
+        points_.size() > 1 && step_ > sharper * (last.place - points_[points_.size() - 2].place);
+    Prediction expected = smooth ? detail::through(neighbours(), last.place + step_)
+                                 : detail::along_tangent(last, step_, model_.speed(last));
     if (!(expected.value > 0.0) || shrinks(last.iterate.layout, expected.iterate.layout)) return std::nullopt;
     const Held held = model_.fastest(last, true);
     std::optional<PathPoint> next =
@@ -116,7 +117,7 @@ class Tracer {
     ExactPoint& added = curve_.points.emplace_back();
     added.value = point.value;
     added.motion = point.motion;
-    added.slope = slope_of(point) / model_.speed(point);
+    added.slope = point.slope() / model_.speed(point);
     added.multipliers = multipliers_of(point);
     added.unstable = detail::unstable_of(added.multipliers);
     points_.push_back(std::move(point));
@@ -131,6 +132,12 @@ class Tracer {
     }
   }
 
+  void note_fold(const PathPoint& fold) {
+    curve_.events.push_back({SpecialPointType::fold, fold.value,
+                             detail::nearest(fold.motion.multipliers(), 1.0), fold.motion,
+                             curve_.points.size()});
+  }
+
   SweepStatus end_at(double value) const {
     return (value > options_.from) == (options_.to > options_.from) && value != options_.from
                ? SweepStatus::reached_end
@@ -142,11 +149,13 @@ class Tracer {
       curve_.status = end_at(over.grazing.value);
       return;
     }
+    if (over.fold && !over.fold_is_behind) note_fold(*over.fold);
     curve_.events.push_back({SpecialPointType::grazing,
                              over.grazing.value,
                              {missing, missing},
                              over.grazing.motion,
                              curve_.points.size()});
+    if (over.fold && over.fold_is_behind) note_fold(*over.fold);
     points_.clear();
     step_ = std::min(step_, options_.first_step);
     accept(std::move(over.next));

@@ -13,8 +13,6 @@ struct Located {
   ExactEvent event;
 };
 
-double slope_of(const PathPoint& point) { return point.direction[point.direction.size() - 1]; }
-
 // The modulus of the multiplier of that number, the largest first, less 1.
 double beyond_circle(const PathPoint& point, Index number) {
   const Eigen::VectorXcd multipliers = point.motion.multipliers();
@@ -31,7 +29,8 @@ std::complex<double> upper(std::complex<double> multiplier) {
   return {multiplier.real(), std::abs(multiplier.imag())};
 }
 
-// The multiplier nearest to a place on the unit circle.
+}  // namespace
+
 std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<double> place) {
   std::complex<double> best(missing, missing);
   double distance = std::numeric_limits<double>::infinity();
@@ -43,8 +42,6 @@ std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<d
   return upper(best);
 }
 
-}  // namespace
-
 int unstable_of(const Eigen::VectorXcd& multipliers) {
   if (multipliers.size() == 0) return -1;
   return static_cast<int>((multipliers.array().abs() > 1.0).count());
@@ -53,10 +50,11 @@ int unstable_of(const Eigen::VectorXcd& multipliers) {
 std::vector<ExactEvent> events_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
                                        const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b) {
   std::vector<Located> found;
-  const bool turns = slope_of(a) * slope_of(b) < 0.0;
+  const bool turns = a.slope() * b.slope() < 0.0;
   const Held held = model.fastest(a, !turns);
   if (turns) {
-    const std::optional<PathPoint> fold = zero_between(model, a, b, held, slope_of);
+    const std::optional<PathPoint> fold =
+        zero_between(model, a, b, held, [](const PathPoint& point) { return point.slope(); });
     if (fold)
       found.push_back(
           {fold->place,

@@ -1,4 +1,5 @@
 #pragma once
+#include <complex>
 #include <vector>
 
 #include "exact/exact_path.hpp"
@@ -7,6 +8,9 @@ namespace wavebalance::solvers::detail {
 
 /// Multipliers outside the unit circle; -1 where none are known.
 int unstable_of(const Eigen::VectorXcd& multipliers);
+
+/// The multiplier nearest to a place on the unit circle, Im >= 0; NaN where none is known.
+std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<double> place);
 
 /// The special points between two neighbours with the same phases, in their order: folds, and with
 /// `stability` where multipliers pass the unit circle. `multipliers` are those of the neighbours.

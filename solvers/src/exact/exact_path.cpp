@@ -49,7 +49,7 @@ double PathModel::arc_length(const PathPoint& from, const PathPoint& to) const {
 }
 
 Held PathModel::fastest(const PathPoint& at, bool parameter) const {
-  const Index m = Index(at.iterate.layout.passages.size()), n = at.direction.size() - m - 1;
+  const Index m = at.passages(), n = at.forces();
   Held best{Held::Kind::force, 0};
   double most = -1.0;
   const auto offer = [&](Held::Kind kind, Index index, double share) {
@@ -66,7 +66,7 @@ Held PathModel::fastest(const PathPoint& at, bool parameter) const {
 }
 
 double PathModel::speed(const PathPoint& at) const {
-  const Index m = Index(at.iterate.layout.passages.size()), n = at.direction.size() - m - 1;
+  const Index m = at.passages(), n = at.forces();
   double fastest = std::abs(at.direction[n + m]) / parameter_scale_;
   if (m > 0) fastest = std::max(fastest, at.direction.segment(n, m).cwiseAbs().maxCoeff() / passage_scale);
   if (n > 0)
@@ -75,8 +75,7 @@ double PathModel::speed(const PathPoint& at) const {
 }
 
 double PathModel::sign_of(const PathPoint& at, const Held& held) const {
-  const Index m = Index(at.iterate.layout.passages.size()), n = at.direction.size() - m - 1;
-  return at.direction[held.number(n, m)] < 0.0 ? -1.0 : 1.0;
+  return at.motion_of(held) < 0.0 ? -1.0 : 1.0;
 }
 
 double PathModel::distance(const Prediction& expected, const PathPoint& found) const {
@@ -135,9 +134,8 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
 
 Prediction along_tangent(const PathPoint& at, double distance, double speed) {
   const double step = distance / speed;
-  Prediction result{at.value + step * at.direction[at.direction.size() - 1], at.iterate};
-  const auto m = Index(at.iterate.layout.passages.size());
-  const Index n = at.direction.size() - m - 1;
+  Prediction result{at.value + step * at.slope(), at.iterate};
+  const Index m = at.passages(), n = at.forces();
   if (n > 0) {
     const PanelForces& forces = at.iterate.forces;
     const LegendreNodes nodes(forces.coefficients().rows());

@@ -22,6 +22,13 @@ struct PathPoint {
   PhaseMotion motion;
   Layout phases_of_motion;  ///< others than those of the iterate where it is no motion of the structure
   bool agrees = false;
+
+  Eigen::Index passages() const { return static_cast<Eigen::Index>(iterate.layout.passages.size()); }
+  Eigen::Index forces() const { return direction.size() - 1 - passages(); }
+  /// Of the parameter, the passage and the unknown held, forwards along the curve.
+  double slope() const { return direction[direction.size() - 1]; }
+  double motion_of(int passage) const { return direction[forces() + passage]; }
+  double motion_of(const Held& held) const { return direction[held.number(forces(), passages())]; }
 };
 
 /// What is expected at another place of the curve.

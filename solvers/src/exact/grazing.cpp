@@ -84,8 +84,7 @@ std::vector<Interval> intervals_of(const Layout& layout) {
 }
 
 double growth(const PathPoint& at, const Interval& interval) {
-  const Index n = at.direction.size() - 1 - Index(at.iterate.layout.passages.size());
-  return at.direction[n + interval.to] - at.direction[n + interval.from];
+  return at.motion_of(interval.to) - at.motion_of(interval.from);
 }
 
 Layout without(Layout layout, std::vector<Interval> intervals) {

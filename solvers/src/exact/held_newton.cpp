@@ -59,7 +59,6 @@ Index Held::number(Index forces, Index passages) const {
 
 HeldSolution solve_held(const PhaseFamily& family, double length, double value, PhaseIterate start,
                         const LegendreNodes& nodes, const Held& held, const NewtonLimits& limits) {
-  constexpr double enough = 1e-9;
   HeldSolution result{{}, value, {}};
   PhaseIterate& at = result.newton.iterate;
   at = std::move(start);
@@ -69,12 +68,15 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     const Evaluation now = evaluate(model, at, nodes);
     const Index n = now.force.size(), m = now.passing.size(), number = held.number(n, m);
     result.newton.residual = now.error();
+    if (getenv("DBG2"))
+      fprintf(stderr, "     n%ld m%ld q%ld val %.10f r %.3e\n", (long)n, (long)m, (long)nodes.count(),
+              result.value, now.error());
     at.forces = PanelForces(now.grid, nodes, now.force);
     const double residual = result.newton.residual;
     if (!std::isfinite(residual)) return result;
     const HeldMatrix matrix =
         matrix_of(at, now, nodes, number, slope_by_parameter(family, length, result.value, at, now, nodes));
-    if (residual < limits.tolerance || (residual < enough && residual > 0.5 * before)) {
+    if (residual < limits.tolerance || now.is_rounding(before)) {
       result.newton.converged = true;
       result.direction = ordered(matrix.factor.solve(Eigen::VectorXd(-matrix.column)), number, 1.0);
       set_errors(result.newton, now, nodes, model.frequency, [&](const Eigen::VectorXd& by) {

@@ -44,8 +44,42 @@ PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
 
 void turn_around(PathPoint& point) { point.direction = -point.direction; }
 
+// A point with an interval.
+struct WithInterval {
+  PathPoint point;
+  Interval interval;
+};
+
+// Where the curve reverses between grazing and a point with the interval. Its length is halved until the
+// parameter has the other slope. The fold that is not found lies so near that both are one to ten digits,
+// since the parameter differs by the square of the length.
+std::optional<PathPoint> fold_beside(const PathModel& model, const PathPoint& grazing,
+                                     const WithInterval& from) {
+  constexpr double shortest = 1e-5;
+  if (from.point.slope() * grazing.slope() >= 0.0) return std::nullopt;
+  PathPoint before = from.point;
+  double length = from.interval.length;
+  const auto moves = [&](int passage) { return std::abs(before.motion_of(passage)); };
+  const Held held{Held::Kind::passage, moves(from.interval.to) > moves(from.interval.from)
+                                           ? from.interval.to
+                                           : from.interval.from};
+  const double forwards = model.sign_of(before, held);
+  for (; length > shortest; length *= 0.5) {
+    const Prediction expected = along_tangent(before, -0.5 * length, growth(before, from.interval));
+    std::optional<PathPoint> shorter = model.solve(expected.value, expected.iterate, held, forwards);
+    if (!shorter) break;
+    before.place = 0.0;
+    shorter->place = 1.0;
+    if (shorter->slope() * before.slope() < 0.0)
+      return zero_between(model, before, *shorter, held,
+                          [](const PathPoint& point) { return point.slope(); });
+    before = std::move(*shorter);
+  }
+  return grazing;
+}
+
 // The solution with the phases of its own motion, of which the end of the new interval is held.
-std::optional<PathPoint> with_new_interval(const PathModel& model, const PathPoint& beyond) {
+std::optional<WithInterval> with_new_interval(const PathModel& model, const PathPoint& beyond) {
   PhaseIterate start = along_own_motion(model, beyond);
   const std::vector<Interval> intervals = intervals_of(start.layout);
   for (const Interval& interval : intervals) {
@@ -54,7 +88,7 @@ std::optional<PathPoint> with_new_interval(const PathModel& model, const PathPoi
     std::optional<PathPoint> found = model.solve(beyond.value, start, held, 1.0);
     if (!found || !found->agrees) continue;
     if (growth(*found, interval) < 0.0) turn_around(*found);
-    return found;
+    return WithInterval{std::move(*found), interval};
   }
   return std::nullopt;
 }
@@ -94,7 +128,7 @@ std::optional<Switch> appearance(const PathModel& model, const PathPoint& curren
   const std::optional<Interval> interval = new_interval(next);
   if (!interval) return std::nullopt;
   const Grazing grazing = grazing_of(next, next.phases_of_motion, *interval);
-  const bool turns = current.direction.tail(1)[0] * next.direction.tail(1)[0] < 0.0;
+  const bool turns = current.slope() * next.slope() < 0.0;
   const Held held = model.fastest(current, !turns);
   std::optional<PathPoint> at = zero_between(
       model, current, next, held, [&](const PathPoint& point) { return passed_by(point, grazing); });
@@ -102,9 +136,10 @@ std::optional<Switch> appearance(const PathModel& model, const PathPoint& curren
   const std::optional<PathPoint> beyond =
       slightly_beyond(model, *at, next, interval->length, held, model.sign_of(current, held));
   if (!beyond) return std::nullopt;
-  std::optional<PathPoint> behind = with_new_interval(model, *beyond);
+  std::optional<WithInterval> behind = with_new_interval(model, *beyond);
   if (!behind) return std::nullopt;
-  return Switch{std::move(*at), std::move(*behind)};
+  std::optional<PathPoint> fold = fold_beside(model, *at, *behind);
+  return Switch{std::move(*at), std::move(behind->point), std::move(fold), true};
 }
 
 std::optional<Switch> disappearance(const PathModel& model, const PathPoint& current) {
@@ -119,8 +154,9 @@ std::optional<Switch> disappearance(const PathModel& model, const PathPoint& cur
   if (!start) return std::nullopt;
   std::optional<PathPoint> at = grazing_without(model, *start, grazing);
   if (!at) return std::nullopt;
+  std::optional<PathPoint> fold = fold_beside(model, *at, {current, vanishing.front()});
   PathPoint next = *at;
-  return Switch{std::move(*at), std::move(next)};
+  return Switch{std::move(*at), std::move(next), std::move(fold), false};
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -9,6 +9,11 @@ namespace wavebalance::solvers::detail {
 struct Switch {
   PathPoint grazing;  ///< without the interval that appears or vanishes
   PathPoint next;
+  /// Where the curve reverses so near to grazing that it lies between `grazing` and the point with the
+  /// interval; behind grazing where the interval appears, else before it. Nearer than rounding it is grazing
+  /// itself.
+  std::optional<PathPoint> fold{};
+  bool fold_is_behind = false;
 };
 
 /// An interval that `next`, a solution with the phases of `current`, has beyond them appears between the two.

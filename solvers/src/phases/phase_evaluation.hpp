@@ -37,6 +37,20 @@ struct Evaluation {
     const double places = m > 0 ? residual.tail(m).cwiseAbs().maxCoeff() / displacement_size : 0.0;
     return std::max(force_error(), places);
   }
+  /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the largest
+  /// force, or forces of its size move the contacts by nothing. A short contact has a small force and the
+  /// rounding errors of large displacements.
+  bool is_rounding(double before) const {
+    constexpr double small = 1e-9, nothing = 1e-12;
+    const double now = error();
+    if (!(now > 0.5 * before)) return false;
+    const Eigen::Index n = force.size(), m = residual.size() - n;
+    if (now < small) return true;
+    double moved = m > 0 ? residual.tail(m).cwiseAbs().maxCoeff() : 0.0;
+    if (n > 0)
+      moved = std::max(moved, (influence.displacement.leftCols(n) * residual.head(n)).cwiseAbs().maxCoeff());
+    return moved < nothing * displacement_size;
+  }
 };
 
 Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes);

@@ -77,7 +77,6 @@ void set_errors(PhaseNewtonResult& result, const Evaluation& now, const Legendre
 
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits) {
-  constexpr double enough = 1e-9;
   PhaseNewtonResult result;
   result.iterate = std::move(start);
   double before = std::numeric_limits<double>::infinity();
@@ -86,8 +85,7 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     Evaluation now = evaluate(model, result.iterate, nodes);
     result.residual = now.error();
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
-    const bool stands = result.residual < enough && result.residual > 0.5 * before;
-    if (result.residual < limits.tolerance || stands) {
+    if (result.residual < limits.tolerance || now.is_rounding(before)) {
       result.converged = true;
       if (now.residual.size() > 0 && (!factor || factor->size() != now.residual.size()))
         factor = factor_of(result.iterate, now, nodes, now.residual.size());

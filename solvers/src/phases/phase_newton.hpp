@@ -25,8 +25,8 @@ struct NewtonLimits {
   const Observer& observer;
 };
 
-/// Newton's method on the forces at q nodes of each panel and the instants of all passages. A residual below
-/// 1e-9 that falls no more is converged, too.
+/// Newton's method on the forces at q nodes of each panel and the instants of all passages. That with
+/// the residual of rounding, Evaluation::is_rounding(), is converged, too.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits);
 /// The same on the forces alone.
