@@ -115,6 +115,27 @@ void check_subharmonic(const Document& document, const Scene& scene) {
 }
 
 /// Branches begin where multipliers pass the unit circle.
+/// What an exact curve does not do yet, or does not need.
+void check_exact(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  if (!analysis.exact) return;
+  const auto refuse = [&](bool given, const char* key) {
+    if (given)
+      fail_rule(document, {"analysis.exact", key},
+                std::string("not with ") + key + "; expected analysis.exact = false, or no " + key);
+  };
+  refuse(analysis.branches, "analysis.branches");
+  refuse(!analysis.motion_at.empty(), "analysis.motion_at");
+  refuse(analysis.phases, "analysis.phases");
+  refuse(analysis.subharmonic > 1, "analysis.subharmonic");
+  refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor");
+  if (is_rigid(scene.contact.law))
+    fail_rule(
+        document, {"analysis.exact", "contact.law"},
+        "not with a rigid contact, whose beginnings and ends are not solved for along a curve; expected an "
+        "elastic law, or analysis.exact = false");
+}
+
 void check_branches(const Document& document, const Scene& scene) {
   if (!scene.analysis.branches) return;
   if (is_rigid(scene.contact.law))
@@ -318,6 +339,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (!mode) check_series(document, scene);
   if (!stepping && !mode && !phases) check_subharmonic(document, scene);
   check_branches(document, scene);
+  check_exact(document, scene);
   check_dense_size(document, scene);
 }
 

@@ -204,9 +204,13 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   append_phases(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
   append_motions(record, scene, model, sweep, motions);
-  append_discretisation(record.summary, scene.time);
-  record.summary.emplace_back(quantities::form, std::string(to_string(sweep.curve.form)));
-  append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
+  if (scene.analysis.exact) {
+    record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::phases));
+  } else {
+    append_discretisation(record.summary, scene.time);
+    record.summary.emplace_back(quantities::form, std::string(to_string(sweep.curve.form)));
+    append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
+  }
   append_structure(record.summary, model);
   record.sweep = sweep_table(sweep, scene.analysis.branches);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
@@ -216,6 +220,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                    const StartMotion& start) {
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
+  if (scene.analysis.exact) return exact_sweep(scene, model, observer, start);
   Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer)
                                : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);

@@ -88,9 +88,13 @@ std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& res
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
                                                   const ContactPhasesOptions& options) {
-  constexpr int points = 1024;  // a start needs no more
   if (!dynamics() || !settled.integrated()) return std::nullopt;
   load_fully(frequency);
+  return phases_here(settled, options);
+}
+
+PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const ContactPhasesOptions& options) {
+  constexpr int points = 1024;  // a start needs no more
   const auto samples = [&](const Eigen::MatrixXd& values) {
     return by_contact(resample(values, points, settled.start), contacts());
   };
@@ -143,6 +147,46 @@ FrequencySweep ContactProblem::sweep(const FrequencySweepOptions& options, const
 FrequencySweep ContactProblem::amplitude_sweep(double frequency, const FrequencySweepOptions& options) {
   condensed_.set_load_frequency(frequency);
   return solvers::amplitude_sweep(condensed_, laws_, options);
+}
+
+std::optional<PhaseMotion> ContactProblem::motion_here(const ExactCurveOptions& options,
+                                                       const ForcedResponseOptions& how,
+                                                       const ResponseStart& start) {
+  const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
+  if (response.status == SolveStatus::cancelled) return std::nullopt;
+  if (response.converged()) {
+    ResponsePhases found = response_phases(condensed_, laws_, response, *dynamics(), options.phases);
+    if (found.motion.parts != nullptr) return std::move(found.motion);
+  }
+  SettlingOptions settling;
+  settling.observer = how.observer;
+  const SettledMotion settled = solvers::settle(condensed_, laws_, settling);
+  if (!settled.integrated()) return std::nullopt;
+  PhaseMotion motion = phases_here(settled, options.phases);
+  if (motion.parts == nullptr) return std::nullopt;
+  return motion;
+}
+
+ExactCurve ContactProblem::exact_sweep(const ExactCurveOptions& options, const ForcedResponseOptions& how,
+                                       const ResponseStart& start) {
+  options.validate();
+  if (!dynamics()) return {};
+  load_fully(options.from);
+  const std::optional<PhaseMotion> first = motion_here(options, how, start);
+  if (!first) return {};
+  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::frequency}, *first, options);
+}
+
+ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
+                                                 const ForcedResponseOptions& how,
+                                                 const ResponseStart& start) {
+  options.validate();
+  if (!dynamics()) return {};
+  condensed_.set_load_frequency(frequency);
+  condensed_.set_load_scale(options.from);
+  const std::optional<PhaseMotion> first = motion_here(options, how, start);
+  if (!first) return {};
+  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, *first, options);
 }
 
 CurveStability ContactProblem::stability(const FrequencySweep& curve, int output_points,

@@ -38,6 +38,12 @@ void add_sweep(std::vector<SceneKey>& keys) {
         positive, derived("an 80th of the interval", interval_over(80)));
   sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
         within(2, 10'000'000), optional);
+  sweep(
+      &Analysis::exact, "exact", "",
+      "true follows the motions of the structure themselves, by phases of contact, in place of those of the "
+      "balance, which gives the first point: folds and other special points have ten digits, and motions the "
+      "tolerance 1e-9",
+      optional);
   over_frequency(&Analysis::branches, "branches", "",
                  "true also follows the curves that begin at period doublings and at branch points",
                  optional);

@@ -58,6 +58,12 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
 Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
+/// The scene's curve over frequency or amplitude with analysis.exact: motions of the structure themselves, by
+/// phases of contact, with their stability and special points. Turning points are its folds, and the errors of
+/// its phases are those that are estimated. Starts as frequency_sweep() does.
+Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
+                  const StartMotion& start = {});
+
 /// Sets the phases of contact at the peak and the special points of a sweep of the scene and at the special
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
 /// special points at most most_special_points_with_phases of each curve are then taken, those where

@@ -232,6 +232,8 @@ struct Analysis {
   /// forced_response, sweeps: whether the motion of the structure near the response, or near every point of
   /// the curve, is solved for by phases of contact
   bool phases = false;
+  /// sweeps: whether the curve is that of the motions of the structure, followed by phases of contact
+  bool exact = false;
   bool stability = true;  ///< forced_response, frequency_sweep: whether Floquet multipliers are counted
   /// forced_response, frequency_sweep: periods of the load after which motions repeat. Time's functions and
   /// points and output_points are then those of all of them.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "wavebalance/solvers/exact/exact_curve.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -83,6 +84,13 @@ class ContactProblem {
   FrequencySweep sweep(const FrequencySweepOptions& options, const PeriodicResponse& first);
   /// amplitude_sweep() at a frequency; from and to are in CondensedProblem::load_unit().
   FrequencySweep amplitude_sweep(double frequency, const FrequencySweepOptions& options);
+  /// exact_curve() over the frequency, or at a frequency over the load scale, from the motion near the response
+  /// at options.from: `how` and `start` as of respond(). Where the response has no motion near, from the one
+  /// that settle() finds. Status `no_start` where neither leads to a motion, or without modes.
+  ExactCurve exact_sweep(const ExactCurveOptions& options, const ForcedResponseOptions& how = {},
+                         const ResponseStart& start = {});
+  ExactCurve exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
+                                   const ForcedResponseOptions& how = {}, const ResponseStart& start = {});
   /// The stability along a curve that was traced with keep_unknowns; without points where the structure has
   /// no modes.
   CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
@@ -105,6 +113,9 @@ class ContactProblem {
   void require_well_posed() const;
   void hold(const PeriodicResponse& response);
   void load_fully(double frequency);
+  std::optional<PhaseMotion> motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
+                                         const ResponseStart& start);
+  PhaseMotion phases_here(const SettledMotion& settled, const ContactPhasesOptions& options);
 
   CondensedProblem condensed_;
   ContactLaws laws_;

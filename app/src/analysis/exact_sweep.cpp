@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "analysis/response_parts.hpp"
+#include "analysis/sweep_options.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using solvers::ExactCurve, solvers::ExactEvent, solvers::ExactPoint, solvers::PhaseMotion;
+
+/// What a curve's points are measured by.
+struct Measure {
+  solvers::SweepParameter parameter;
+  double frequency;  ///< Hz, of an amplitude sweep
+  bool unilateral;
+  Eigen::VectorXd times;
+
+  solvers::SweepPoint operator()(double value, const PhaseMotion& motion) const {
+    const Eigen::MatrixXd u = motion.displacement(times), force = motion.force(times);
+    solvers::SweepPoint point;
+    const bool over_frequency = parameter == solvers::SweepParameter::frequency;
+    point.frequency = over_frequency ? value : frequency;
+    point.load_scale = over_frequency ? 1.0 : value;
+    point.max_displacement = u.maxCoeff();
+    point.min_displacement = u.minCoeff();
+    point.max_abs_displacement = u.cwiseAbs().maxCoeff();
+    point.rms_displacement = std::sqrt(u.rowwise().squaredNorm().maxCoeff() / double(times.size()));
+    point.max_force = unilateral ? force.maxCoeff() : force.cwiseAbs().maxCoeff();
+    for (Eigen::Index c = 0; c < force.rows(); ++c)
+      point.contact_fraction = std::max(point.contact_fraction, contact_share(motion, static_cast<int>(c)));
+    point.residual = motion.residual;
+    return point;
+  }
+
+ private:
+  static double contact_share(const PhaseMotion& motion, int contact) {
+    double share = 0.0;
+    for (const solvers::ContactPhase& phase : motion.phases)
+      if (phase.contact == contact) share += phase.length();
+    return share;
+  }
+};
+
+solvers::SpecialPoint special_point(const ExactEvent& event, const Measure& measure) {
+  const solvers::SweepPoint at = measure(event.value, event.motion);
+  solvers::SpecialPoint point;
+  point.type = event.type;
+  point.frequency = at.frequency;
+  point.load_scale = at.load_scale;
+  point.multiplier = event.multiplier;
+  point.max_displacement = at.max_displacement;
+  point.max_abs_displacement = at.max_abs_displacement;
+  point.located = true;
+  point.unknown_parameter = event.value;
+  point.next_point = event.next_point;
+  return point;
+}
+
+solvers::PointStability stability_of(const ExactPoint& point) {
+  solvers::PointStability stability;
+  stability.status =
+      point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
+  stability.unstable = point.unstable;
+  stability.contacts = static_cast<int>(point.motion.phases.size());
+  return stability;
+}
+
+SweepPhases::Point phases_of(const PhaseMotion& motion) {
+  return solvers::PointPhases{motion.status, motion.estimated_error, solvers::missing};
+}
+
+void copy_events(const ExactCurve& curve, const Measure& measure, bool stability, Sweep& sweep) {
+  for (const ExactEvent& event : curve.events) {
+    const solvers::SpecialPoint point = special_point(event, measure);
+    if (event.type == solvers::SpecialPointType::fold)
+      sweep.curve.turning_points.push_back(
+          {point.frequency, point.max_displacement, point.max_abs_displacement, false, point.load_scale});
+    if (!stability) continue;
+    sweep.stability.special_points.push_back(point);
+    sweep.phases.front().special_points.push_back(phases_of(event.motion));
+  }
+}
+
+void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability, Sweep& sweep) {
+  sweep.curve.status = curve.status;
+  sweep.curve.parameter = measure.parameter;
+  SweepPhases& phases = sweep.phases.emplace_back();
+  for (const ExactPoint& point : curve.points) {
+    sweep.curve.points.push_back(measure(point.value, point.motion));
+    phases.points.push_back(phases_of(point.motion));
+    if (!stability) continue;
+    sweep.stability.points.push_back(stability_of(point));
+    solvers::MotionStability& found = phases.points.back()->stability.emplace();
+    found.unstable = point.unstable;
+    found.status = point.unstable < 0 ? "not_known" : point.unstable == 0 ? "stable" : "unstable";
+    found.by_phases = true;
+  }
+  copy_events(curve, measure, stability, sweep);
+  if (!curve.points.empty()) phases.peak = phases.points[peak_of(sweep.curve)];
+}
+
+solvers::ExactCurveOptions options_of(const Scene& scene, const Observer& observer) {
+  const solvers::FrequencySweepOptions balance = sweep_options(scene);
+  solvers::ExactCurveOptions options;
+  options.from = balance.from;
+  options.to = balance.to;
+  options.max_points = balance.max_points;
+  options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
+  options.largest_step = balance.arc_length.max_step;
+  options.stability = scene.analysis.stability;
+  options.observer = observer;
+  return options;
+}
+
+}  // namespace
+
+Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                  const StartMotion& start) {
+  require_start_fits(start, scene);
+  const auto begin = std::chrono::steady_clock::now();
+  const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
+  const solvers::ExactCurveOptions options = options_of(scene, observer);
+  solvers::ContactProblem problem = compose_problem(scene, model);
+  solvers::ForcedResponseOptions how;
+  how.observer = observer;
+  how.stay_near_guess = !start.contacts.empty();
+  StartSamples samples;
+  if (!start.contacts.empty()) samples = start_samples(start, scene);
+  const solvers::ResponseStart at{samples.displacement, samples.force};
+  const ExactCurve curve = over_amplitude
+                               ? problem.exact_amplitude_sweep(scene.forcing.frequency, options, how, at)
+                               : problem.exact_sweep(options, how, at);
+  Sweep sweep;
+  const auto parameter =
+      over_amplitude ? solvers::SweepParameter::load_scale : solvers::SweepParameter::frequency;
+  copy_curve(curve,
+             {parameter, scene.forcing.frequency, problem.laws().unilateral(),
+              time_fractions(scene.analysis.output_points)},
+             scene.analysis.stability, sweep);
+  if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return sweep;
+}
+
+}  // namespace wavebalance::app
