@@ -49,7 +49,6 @@ class Tracer {
     std::optional<PathPoint> next = corrected();
     if (next && !next->agrees) {
       if (std::optional<Switch> over = detail::appearance(model_, points_.back(), *next)) {
-        if (within(over->grazing.value)) note_events(over->grazing);
         go_over(std::move(*over));
         return;
       }
@@ -65,8 +64,7 @@ class Tracer {
       end_before(*next);
       return;
     }
-    note_events(*next);
-    accept(std::move(*next));
+    go_to(std::move(*next));
   }
 
   // The next point, if it lies where it is expected.
@@ -132,10 +130,16 @@ class Tracer {
     }
   }
 
-  void note_fold(const PathPoint& fold) {
-    curve_.events.push_back({SpecialPointType::fold, fold.value,
-                             detail::nearest(fold.motion.multipliers(), 1.0), fold.motion,
-                             curve_.points.size()});
+  void go_to(PathPoint next) {
+    note_events(next);
+    accept(std::move(next));
+  }
+
+  void note(SpecialPointType type, const PathPoint& at) {
+    const bool fold = type == SpecialPointType::fold;
+    const auto multiplier =
+        fold ? detail::nearest(at.motion.multipliers(), 1.0) : std::complex<double>(missing, missing);
+    curve_.events.push_back({type, at.value, multiplier, at.motion, curve_.points.size()});
   }
 
   SweepStatus end_at(double value) const {
@@ -149,16 +153,22 @@ class Tracer {
       curve_.status = end_at(over.grazing.value);
       return;
     }
-    if (over.fold && !over.fold_is_behind) note_fold(*over.fold);
-    curve_.events.push_back({SpecialPointType::grazing,
-                             over.grazing.value,
-                             {missing, missing},
-                             over.grazing.motion,
-                             curve_.points.size()});
-    if (over.fold && over.fold_is_behind) note_fold(*over.fold);
+    if (over.appears) {
+      note_events(over.grazing);
+      over.between.push_back(std::move(over.next));
+      over.next = std::move(over.between.front());
+      over.between.erase(over.between.begin());
+    } else {
+      for (PathPoint& point : over.between) go_to(std::move(point));
+      over.between.clear();
+    }
+    if (over.reverses && !over.appears) note(SpecialPointType::fold, over.grazing);
+    note(SpecialPointType::grazing, over.grazing);
+    if (over.reverses && over.appears) note(SpecialPointType::fold, over.grazing);
     points_.clear();
     step_ = std::min(step_, options_.first_step);
     accept(std::move(over.next));
+    for (PathPoint& point : over.between) go_to(std::move(point));
   }
 
   void end_before(const PathPoint& next) {
@@ -169,8 +179,7 @@ class Tracer {
                              [limit](const PathPoint& point) { return point.value - limit; });
     curve_.status = status;
     if (!last) return;
-    note_events(*last);
-    accept(std::move(*last));
+    go_to(std::move(*last));
   }
 
   const PathModel& model_;

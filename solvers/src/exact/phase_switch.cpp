@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/exact_events.hpp"
 #include "linalg/index.hpp"
 #include "phases/phase_motion_parts.hpp"
 
@@ -50,32 +51,35 @@ struct WithInterval {
   Interval interval;
 };
 
-// Where the curve reverses between grazing and a point with the interval. Its length is halved until the
-// parameter has the other slope. The fold that is not found lies so near that both are one to ten digits,
-// since the parameter differs by the square of the length.
-std::optional<PathPoint> fold_beside(const PathModel& model, const PathPoint& grazing,
-                                     const WithInterval& from) {
+bool differ(const PathModel& model, const PathPoint& a, const PathPoint& b) {
+  if (a.slope() * b.slope() < 0.0) return true;
+  return model.options().stability &&
+         unstable_of(a.motion.multipliers()) != unstable_of(b.motion.multipliers());
+}
+
+// Points with the interval from one of them towards grazing, each with half of its length, until slope and
+// stability are those of grazing. The parameter differs by the square of the length, so that what is not
+// found then is one with grazing to ten digits.
+std::vector<PathPoint> towards(const PathModel& model, const PathPoint& grazing, const WithInterval& from) {
   constexpr double shortest = 1e-5;
-  if (from.point.slope() * grazing.slope() >= 0.0) return std::nullopt;
-  PathPoint before = from.point;
-  double length = from.interval.length;
-  const auto moves = [&](int passage) { return std::abs(before.motion_of(passage)); };
+  std::vector<PathPoint> points;
+  const PathPoint* last = &from.point;
+  const auto moves = [&](int passage) { return std::abs(from.point.motion_of(passage)); };
   const Held held{Held::Kind::passage, moves(from.interval.to) > moves(from.interval.from)
                                            ? from.interval.to
                                            : from.interval.from};
-  const double forwards = model.sign_of(before, held);
-  for (; length > shortest; length *= 0.5) {
-    const Prediction expected = along_tangent(before, -0.5 * length, growth(before, from.interval));
+  const double forwards = model.sign_of(from.point, held), order = growth(from.point, from.interval);
+  points.reserve(64);
+  for (double length = from.interval.length; length > shortest && differ(model, grazing, *last);
+       length *= 0.5) {
+    const Prediction expected = along_tangent(*last, -0.5 * length, growth(*last, from.interval));
     std::optional<PathPoint> shorter = model.solve(expected.value, expected.iterate, held, forwards);
     if (!shorter) break;
-    before.place = 0.0;
-    shorter->place = 1.0;
-    if (shorter->slope() * before.slope() < 0.0)
-      return zero_between(model, before, *shorter, held,
-                          [](const PathPoint& point) { return point.slope(); });
-    before = std::move(*shorter);
+    shorter->place = last->place - std::copysign(length, order);
+    points.push_back(std::move(*shorter));
+    last = &points.back();
   }
-  return grazing;
+  return points;
 }
 
 // The solution with the phases of its own motion, of which the end of the new interval is held.
@@ -138,8 +142,11 @@ std::optional<Switch> appearance(const PathModel& model, const PathPoint& curren
   if (!beyond) return std::nullopt;
   std::optional<WithInterval> behind = with_new_interval(model, *beyond);
   if (!behind) return std::nullopt;
-  std::optional<PathPoint> fold = fold_beside(model, *at, *behind);
-  return Switch{std::move(*at), std::move(behind->point), std::move(fold), true};
+  std::vector<PathPoint> between = towards(model, *at, *behind);
+  const PathPoint& nearest = between.empty() ? behind->point : between.back();
+  const bool reverses = nearest.slope() * at->slope() < 0.0;
+  std::reverse(between.begin(), between.end());
+  return Switch{std::move(*at), std::move(behind->point), true, std::move(between), reverses};
 }
 
 std::optional<Switch> disappearance(const PathModel& model, const PathPoint& current) {
@@ -154,9 +161,10 @@ std::optional<Switch> disappearance(const PathModel& model, const PathPoint& cur
   if (!start) return std::nullopt;
   std::optional<PathPoint> at = grazing_without(model, *start, grazing);
   if (!at) return std::nullopt;
-  std::optional<PathPoint> fold = fold_beside(model, *at, {current, vanishing.front()});
+  std::vector<PathPoint> between = towards(model, *at, {current, vanishing.front()});
+  const bool reverses = (between.empty() ? current : between.back()).slope() * at->slope() < 0.0;
   PathPoint next = *at;
-  return Switch{std::move(*at), std::move(next), std::move(fold), false};
+  return Switch{std::move(*at), std::move(next), false, std::move(between), reverses};
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "exact/grazing.hpp"
 
@@ -9,11 +10,12 @@ namespace wavebalance::solvers::detail {
 struct Switch {
   PathPoint grazing;  ///< without the interval that appears or vanishes
   PathPoint next;
-  /// Where the curve reverses so near to grazing that it lies between `grazing` and the point with the
-  /// interval; behind grazing where the interval appears, else before it. Nearer than rounding it is grazing
-  /// itself.
-  std::optional<PathPoint> fold{};
-  bool fold_is_behind = false;
+  bool appears = true;  ///< the interval, else it vanishes
+  /// Points with the interval between grazing and the one that has it, in the order of the curve: there the
+  /// slope or the stability changes.
+  std::vector<PathPoint> between{};
+  /// Whether the curve reverses so near to grazing that both are one to ten digits.
+  bool reverses = false;
 };
 
 /// An interval that `next`, a solution with the phases of `current`, has beyond them appears between the two.
