@@ -59,8 +59,9 @@ bool differ(const PathModel& model, const PathPoint& a, const PathPoint& b) {
 
 // Points with the interval from one of them towards grazing, each with half of its length, until slope and
 // stability are those of grazing. The parameter differs by the square of the length, so that what is not
-// found then is one with grazing to ten digits.
-std::vector<PathPoint> towards(const PathModel& model, const PathPoint& grazing, const WithInterval& from) {
+// found then is one with grazing to ten digits. Nothing where Newton's method does not converge.
+std::optional<std::vector<PathPoint>> towards(const PathModel& model, const PathPoint& grazing,
+                                              const WithInterval& from) {
   constexpr double shortest = 1e-5;
   std::vector<PathPoint> points;
   const PathPoint* last = &from.point;
@@ -74,7 +75,7 @@ std::vector<PathPoint> towards(const PathModel& model, const PathPoint& grazing,
        length *= 0.5) {
     const Prediction expected = along_tangent(*last, -0.5 * length, growth(*last, from.interval));
     std::optional<PathPoint> shorter = model.solve(expected.value, expected.iterate, held, forwards);
-    if (!shorter) break;
+    if (!shorter) return std::nullopt;
     shorter->place = last->place - std::copysign(length, order);
     points.push_back(std::move(*shorter));
     last = &points.back();
@@ -142,11 +143,12 @@ std::optional<Switch> appearance(const PathModel& model, const PathPoint& curren
   if (!beyond) return std::nullopt;
   std::optional<WithInterval> behind = with_new_interval(model, *beyond);
   if (!behind) return std::nullopt;
-  std::vector<PathPoint> between = towards(model, *at, *behind);
-  const PathPoint& nearest = between.empty() ? behind->point : between.back();
+  std::optional<std::vector<PathPoint>> between = towards(model, *at, *behind);
+  if (!between) return std::nullopt;
+  const PathPoint& nearest = between->empty() ? behind->point : between->back();
   const bool reverses = nearest.slope() * at->slope() < 0.0;
-  std::reverse(between.begin(), between.end());
-  return Switch{std::move(*at), std::move(behind->point), true, std::move(between), reverses};
+  std::reverse(between->begin(), between->end());
+  return Switch{std::move(*at), std::move(behind->point), true, *std::move(between), reverses};
 }
 
 std::optional<Switch> disappearance(const PathModel& model, const PathPoint& current) {
@@ -161,10 +163,11 @@ std::optional<Switch> disappearance(const PathModel& model, const PathPoint& cur
   if (!start) return std::nullopt;
   std::optional<PathPoint> at = grazing_without(model, *start, grazing);
   if (!at) return std::nullopt;
-  std::vector<PathPoint> between = towards(model, *at, {current, vanishing.front()});
-  const bool reverses = (between.empty() ? current : between.back()).slope() * at->slope() < 0.0;
+  std::optional<std::vector<PathPoint>> between = towards(model, *at, {current, vanishing.front()});
+  if (!between) return std::nullopt;
+  const bool reverses = (between->empty() ? current : between->back()).slope() * at->slope() < 0.0;
   PathPoint next = *at;
-  return Switch{std::move(*at), std::move(next), false, std::move(between), reverses};
+  return Switch{std::move(*at), std::move(next), false, *std::move(between), reverses};
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -41,7 +41,7 @@ struct Evaluation {
   /// force, or forces of its size move the contacts by nothing. A short contact has a small force and the
   /// rounding errors of large displacements.
   bool is_rounding(double before) const {
-    constexpr double small = 1e-9, nothing = 1e-12;
+    constexpr double small = 1e-9, nothing = 1e-11;
     const double now = error();
     if (!(now > 0.5 * before)) return false;
     const Eigen::Index n = force.size(), m = residual.size() - n;
