@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <complex>
 #include <filesystem>
+#include <tuple>
 
 #include "constants.hpp"
 #include "curve.hpp"
@@ -68,6 +69,33 @@ TEST(CasesOfOthers, TheCommandFindsTheSameSpecialPointsInEachScene) {
       EXPECT_NEAR((angular ? two_pi : 1.0) * found.numbers("frequency_Hz")[i],
                   shown.numbers(shown.columns()[1])[i], 1e-12 * 1e4)
           << name;
+  }
+}
+
+TEST(CasesOfOthers, ExactCurvesHaveTheSpecialPointsOfTheReferencesToTheirDigits) {
+  constexpr double digits = 5e-9;  // of the references, nine or ten
+  const std::vector<std::tuple<std::string, std::vector<references::KnownPoint>, double>> known{
+      {"pyharm_onedofgap", references::pyharm_points, two_pi},
+      {"nlvib_example03", references::nlvib_points, two_pi},
+      {"oscillator_with_stop", references::oscillator_points, two_pi},
+      {"small_gap_bar", references::small_gap_points, 1.0},
+      {"lightly_damped_bar", references::lightly_damped_points, 1.0}};
+  for (const auto& [name, points, unit] : known) {
+    const std::vector<std::string> overrides{"analysis.exact=true", "analysis.branches=false"};
+    const app::Record record = app::analyse(app::load_scene(scene_file(name), overrides));
+    EXPECT_TRUE(record.converged) << name;
+    const app::Table found = special_points(record.summary);
+    if (unit != 1.0) {
+      EXPECT_EQ(found.rows(), points.size()) << name;  // those of the bars are not all known
+    }
+    for (const references::KnownPoint& point : points) {
+      double nearest = 1.0;
+      for (std::size_t i = 0; i < found.rows(); ++i)
+        if (found.texts("type")[i] == to_string(point.type))
+          nearest =
+              std::min(nearest, std::abs(unit * found.numbers("frequency_Hz")[i] / point.frequency - 1.0));
+      EXPECT_LT(nearest, digits) << name << " " << to_string(point.type) << " " << point.frequency;
+    }
   }
 }
 
