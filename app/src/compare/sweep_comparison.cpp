@@ -91,7 +91,7 @@ class CurveComparison {
  public:
   CurveComparison(const Scene& scene, const ComparisonOptions& options, const solvers::Observer& observer)
       : scene_(scene), model_(make_model(scene, observer)), options_(options), observer_(observer) {
-    scene_.analysis.stability = scene_.analysis.branches = false;
+    scene_.analysis.stability = scene_.analysis.branches = scene_.analysis.exact = false;
     name_axis();
     model_.threads = 1;  // so that the time of a curve is that of its thread
   }

@@ -68,16 +68,16 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     const Evaluation now = evaluate(model, at, nodes);
     const Index n = now.force.size(), m = now.passing.size(), number = held.number(n, m);
     result.newton.residual = now.error();
-    if (getenv("DBG2"))
-      fprintf(stderr, "     n%ld m%ld q%ld val %.10f r %.3e\n", (long)n, (long)m, (long)nodes.count(),
-              result.value, now.error());
     at.forces = PanelForces(now.grid, nodes, now.force);
     const double residual = result.newton.residual;
     if (!std::isfinite(residual)) return result;
+    result.newton.converged = residual < limits.tolerance || now.is_rounding(before);
+    const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
     const HeldMatrix matrix =
-        matrix_of(at, now, nodes, number, slope_by_parameter(family, length, result.value, at, now, nodes));
-    if (residual < limits.tolerance || now.is_rounding(before)) {
-      result.newton.converged = true;
+        matrix_of(at, now, nodes, number,
+                  by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes)
+                               : Eigen::VectorXd());
+    if (result.newton.converged) {
       result.direction = ordered(matrix.factor.solve(Eigen::VectorXd(-matrix.column)), number, 1.0);
       set_errors(result.newton, now, nodes, model.frequency, [&](const Eigen::VectorXd& by) {
         Eigen::VectorXd answer = matrix.factor.solve(Eigen::VectorXd(-by));
