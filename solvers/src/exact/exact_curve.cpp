@@ -78,6 +78,7 @@ class Tracer {
                                  : detail::along_tangent(last, step_, model_.speed(last));
     if (!(expected.value > 0.0) || shrinks(last.iterate.layout, expected.iterate.layout)) return std::nullopt;
     const Held held = model_.fastest(last, true);
+    if (held.kind != Held::Kind::force) expected.iterate = model_.coarser(last, std::move(expected.iterate));
     std::optional<PathPoint> next =
         model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, held));
     if (!next) return std::nullopt;

@@ -110,6 +110,20 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   return point;
 }
 
+PhaseIterate PathModel::coarser(const PathPoint& last, PhaseIterate start) const {
+  constexpr double much_better = 1e-3;
+  const Index q = start.forces.coefficients().rows();
+  if (q == 0 || !(last.motion.estimated_error < much_better * options_.phases.tolerance)) return start;
+  bool cut = false;
+  for (Phase& phase : start.layout.phases) {
+    if (phase.begin < 0 || phase.cuts.empty()) continue;
+    phase.cuts.clear();
+    cut = true;
+  }
+  const Index fewer = cut ? q : std::max<Index>(options_.phases.nodes, q - q / 4);
+  return with_nodes(start, LegendreNodes(fewer));
+}
+
 std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, const Held& held,
                                           double forwards) const {
   constexpr double rounding = 1e-13;
@@ -130,6 +144,16 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
       return point_of(std::move(found), nodes, error);
     }
   }
+}
+
+PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes) {
+  CellGrid grid = iterate.layout.grid();
+  Eigen::VectorXd values(nodes.count() * Index(grid.panels.size()));
+  for (std::size_t p = 0; p < grid.panels.size(); ++p)
+    for (Index i = 0; i < nodes.count(); ++i)
+      values[nodes.count() * Index(p) + i] =
+          iterate.forces.in_phase(grid.panels[p].phase, grid.panels[p].time(nodes.points[i]));
+  return {iterate.layout, PanelForces(std::move(grid), nodes, values)};
 }
 
 Prediction along_tangent(const PathPoint& at, double distance, double speed) {
@@ -211,7 +235,7 @@ std::optional<PathPoint> zero_between(const PathModel& model, const PathPoint& a
     last->place = place;
     return function(*last);
   };
-  const std::optional<double> share = root(at, {0.0, function(a)}, {1.0, function(b)}, 1e-14);
+  const std::optional<double> share = root(at, {0.0, function(a)}, {1.0, function(b)}, 1e-11);
   if (!share) return std::nullopt;
   at(*share);
   return last;

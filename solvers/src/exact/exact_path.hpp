@@ -56,6 +56,10 @@ class PathModel {
   /// Of a point from where it was expected, of the parameter and the passages; as arc length.
   double distance(const Prediction& expected, const PathPoint& found) const;
 
+  /// A start with fewer panels or nodes, where those of the last point resolve it far better than they have
+  /// to.
+  PhaseIterate coarser(const PathPoint& last, PhaseIterate start) const;
+
   /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs.
   /// `forwards`: the sign of the change of the unknown held along the curve. Nothing where Newton's method
   /// does not converge.
@@ -69,6 +73,9 @@ class PathModel {
   double length_, vibration_, parameter_scale_;
   Eigen::VectorXd times_;
 };
+
+/// The same forces by other nodes, and by the panels of the layout.
+PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes);
 
 /// Along the tangent, to first order.
 Prediction along_tangent(const PathPoint& at, double distance, double speed);

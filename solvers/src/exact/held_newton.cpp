@@ -73,10 +73,9 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     if (!std::isfinite(residual)) return result;
     result.newton.converged = residual < limits.tolerance || now.is_rounding(before);
     const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
-    const HeldMatrix matrix =
-        matrix_of(at, now, nodes, number,
-                  by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes)
-                               : Eigen::VectorXd());
+    const HeldMatrix matrix = matrix_of(
+        at, now, nodes, number,
+        by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes) : Eigen::VectorXd());
     if (result.newton.converged) {
       result.direction = ordered(matrix.factor.solve(Eigen::VectorXd(-matrix.column)), number, 1.0);
       set_errors(result.newton, now, nodes, model.frequency, [&](const Eigen::VectorXd& by) {
