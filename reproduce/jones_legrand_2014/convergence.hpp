@@ -18,10 +18,10 @@ std::vector<int> sizes();
 const std::vector<Sums>& convergence_sums();
 
 /// What one solution is measured by, NaN where it was not found. Errors of the displacement of the tip
-/// against time stepping: relative ones over the rms or the mean modulus of the reference, largest ones over
+/// against the reference: relative ones over the rms or the mean modulus of the reference, largest ones over
 /// its range.
 struct Measures {
-  double energy_ratio = 0.0;      ///< rms of the system energy, eq. (35), over that of time stepping
+  double energy_ratio = 0.0;      ///< rms of the system energy, eq. (35), over that of the reference
   double energy_deviation = 0.0;  ///< |energy_ratio - 1|
   double rms = 0.0, mean = 0.0, largest = 0.0;
   double midpoint_rms = 0.0, midpoint_mean = 0.0, midpoint_largest = 0.0;  ///< at the middles of M cells

@@ -33,7 +33,7 @@ Series periodic_series(const std::string& label, const Eigen::VectorXd& values, 
 }
 
 Series reference_series(const Eigen::VectorXd& values, double from) {
-  Series series = periodic_series("time stepping", values, from);
+  Series series = periodic_series(reference_label, values, from);
   series.colour = Colour::black;
   series.dash = app::Dash::dashed;
   series.width = 1.1;
@@ -91,7 +91,7 @@ Figure pair_rows(const std::string& title, app::TextMark key, std::vector<Panel>
   figure.panel_height = more.empty() ? 260 : 215;
   figure.letters = false;
   figure.title = title;
-  key.text = "dashed: time stepping";
+  key.text = std::string("dashed: ") + reference_label;
   panels.at(0).texts.push_back(std::move(key));
   for (std::size_t row = 0; row < chosen.size(); ++row) {
     Panel& panel = panels.at(row);

@@ -6,9 +6,11 @@ namespace wavebalance::jl14 {
 
 const std::vector<report::Step>& figures() {
   static const std::vector<report::Step> all{
-      {"reference_case1", identity("reference 1", "Time stepping, case 1", "reference_case1"),
+      {"reference_case1",
+       identity("reference 1", "Contact phases and time stepping, case 1", "reference_case1"),
        [](report::Artefact& artefact) { reference(artefact, 1); }},
-      {"reference_case2", identity("reference 2", "Time stepping, case 2", "reference_case2"),
+      {"reference_case2",
+       identity("reference 2", "Contact phases and time stepping, case 2", "reference_case2"),
        [](report::Artefact& artefact) { reference(artefact, 2); }},
       {"fig01", identity("Fig. 1", "Bar with unilateral contact at its tip", "fig01_system_sketch"), fig01},
       {"fig02", identity("Fig. 2", "First six functions of the Fourier basis", "fig02_fourier_functions"),

@@ -102,6 +102,14 @@ std::vector<app::Response> Case::solve_all(const std::vector<Pair>& chosen, bool
   return responses;
 }
 
+app::Response by_phases(const app::Scene& scene, int structure_points) {
+  app::ResponseOptions options;
+  options.structure_points = structure_points;
+  app::Response motion = app::phases_response(scene, options);
+  if (!motion.converged) throw report::NotConverged("contact phases: " + motion.status);
+  return motion;
+}
+
 Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd (app::Response::*history)() const) {
   Values values;
   for (const auto& response : responses) {

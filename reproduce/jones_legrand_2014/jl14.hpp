@@ -38,7 +38,8 @@ std::vector<Pair> panel_pairs();
 const Pair& pair(const std::string& name);
 bool has_haar_trial(const Pair& pair);
 
-/// One of the two cases of [JL14, Table 1]: its scene, its time-stepping reference and its solutions.
+/// One of the two cases of [JL14, Table 1]: its scene, its reference and its solutions. The reference is
+/// the motion of the bar to rounding, by contact phases.
 class Case {
  public:
   /// number: 1 or 2. Reads caseN.toml and, with its columns of one period, reference_caseN.csv.
@@ -73,6 +74,9 @@ class Case {
   Eigen::VectorXd reference_energy_;
 };
 
+/// The motion of a scene with time.method = "phases". Throws report::NotConverged.
+app::Response by_phases(const app::Scene& scene, int structure_points = 0);
+
 /// One time history of the tip, such as &app::Response::velocity, of every response; missing values where it
 /// has not converged.
 using Values = std::vector<Eigen::VectorXd>;
@@ -88,7 +92,9 @@ app::Axis axis(const std::string& label, double lower, double upper);
 
 /// A periodic curve of uniform samples from t/T = `from` to `from` + 1, both ends included.
 Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from = 0.0);
-/// The reference's look: black and dashed.
+/// How the reference is named in pictures.
+inline constexpr const char* reference_label = "contact phases";
+/// Its look: black and dashed.
 Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 
 /// time_fraction, reference and one column per pair, `values` in the order of pairs().
@@ -104,7 +110,7 @@ app::Axis fitted_axis(const std::string& label, const Values& curves);
 /// The samples of a periodic history at from <= t/T <= to, -1/2 <= from < to <= 1.
 Eigen::VectorXd window(const Eigen::VectorXd& values, double from, double to);
 
-/// A pair's curve with that of time stepping, dashed, over from <= t/T <= to.
+/// A pair's curve with the reference, dashed, over from <= t/T <= to.
 struct PairView {
   Values values;  ///< in the order of pairs()
   Eigen::VectorXd reference;

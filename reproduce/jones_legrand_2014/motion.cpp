@@ -57,10 +57,10 @@ Table node_columns(const solvers::Motion& structure) {
 std::string motion_json(const Case& study, const std::vector<app::Response>& responses, const Table& nodes) {
   const app::Scene& scene = study.scene();
   const auto count = static_cast<Eigen::Index>(nodes.rows());
-  Eigen::MatrixXd stepped(count, nodes.columns().size() - 1);
-  for (Eigen::Index i = 0; i < stepped.cols(); ++i) {
+  Eigen::MatrixXd moves(count, nodes.columns().size() - 1);
+  for (Eigen::Index i = 0; i < moves.cols(); ++i) {
     const auto values = nodes.numbers(nodes.columns()[static_cast<std::size_t>(i) + 1]);
-    stepped.col(i) = Eigen::Map<const Eigen::VectorXd>(values.data(), count);
+    moves.col(i) = Eigen::Map<const Eigen::VectorXd>(values.data(), count);
   }
   const auto force = [&](const app::Response& response) -> Eigen::VectorXd {
     return at_instants(response.contacts.force, count).transpose() / scene.forcing.amplitude;
@@ -80,7 +80,7 @@ std::string motion_json(const Case& study, const std::vector<app::Response>& res
 )",
                      study.gap(), scene.forcing.amplitude, scene.forcing.frequency, scene.structure.length,
                      list(app::time_fractions(static_cast<int>(count))), moving,
-                     motion_object("time stepping", "reference", stepped, force(study.reference())));
+                     motion_object(reference_label, "reference", moves, force(study.reference())));
 }
 
 }  // namespace wavebalance::jl14

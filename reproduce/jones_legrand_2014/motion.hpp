@@ -10,7 +10,7 @@ namespace wavebalance::jl14 {
 /// moves: gap, amplitude, frequency, length; time, n fractions of the period; pairs and reference, each with
 /// label, name, nodes (n lists of the displacements of the nodes from the clamped end to the tip), tip and
 /// force (n values each, the force over the amplitude). `responses` are in the order of pairs() with the
-/// whole structure; those that have not converged are left out. `nodes` is what time stepping found, a table
+/// whole structure; those that have not converged are left out. `nodes` are those of the reference, a table
 /// of node_columns(). Throws std::invalid_argument unless its instants are some of those of the responses.
 std::string motion_json(const Case& study, const std::vector<app::Response>& responses, const Table& nodes);
 

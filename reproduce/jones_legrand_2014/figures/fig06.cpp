@@ -27,7 +27,7 @@ Eigen::VectorXd on_plateau(const Case& study, const Eigen::VectorXd& values) {
 
 double range(const Eigen::VectorXd& values) { return values.maxCoeff() - values.minCoeff(); }
 
-/// The largest difference of a pair from time stepping over the range of time stepping.
+/// The largest difference of a pair from the reference over the range of the reference.
 double largest_difference(const Case& study, const Readings& readings, std::size_t i) {
   const Eigen::VectorXd& reference = study.reference().displacement();
   return (readings.at(i, "fourier_fourier").displacement() - reference).cwiseAbs().maxCoeff() /
@@ -46,7 +46,7 @@ void state_hbm(report::Artefact& artefact, const Case& study, const Readings& re
       "section 5.1",
       "For this number of basis functions HBM (Fourier:Fourier) approximates the tip displacements well at "
       "both 150 Hz and 1275 Hz compared to the time-stepping solution.",
-      fmt::format("the largest difference from time stepping is at most {} of the range of the motion, at "
+      fmt::format("the largest difference from the reference is at most {} of the range of the motion, at "
                   "both frequencies",
                   percent(report::visible_share))};
   statement.because = spread(found) + ".";
@@ -70,7 +70,7 @@ Finding gibbs(const Case& study, const Readings& readings, std::size_t i) {
   return {
       report::together({report::plain(visible), lower({kink}, {sharp})}),
       fmt::format("the difference swings over {} of the height of the plateau with {} changes of sign; the "
-                  "velocity changes by {} of what it does in time stepping",
+                  "velocity changes by {} of what it does in the reference",
                   percent(range(difference) / height), sign_changes(difference), percent(kink / sharp))};
 }
 
@@ -82,9 +82,9 @@ void state_gibbs(report::Artefact& artefact, const Case& study, const Readings& 
       "However, close examination of the contact plateau for the 150 Hz case shows oscillations due to Gibbs "
       "phenomenon and rounding off of the sharp gradient changes.",
       fmt::format(
-          "the difference from time stepping changes sign on the plateau more than once and is visible "
+          "the difference from the reference changes sign on the plateau more than once and is visible "
           "on an axis of the plateau's own height (more than {} of it); the largest change of velocity "
-          "within 1/128 of the period is lower than in time stepping",
+          "within 1/128 of the period is lower than in the reference",
           percent(report::visible_share))};
   statement.because = spread(found) + ".";
   statement.panel = "(a)";
@@ -139,8 +139,8 @@ void state_haar_plateau(report::Artefact& artefact, const Case& study, const Rea
   report::Statement statement{
       "section 5.1",
       "However, the contact plateau is well represented by the constant Haar scaling functions.",
-      fmt::format("on the cells that lie wholly in contact the largest difference of Haar:Fourier from time "
-                  "stepping is at most {} of the range of the motion",
+      fmt::format("on the cells that lie wholly in contact the largest difference of Haar:Fourier from the "
+                  "reference is at most {} of the range of the motion",
                   percent(report::visible_share))};
   statement.because = fmt::format(
       "The constants themselves could: the best ones differ by {} there. Between the readings the solution "
@@ -218,10 +218,11 @@ void fig06(report::Artefact& artefact) {
   artefact.attach("motion_case1.json",
                   motion_json(study, responses, artefact.result("reference_case1_nodes.csv")), false);
   artefact.data(comparison_table(study.time(), study.reference().displacement(), u),
-                "time in periods, displacements in m", {"64 functions; reference: time stepping"});
+                "time in periods, displacements in m",
+                {fmt::format("64 functions; reference: {}", reference_label)});
   artefact.picture(case1_figure(study, u));
   artefact.caption(
-      "64 functions at 150 Hz. Right: the time in which time stepping is in contact, on one scale for (c) and "
+      "64 functions at 150 Hz. Right: the time in which the reference is in contact, on one scale for (c) and "
       "(e), whose cells jump, and on another for the other four; the grey line is the gap. The force "
       "$F \\cos 2\\pi f t$ puts the contact about $t = 0$. The letters are those that the text gives.");
   const Readings readings(artefact, study);

@@ -281,7 +281,7 @@ void fig10(report::Artefact& artefact) {
   const Convergence& drawn = all.front();
   const RatioAxis ratios(drawn);
   artefact.data(drawn.table(&Measures::energy_ratio, "energy_norm_ratio"), "ratio without unit",
-                {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of time stepping"});
+                {"energy_norm_ratio: rms of the system energy, eq. (35), divided by that of the reference"});
   artefact.picture(drawn_figure(drawn));
   const Farthest farthest = farthest_of(drawn, all_names());
   artefact.caption(fmt::format(

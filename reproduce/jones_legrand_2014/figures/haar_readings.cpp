@@ -81,7 +81,7 @@ Table printed_table(const std::vector<Row>& rows) {
   return table;
 }
 
-/// Time stepping in the middle of the cells, with a saw tooth of a fifth of the gap in contact.
+/// The reference in the middle of the cells, with a saw tooth of a fifth of the gap in contact.
 Eigen::VectorXd saw_tooth(const Case& study) {
   Eigen::VectorXd cells = cell_midpoints(study.reference().displacement(), haar_functions);
   for (Eigen::Index i = 0; i < cells.size(); ++i)

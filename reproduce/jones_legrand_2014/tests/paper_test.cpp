@@ -69,17 +69,40 @@ double entry(const Table& table, int case_number, const std::string& name, int f
       .at(0);
 }
 
+// Known to half a unit of the last digit.
 TEST(Jl14Paper, ReferencesMeetTheShootingValues) {
   results().need({"reference_case1", "reference_case2"});
   const Table one = results().read("reference_case1.csv"), two = results().read("reference_case2.csv");
-  EXPECT_NEAR(app::rms(column(one, "displacement_m")), 0.9316321e-3, 1e-6 * 0.9316321e-3);
-  EXPECT_NEAR(app::rms(column(two, "displacement_m")), 11.47116e-3, 1e-6 * 11.47116e-3);
+  EXPECT_NEAR(app::rms(column(one, "displacement_m")), 0.9316321e-3, 0.5e-10);
+  EXPECT_NEAR(app::rms(column(two, "displacement_m")), 11.47116e-3, 0.5e-8);
   EXPECT_NEAR(column(one, "displacement_m").cwiseAbs().maxCoeff(), 1.438608e-3,
               1e-5 * 1.44e-3);  // of 1024 points
   EXPECT_NEAR(column(two, "displacement_m").cwiseAbs().maxCoeff(), 16.26369e-3, 1e-5 * 16.3e-3);
   EXPECT_NEAR(column(two, "contact_force_N").maxCoeff() / 250e3, 5.694, 2e-3);
   EXPECT_NEAR((column(one, "contact_force_N").array() > 0.0).cast<double>().mean(), 0.2396, 2.0 / 1024);
   EXPECT_NEAR((column(two, "contact_force_N").array() > 0.0).cast<double>().mean(), 0.1069, 2.0 / 1024);
+}
+
+TEST(Jl14Paper, ReferencesAreContactPhasesThatTimeSteppingComesNear) {
+  results().need({"reference_case1", "reference_case2"});
+  for (const std::string number : {"1", "2"}) {
+    const std::string stem = "reference_case" + number;
+    const auto scene =
+        app::load_scene(std::string(WAVEBALANCE_SCENES) + "/jones_legrand_2014/" + stem + ".toml");
+    EXPECT_EQ(scene.time.method, app::TimeMethod::phases) << stem;
+    const auto exact = app::phases_response(scene);
+    ASSERT_TRUE(exact.converged) << exact.status;
+    EXPECT_LE(exact.phases->motion.estimated_error, scene.time.tolerance) << stem;
+    const Table phases = results().read(stem + ".csv"),
+                stepping = results().read(stem + "_time_stepping.csv");
+    for (const char* name : {"displacement_m", "velocity_m_per_s", "contact_force_N"}) {
+      const double distance = app::relative_rms_error(column(stepping, name), column(phases, name));
+      EXPECT_LT(distance, 1e-5) << stem << " " << name;
+      EXPECT_GT(distance, 1e-12) << "two methods do not share their digits: " << stem << " " << name;
+    }
+    EXPECT_LT(app::relative_rms_error(exact.displacement(), column(phases, "displacement_m")), 1e-12) << stem;
+    EXPECT_TRUE(results().passes(stem, "finds the motion of the contact phases")) << stem;
+  }
 }
 
 TEST(Jl14Paper, DisplacementsHaveTheirColumnsAndFiles) {
@@ -369,12 +392,15 @@ TEST(Jl14Paper, EverySceneReadsBackAsWritten) {
     EXPECT_EQ(app::parse_scene(app::write_scene(scene), "written"), scene) << file.path();
     ++scenes;
   }
-  EXPECT_GE(scenes, 7);
+  EXPECT_GE(scenes, 11);
 }
 
 TEST(Jl14Paper, RigidObstacleFlattensThePlateauForAllPairs) {
   results().need({"reference_case1", "reference_case2", "rigid_plateau"});
   EXPECT_TRUE(results().has("rigid_plateau.svg") && results().has("rigid_plateau.png"));
+  const auto checks = results().record("rigid_plateau").checks;
+  EXPECT_EQ(checks.size(), 4u);
+  for (const auto& check : checks) EXPECT_TRUE(check.passes) << check.sentence << " " << check.measured;
   const Table table = results().read("rigid_plateau.csv");
   for (const char* number : {"1", "2"}) {
     const Table rows = table.where("case", number), rigid = rows.where("contact", "rigid");
@@ -382,6 +408,10 @@ TEST(Jl14Paper, RigidObstacleFlattensThePlateauForAllPairs) {
     const double penalty = rows.where("contact", "exponential").numbers("largest_penetration_over_gap").at(0);
     // Mean force over amplitude, found independently: 0.0502 to 0.0515 and 0.355; 64 functions are near.
     const double mean = number[0] == '1' ? 0.051 : 0.355;
+    const Table exact = rows.where("contact", "rigid, contact phases");
+    ASSERT_EQ(exact.rows(), 1u);
+    EXPECT_NEAR(exact.numbers("mean_force_over_amplitude")[0], mean, number[0] == '1' ? 0.8e-3 : 0.5e-3);
+    EXPECT_LT(exact.numbers("largest_penetration_over_gap")[0], 1e-12);
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_EQ(rigid.numbers("converged")[i], 1.0);
       EXPECT_LT(rigid.numbers("penetration_at_quadrature_points_over_gap")[i], 0.01);
