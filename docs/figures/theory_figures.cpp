@@ -73,7 +73,6 @@ void draw_symbols(const std::string&) {
   panel.y = {
       .label = "Relative error of the second derivative", .lower = 1e-12, .upper = 10.0, .logarithmic = true};
   panel.y.tick_format = "10^{%L}";
-  panel.legend = app::Legend::right_of_panel;
   const std::vector<std::pair<std::string, std::string>> pairs{{"bspline", "bspline"},
                                                                {"daubechies6", "daubechies6"},
                                                                {"daubechies20", "daubechies20"},
@@ -112,14 +111,12 @@ void draw_laws(const std::string&) {
   app::Panel& law = figure.add_panel("Force over displacement");
   law.x = {.label = "u (mm)", .lower = 0.6, .upper = 1.6};
   law.y = {.label = "Force (kN)", .lower = 0.0, .upper = 60.0};
-  law.legend = app::Legend::bottom_right;
   law.add({"exponential", millimetres, values([&](double x) { return exponential.force(x); })});
   law.add({"linear", millimetres, values([&](double x) { return linear.force(x); })});
   law.add({"rigid", std::vector{0.6, 1.0, 1.0}, std::vector{0.0, 0.0, 60.0}});
   app::Panel& resolvent = figure.add_panel("Resolvents");
   resolvent.x = {.label = "v (mm)", .lower = 0.6, .upper = 1.6};
   resolvent.y = {.label = "Force (kN)", .lower = 0.0, .upper = 60.0};
-  resolvent.legend = app::Legend::top_left;
   const solvers::AnyContactLaw any(exponential);
   resolvent.add(
       {"exponential", millimetres, values([&](double x) { return any.resolvent(x, flexibility).force; })});
