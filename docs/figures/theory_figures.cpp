@@ -1,5 +1,5 @@
-// Draws the figures of the pages on theory from the libraries: theory_figures NAME [SCENE] writes NAME.svg,
-// or a table NAME.csv, into the folder where it is started.
+// Draws the figures of the pages on theory from the libraries: theory_figures NAME [SCENE...] writes
+// NAME.svg, or a table NAME.csv, into the folder where it is started.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +15,7 @@
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
@@ -22,6 +23,7 @@
 
 namespace {
 using namespace wavebalance;
+using Files = std::vector<std::string>;
 
 std::vector<double> uniform(double from, double to, int count) {
   std::vector<double> values;
@@ -30,7 +32,7 @@ std::vector<double> uniform(double from, double to, int count) {
 }
 
 // The generators of 16 functions, each with the translate by three places.
-void draw_bases(const std::string&) {
+void draw_bases(const Files&) {
   constexpr int functions = 16, points = 1024;
   const std::map<std::string, std::string> titles{{"fourier", "Fourier, 15 functions"},
                                                   {"haar", "Haar"},
@@ -53,7 +55,7 @@ void draw_bases(const std::string&) {
   app::write_pictures("bases", figure);
 }
 
-void write_regularity(const std::string&) {
+void write_regularity(const Files&) {
   app::Table table({"basis", "sobolev_exponent", "pointwise_derivatives"});
   for (const char* name : {"haar", "daubechies4", "daubechies6", "daubechies8", "daubechies10",
                            "daubechies12", "daubechies20", "daubechies40", "bspline"}) {
@@ -65,7 +67,7 @@ void write_regularity(const std::string&) {
 }
 
 // How exactly a pair differentiates each harmonic twice: |lambda_2 / lambda_0| against (2 pi k)^2.
-void draw_symbols(const std::string&) {
+void draw_symbols(const Files&) {
   constexpr int functions = 64;
   app::Figure figure{.panel_width = 640, .panel_height = 340};
   app::Panel& panel = figure.add_panel();
@@ -94,7 +96,7 @@ void draw_symbols(const std::string&) {
 }
 
 // Force over displacement of three laws, and their resolvents, which are finite for the rigid one too.
-void draw_laws(const std::string&) {
+void draw_laws(const Files&) {
   constexpr double gap = 1e-3, flexibility = 2e-8;  // m, m/N
   const contact::ExponentialLaw exponential(1e5, 1500.0, gap);
   const contact::LinearLaw linear(2e8, gap);
@@ -128,8 +130,8 @@ void draw_laws(const std::string&) {
 }
 
 // The largest multiplier on each part of the response curve of a sweep.
-void draw_multipliers(const std::string& file) {
-  const app::Scene scene = app::load_scene(file);
+void draw_multipliers(const Files& files) {
+  const app::Scene scene = app::load_scene(files.at(0));
   solvers::CondensedProblem problem = app::make_problem(scene);
   const solvers::ContactLaws laws = app::make_laws(scene);
   solvers::FrequencySweepOptions options{.from = scene.analysis.frequency_from,
@@ -148,7 +150,7 @@ void draw_multipliers(const std::string& file) {
     frequency.push_back(point.frequency);
     modulus.push_back(std::abs(found.values.front().multiplier));
   }
-  if (modulus.empty()) throw std::runtime_error("no multiplier was found along the curve of " + file);
+  if (modulus.empty()) throw std::runtime_error("no multiplier was found along the curve of " + files[0]);
   for (const solvers::TurningPoint& fold : curve.turning_points) {
     fold_frequency.push_back(fold.frequency);
     one.push_back(1.0);
@@ -161,20 +163,114 @@ void draw_multipliers(const std::string& file) {
   panel.add({"folds", fold_frequency, one, app::SeriesStyle::points}).mark_y(1.0);
   app::write_pictures("multipliers", figure);
 }
+
+// A balance of a scene with Fourier functions, and the motion of the structure near it.
+struct Balance {
+  Balance(app::Scene scene, int functions, const solvers::ContactPhasesOptions& options)
+      : problem(app::compose_problem(with_functions(scene, functions), app::make_model(scene))),
+        response(problem.respond(scene.forcing.frequency)) {
+    const auto found = problem.phases(response, options);
+    if (!response.converged() || !found || !found->motion.parts)
+      throw std::runtime_error("no motion near the balance with " + std::to_string(functions) + " functions");
+    phases = *found;
+  }
+
+  static app::Scene with_functions(app::Scene scene, int functions) {
+    scene.time = {.trial = "fourier", .weight = "fourier", .functions = functions};
+    scene.time.quadrature_points = 4 * (functions + 1);
+    return scene;
+  }
+
+  solvers::ContactProblem problem;
+  solvers::PeriodicResponse response;
+  solvers::ResponsePhases phases;
+};
+
+constexpr double exact = 1e-12;  // tolerance of what errors are measured against
+
+// The force of a motion about its contact, and how far balances are from its displacement.
+void draw_phases(const Files& files) {
+  constexpr int points = 2048;
+  const app::Scene scene = app::load_scene(files.at(0));
+  const std::vector<double> time = uniform(0.0, 1.0 - 1.0 / points, points);
+  const Eigen::VectorXd times = Eigen::Map<const Eigen::VectorXd>(time.data(), points);
+  app::Figure figure{.columns = 2, .panel_width = 400, .panel_height = 300};
+  app::Panel force, distance;
+  force.title = "Contact force";
+  force.x = {.label = "Time (fraction of a period)", .lower = 0.0, .upper = 0.2};
+  force.y.label = "Force (MN)";
+  distance.title = "Distance of balances from the motion";
+  distance.x = {.label = "Time (fraction of a period)", .lower = 0.0, .upper = 1.0};
+  distance.y = {.label = "Distance (m)", .lower = 1e-10, .upper = 1e-4, .logarithmic = true};
+  distance.y.tick_format = "10^{%L}";
+  for (const int functions : {31, 127, 511}) {
+    Balance balance(scene, functions, {.tolerance = exact});
+    const solvers::Motion motion = balance.problem.motion(balance.response, points);
+    const std::string name = "balance, " + std::to_string(functions) + " functions";
+    const Eigen::VectorXd error =
+        (motion.displacement - balance.phases.motion.displacement(times)).row(0).cwiseAbs();
+    distance.add({name, time, error});
+    if (functions > 31) continue;
+    for (const solvers::ContactPhase& phase : balance.phases.motion.phases)
+      force.rectangles.push_back({phase.begin, 0.0, phase.end, 1.6});
+    const Eigen::VectorXd computed = 1e-6 * motion.force.row(0);
+    const Eigen::VectorXd phases = 1e-6 * balance.phases.motion.force(times).row(0);
+    force.add({name, time, computed}).add({"contact phases", time, phases});
+    force.series.back().colour = app::Colour::black;
+  }
+  figure.panels = {force, distance};
+  app::write_pictures("phases", figure);
+}
+
+// Error of the displacement over the number of unknowns, of balances and of phases with one panel; a panel
+// for each scene.
+void draw_phase_errors(const Files& files) {
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(1024, 0.0, 1.0 - 1.0 / 1024);
+  app::Figure figure{.columns = 2, .panel_width = 400, .panel_height = 320};
+  for (const std::string& file : files) {
+    const app::Scene scene = app::load_scene(file);
+    std::vector<double> functions, errors, unknowns, phase_errors;
+    for (const int number : {15, 31, 63, 127, 255, 511, 1023}) {
+      functions.push_back(number);
+      errors.push_back(Balance(scene, number, {.tolerance = exact}).phases.displacement_error);
+    }
+    const Eigen::MatrixXd motion = Balance(scene, 63, {.tolerance = exact}).phases.motion.displacement(times);
+    for (const int nodes : {6, 8, 10, 12, 14, 16, 20, 24, 28, 32}) {
+      const Balance balance(scene, 63,
+                            {.tolerance = 1e-15, .nodes = nodes, .max_nodes = nodes, .max_panels = 1});
+      unknowns.push_back(balance.phases.motion.unknowns);
+      phase_errors.push_back((balance.phases.motion.displacement(times) - motion).norm() / motion.norm());
+    }
+    app::Panel& panel =
+        figure.add_panel(scene.contact.law == "rigid" ? "rigid obstacle" : scene.contact.law + " law");
+    panel.x = {.label = "Unknowns", .lower = 5.0, .upper = 2000.0, .logarithmic = true};
+    panel.y = {
+        .label = "Relative error of the displacement", .lower = 1e-15, .upper = 1.0, .logarithmic = true};
+    panel.y.tick_format = "10^{%L}";
+    panel.add({"harmonic balance", functions, errors, app::SeriesStyle::line_points})
+        .add({"contact phases", unknowns, phase_errors, app::SeriesStyle::line_points});
+    panel.series.back().colour = app::Colour::black;
+  }
+  app::write_pictures("phase_errors", figure);
+}
 }  // namespace
 
 int main(int count, char** arguments) try {
-  const std::map<std::string, void (*)(const std::string&)> figures{{"bases", draw_bases},
-                                                                    {"regularity", write_regularity},
-                                                                    {"symbols", draw_symbols},
-                                                                    {"laws", draw_laws},
-                                                                    {"multipliers", draw_multipliers}};
+  const std::map<std::string, void (*)(const Files&)> figures{{"bases", draw_bases},
+                                                              {"regularity", write_regularity},
+                                                              {"symbols", draw_symbols},
+                                                              {"laws", draw_laws},
+                                                              {"multipliers", draw_multipliers},
+                                                              {"phases", draw_phases},
+                                                              {"phase_errors", draw_phase_errors}};
   const auto figure = figures.find(count > 1 ? arguments[1] : "");
   if (figure == figures.end()) {
-    std::fprintf(stderr, "usage: theory_figures bases|regularity|symbols|laws, or multipliers SCENE\n");
+    std::fprintf(
+        stderr,
+        "usage: theory_figures bases|regularity|symbols|laws, multipliers|phases SCENE, or phase_errors SCENE...\n");
     return 2;
   }
-  figure->second(count > 2 ? arguments[2] : "");
+  figure->second(Files(arguments + 2, arguments + count));
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "theory_figures: %s\n", error.what());

@@ -7,9 +7,10 @@ SHOWN = {
     "JL14": "Jones & Legrand 2014", "LL10": "Laxalde & Legrand 2010", "AllgowerGeorg": "Allgower & Georg",
     "Beylkin": "Beylkin 1992", "CameronGriffin": "Cameron & Griffin 1989", "CottlePangStone": "Cottle, Pang & Stone",
     "CraigBampton": "Craig & Bampton 1968", "Daubechies": "Daubechies 1992", "Hairer": "Hairer, Nørsett & Wanner",
-    "HuntCrossley": "Hunt & Crossley 1975", "Keller": "Keller 1977", "Moreau": "Moreau 1988", "QiSun": "Qi & Sun 1993",
-    "RestrepoLeaf": "Restrepo & Leaf 1993", "SaadSchultz": "Saad & Schultz 1986", "Seydel": "Seydel 2010",
-    "Skeel": "Skeel 1979", "WereleyHall": "Wereley & Hall 1990",
+    "HaleTownsend": "Hale & Townsend 2014", "HuntCrossley": "Hunt & Crossley 1975", "Keller": "Keller 1977",
+    "Moreau": "Moreau 1988", "QiSun": "Qi & Sun 1993", "RestrepoLeaf": "Restrepo & Leaf 1993",
+    "SaadSchultz": "Saad & Schultz 1986", "Seydel": "Seydel 2010", "Skeel": "Skeel 1979",
+    "WereleyHall": "Wereley & Hall 1990",
 }
 
 
