@@ -148,12 +148,13 @@ void note_forces(report::Artefact& artefact, const Study& study) {
     if (response.converged) largest.push_back(response.force().maxCoeff() / study.scene.forcing.amplitude);
   const auto [least, most] = std::minmax_element(largest.begin(), largest.end());
   const double first = first_force(study);
-  const double exact = study.exact.force().maxCoeff() / study.scene.forcing.amplitude;
+  const double drawn = study.exact.force().maxCoeff() / study.scene.forcing.amplitude;
   artefact.note(fmt::format(
       "Case {}: where contact with the rigid obstacle begins the exact force rises to {} F at once. Its largest "
-      "value is {} F, those of the pairs with 64 functions are {} to {} F.",
-      study.number, report::number(first), report::number(std::max(first, exact)), report::number(*least),
-      report::number(*most)));
+      "value is {} F, of which the {} points of the picture reach {} F. Those of the pairs with 64 functions are {} "
+      "to {} F.",
+      study.number, report::number(first), report::number(std::max(first, drawn)),
+      study.exact.contacts.points(), report::number(drawn), report::number(*least), report::number(*most)));
 }
 
 void note_penetration(report::Artefact& artefact, const Study& study) {
