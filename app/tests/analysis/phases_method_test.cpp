@@ -170,6 +170,14 @@ TEST(SmallTolerance, IsMetByARefinedBalanceWherePhasesDoNotApplyAndInBasesThatAr
   EXPECT_EQ(named.refinement->trial, "bspline");
 }
 
+TEST(SmallTolerance, HasAPictureWhereTheSceneNamesNoBasis) {
+  const Record record = analyse(parse_scene(
+      bar_scene, "case.toml", std::vector<std::string>{"time.tolerance=1e-8"},
+      std::vector<std::string>{"time.functions", "time.quadrature_points", "time.trial", "time.weight"}));
+  EXPECT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "solved_by"), "phases");
+}
+
 TEST(SmallTolerance, HasALimit) {
   EXPECT_NO_THROW(bar_to("1e-13"));
   EXPECT_THROW(bar_to("9e-14"), SceneError);
