@@ -56,12 +56,27 @@ StabilityOptions stability_options(const CondensedProblem& problem) {
   return options;
 }
 
+namespace {
+
+// The largest, Im >= 0. Uniform damping gives all multipliers one modulus, among which rounding would choose:
+// it is then the one nearest to the positive real axis.
+std::complex<double> leading_of(const Eigen::VectorXcd& multipliers) {
+  constexpr double same = 1.0 - 1e-9;
+  std::complex<double> leading = multipliers[0];
+  for (const std::complex<double> multiplier : multipliers)
+    if (std::abs(multiplier) > same * std::abs(multipliers[0]) && multiplier.real() > leading.real())
+      leading = multiplier;
+  return {leading.real(), std::abs(leading.imag())};
+}
+
+}  // namespace
+
 MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers) {
   const auto unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
   MotionStability result;
   result.status = unstable > 0 ? "unstable" : "stable";
   result.unstable = unstable;
-  if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
+  if (multipliers.size() > 0) result.leading = leading_of(multipliers);
   return result;
 }
 

@@ -17,7 +17,8 @@ struct MotionStability {
   /// "no_motion_near" of a PhasesStatus.
   std::string status = "no_modes";
   int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
-  /// The multiplier of the largest modulus, Im >= 0; NaN where it is not known or below 1e-2.
+  /// The multiplier of the largest modulus, Im >= 0, of several the one with the largest real part; NaN where
+  /// it is not known or below 1e-2.
   std::complex<double> leading{missing, missing};
   /// Whether it is that of the motion of the structure, by phases of contact, or of the balance.
   bool by_phases = false;
