@@ -14,30 +14,18 @@ app::Scene scene(const std::string& file) {
   return app::load_scene(WAVEBALANCE_SCENES "/" + file, overrides);
 }
 
-Study study_of(const std::string& name, const std::string& title, app::Scene scene, app::StructureModel model,
-               app::Reference reference) {
+Study study(const std::string& name, const std::string& title, const std::string& file) {
+  constexpr double seconds = 60.0;  // at most; contact phases take milliseconds
+  app::Scene loaded = scene(file);
+  app::StructureModel model = app::make_model(loaded);
+  app::Reference reference = app::find_reference(loaded, model, loaded.analysis.output_points, seconds);
   if (!reference.converged)
     throw std::runtime_error("the reference of " + name + " did not converge: " + reference.status);
   return {name,
           title,
-          {std::move(scene), std::move(model), std::move(reference.motion)},
+          {std::move(loaded), std::move(model), std::move(reference.motion)},
           reference.error,
           reference.text};
-}
-
-Study penalty_study(const std::string& name, const std::string& title, const std::string& file) {
-  constexpr double seconds = 60.0;  // at most; contact phases take milliseconds
-  const app::Scene loaded = scene(file);
-  const app::StructureModel model = app::make_model(loaded);
-  return study_of(name, title, loaded, model,
-                  app::find_reference(loaded, model, loaded.analysis.output_points, seconds));
-}
-
-Study rigid_study(const std::string& name, const std::string& title, const std::string& file) {
-  const app::Scene loaded = scene(file);
-  const app::StructureModel model = app::make_model(loaded);
-  return study_of(name, title, loaded, model,
-                  app::rigid_flows_reference(loaded, model, loaded.analysis.output_points));
 }
 
 }  // namespace
@@ -55,14 +43,14 @@ const std::vector<app::BasisPair>& pairs() {
 }
 
 std::vector<Study> penalty_studies() {
-  return {penalty_study("case1", "Case 1, 150 Hz", "jones_legrand_2014/case1.toml"),
-          penalty_study("case2", "Case 2, 1275 Hz", "jones_legrand_2014/case2.toml"),
-          penalty_study("always_in_contact", "Always in contact", "work_precision/always_in_contact.toml")};
+  return {study("case1", "Case 1, 150 Hz", "jones_legrand_2014/case1.toml"),
+          study("case2", "Case 2, 1275 Hz", "jones_legrand_2014/case2.toml"),
+          study("always_in_contact", "Always in contact", "work_precision/always_in_contact.toml")};
 }
 
 std::vector<Study> rigid_studies() {
-  return {rigid_study("case1_rigid", "Case 1, rigid", "jones_legrand_2014/case1_rigid.toml"),
-          rigid_study("case2_rigid", "Case 2, rigid", "jones_legrand_2014/case2_rigid.toml")};
+  return {study("case1_rigid", "Case 1, rigid", "jones_legrand_2014/case1_rigid.toml"),
+          study("case2_rigid", "Case 2, rigid", "jones_legrand_2014/case2_rigid.toml")};
 }
 
 }  // namespace wavebalance::bench

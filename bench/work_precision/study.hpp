@@ -23,8 +23,7 @@ struct Study {
 
 /// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle, against contact phases.
 std::vector<Study> penalty_studies();
-/// Both cases against a rigid obstacle with the tip's mass at its neighbour, against the exact alternation of
-/// free and closed motion.
+/// Both cases against a rigid obstacle with the tip's mass at its neighbour, against contact phases.
 std::vector<Study> rigid_studies();
 
 }  // namespace wavebalance::bench

@@ -29,4 +29,19 @@ std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& mod
   return guide;
 }
 
+std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model, int functions,
+                                 const solvers::Observer& observer) {
+  const int points = 4 * (functions + 1);
+  solvers::ContactProblem problem =
+      uncondensed_problem(discretised(scene, {"fourier", "fourier"}, functions, points), model);
+  solvers::ForcedResponseOptions options;
+  options.form = scene.contact.form;
+  options.observer = observer;
+  solvers::PeriodicResponse response = problem.respond(scene.forcing.frequency, options);
+  if (!response.converged()) return std::nullopt;
+  Guide guide{std::move(problem), std::move(response), {}, solvers::missing, functions, points};
+  guide.contacts = guide.problem.motion(guide.response, scene.analysis.output_points);
+  return guide;
+}
+
 }  // namespace wavebalance::app

@@ -3,6 +3,7 @@
 
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
@@ -14,13 +15,18 @@ namespace wavebalance::app {
 struct Guide {
   solvers::ContactProblem problem;
   solvers::PeriodicResponse response;
-  solvers::Motion contacts;      ///< analysis.output_points points
-  double estimated_error = 0.0;  ///< relative rms of the displacements
+  solvers::Motion contacts;                   ///< analysis.output_points points
+  double estimated_error = solvers::missing;  ///< relative rms of the displacements
   int functions = 0, points = 0;
 };
 
 /// Nothing where the tolerance is not reached. Throws solvers::SingularSystem.
 std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& model, double tolerance,
                                    const solvers::Observer& observer);
+
+/// A balance with so many Fourier functions, whose error is not estimated; nothing where it has not
+/// converged. Throws solvers::SingularSystem.
+std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model, int functions,
+                                 const solvers::Observer& observer);
 
 }  // namespace wavebalance::app

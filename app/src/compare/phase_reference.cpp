@@ -22,6 +22,12 @@ constexpr double least_error = 1e-14;        // rounding
 constexpr const char* unchecked = "no time was left to check them with more nodes";
 constexpr int most_divided = 64;  // panels: rounding may keep the estimate above the tolerance
 
+bool is_refusal(solvers::PhasesStatus status) {
+  using enum solvers::PhasesStatus;
+  return status == rigid_contact || status == velocity_and_no_mass || status == resonant ||
+         status == structural_damping;
+}
+
 }  // namespace
 
 std::string phrase_of(solvers::PhasesStatus status) {
@@ -73,7 +79,10 @@ PhaseReference phase_reference(Guide& guide, const solvers::Observer& observer) 
     const bool first = levels == 0;
     const bool better =
         motion.parts != nullptr && (motion.converged() || motion.estimated_error <= best.error);
-    if (!better && first) best.missing_because = phrase_of(motion.status);
+    if (!better && first) {
+      best.missing_because = phrase_of(motion.status);
+      best.refused = is_refusal(motion.status);
+    }
     if (!better) break;
     solvers::Motion contacts = sampled(motion, guide.contacts.points());
     // An estimate is as much too small, at most, as that of the motion before was.

@@ -9,6 +9,7 @@ namespace wavebalance::app {
 /// The motion of the structure near a balance by its contact phases, as accurate as they become.
 struct PhaseReference {
   std::string missing_because;  ///< empty where the motion is known
+  bool refused = false;         ///< whether it is missing wherever the search starts
   solvers::Motion contacts;     ///< displacements and forces at as many points as those of the balance
   /// Relative rms of the displacements: the estimate, times what that of the motion before was too small by.
   double error = solvers::missing;

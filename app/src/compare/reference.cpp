@@ -1,6 +1,7 @@
 #include "wavebalance/app/compare/reference.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -14,7 +15,6 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/period/rigid_reference.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -69,7 +69,7 @@ class ReferenceSearch {
   /// After a level of a refinement: whether the next one is expected to end within the time allowed. A level
   /// cannot be stopped while its Newton matrix is factorized. The first motion is sought in any case.
   bool next_level_fits(const solvers::Progress& progress) {
-    if (progress.phase != "refinement" || guides_.empty()) return true;
+    if (progress.phase != "refinement" || tolerance_ >= coarse_guide) return true;
     const double now = elapsed(), seconds = now - std::exchange(level_began_, now);
     const double growth = seconds / std::exchange(level_seconds_, std::max(seconds, 1e-9));
     const bool is_last = progress.value <= tolerance_;
@@ -85,17 +85,19 @@ class ReferenceSearch {
 
   /// A reference near the motion of a coarse balance.
   std::optional<Reference> beside_guide() {
-    if (!add_guide(balance(1e-2))) return std::nullopt;
-    if (guides_.back().estimated_error > 1e-3) add_guide(balance(1e-3, phases_share));
-    const std::size_t coarse = guides_.size() - 1;
-    std::optional<Reference> found = phases();
+    std::optional<Reference> found = rigid_phases();
     if (found) return found;
-    found = rigid_flows();
-    if (!found) found = finer_balance();
+    if (!add_guide(balance(coarse_guide))) return std::nullopt;
+    const std::size_t first = guides_.size() - 1;
+    if (guides_.back().estimated_error > fine_guide && !is_rigid(scene_.contact.law)) add_finer_guide();
+    const std::size_t coarse = guides_.size() - 1;
+    found = phases();
+    if (found) return found;
+    found = finer_balance();
     // Beyond a few contacts a count of multipliers takes longer than the solution.
     constexpr int few = 6;
     if (scene_.analysis.stability && !interrupted_) {
-      Guide& counted = guides_[model_.contacts() <= few ? coarse : 0];
+      Guide& counted = guides_[model_.contacts() <= few ? coarse : first];
       found->stability = counted.problem.stability(counted.response);
     }
     found->without_phases = without_phases_;
@@ -142,48 +144,62 @@ class ReferenceSearch {
 
   /// Whether a motion is that of the balances and not another one.
   bool is_of_guide(const solvers::Motion& motion) const {
-    const double near = std::max(0.02, 10.0 * guides_.back().estimated_error);
+    const double near = std::clamp(10.0 * guides_.back().estimated_error, 0.02, 0.1);
     return displacement_error(motion, guides_.back().contacts) < near;
   }
 
-  /// From the guide, or from a finer one where no motion is found near the first.
-  std::optional<Reference> phases() {
-    without_phases_ = phases_refusal(model_);
-    if (!without_phases_.empty()) return std::nullopt;
-    const std::string too_coarse = phrase_of(solvers::PhasesStatus::no_motion_near);
-    while (!interrupted_) {
-      allowed_ = phases_share * seconds_;
-      PhaseReference found = phase_reference(guides_.back(), observer_);
-      const bool known = found.missing_because.empty();
-      if (known && is_of_guide(found.contacts)) return by_phases(std::move(found));
-      without_phases_ = known ? too_coarse : found.missing_because;
-      const bool may_be_finer = guides_.back().estimated_error > finest_guide;
-      if (without_phases_ != too_coarse || !may_be_finer) break;
-      if (!add_guide(balance(finest_guide, phases_share))) break;
+  /// Of rigid contact, from few functions: the force oscillates in finer balances, which then seem to have
+  /// many phases. The error of a balance is its distance from the one before.
+  std::optional<Reference> rigid_phases() {
+    if (!is_rigid(scene_.contact.law) || !phases_refusal(model_).empty()) return std::nullopt;
+    allowed_ = phases_share * seconds_;
+    for (const int functions : rigid_starts) {
+      std::optional<Guide> guide = sized_guide(scene_, model_, functions, observer_);
+      if (!guide) continue;
+      if (!guides_.empty())
+        guide->estimated_error = displacement_error(guides_.back().contacts, guide->contacts);
+      guides_.push_back(std::move(*guide));
     }
+    const std::size_t starts = guides_.size();
+    std::optional<Reference> found;
+    for (std::size_t i = 0; i < starts && starts > 1 && !found && !refused_ && !interrupted_; ++i)
+      found = phases_from(guides_[i], 1.0 / 3.0);
+    return found;
+  }
+
+  /// From the guide, and from finer ones where no motion is found near it.
+  std::optional<Reference> phases() {
+    if (!refused_) without_phases_ = phases_refusal(model_);
+    refused_ = refused_ || !without_phases_.empty();
+    std::optional<Reference> found;
+    for (bool more = !refused_; more && !interrupted_; more = !found && !refused_ && add_finer_guide())
+      found = phases_from(guides_.back(), 1.0);
+    return found;
+  }
+
+  /// In a part of the time that is left for them.
+  std::optional<Reference> phases_from(Guide& start, double part) {
+    allowed_ = elapsed() + part * std::max(0.0, phases_share * seconds_ - elapsed());
+    PhaseReference found = phase_reference(start, observer_);
+    const bool known = found.missing_because.empty();
+    if (known && is_of_guide(found.contacts)) return by_phases(std::move(found), start);
+    without_phases_ = known ? phrase_of(solvers::PhasesStatus::no_motion_near) : found.missing_because;
+    refused_ = found.refused;
     return std::nullopt;
   }
 
-  Reference by_phases(PhaseReference found) {
+  bool add_finer_guide() {
+    const double error = guides_.back().estimated_error;
+    return error > finest_guide &&
+           add_guide(balance(error > fine_guide ? fine_guide : finest_guide, phases_share));
+  }
+
+  Reference by_phases(PhaseReference found, Guide& guide) {
     Reference reference = found_reference("phases", "contact phases", found.error, std::move(found.contacts));
     reference.force_error = found.force_error;
-    Guide& guide = guides_.back();
     if (scene_.analysis.stability)
       reference.stability = guide.problem.stability(guide.response, &found.motion);
     return reference;
-  }
-
-  std::optional<Reference> rigid_flows() {
-    if (interrupted_ || !is_rigid(scene_.contact.law) || scene_.structure.type != StructureType::bar ||
-        model_.size() > largest_flow)
-      return std::nullopt;
-    try {
-      Reference reference = rigid_flows_reference(scene_, model_, scene_.analysis.output_points);
-      if (!reference.converged || !is_of_guide(reference.motion)) return std::nullopt;
-      return reference;
-    } catch (const std::invalid_argument&) {
-      return std::nullopt;  // a tip that is not damped
-    }
   }
 
   Reference finer_balance() {
@@ -205,9 +221,10 @@ class ReferenceSearch {
   }
 
   static constexpr double least_growth = 2.0, largest_growth = 8.0;  // of the times of two levels
-  static constexpr int largest_flow = 64;            // matrix exponentials and products of twice as many rows
-  static constexpr double phases_share = 1.0 / 3.0;  // of the time
-  static constexpr double finest_guide = 1e-4;       // from which the phases are sought
+  static constexpr double phases_share = 1.0 / 3.0;                  // of the time
+  // Errors of the balances from which the phases are sought, and sizes of those before them.
+  static constexpr double coarse_guide = 1e-2, fine_guide = 1e-3, finest_guide = 1e-4;
+  static constexpr std::array rigid_starts{15, 31, 63};
 
   Scene scene_;
   const StructureModel& model_;
@@ -219,6 +236,7 @@ class ReferenceSearch {
   solvers::Observer observer_;
   std::vector<Guide> guides_;  // of falling errors
   std::string without_phases_;
+  bool refused_ = false;  // phases, wherever they start
 };
 
 }  // namespace
@@ -226,25 +244,6 @@ class ReferenceSearch {
 Reference find_reference(const Scene& scene, const StructureModel& model, int points, double seconds,
                          const solvers::Observer& observer) {
   return ReferenceSearch(scene, model, points, seconds, observer).find();
-}
-
-Reference rigid_flows_reference(const Scene& scene, const StructureModel& model, int points) {
-  const auto at = [&](int samples) {
-    return solvers::rigid_reference(model.structure, scene.contact.gap, scene.forcing.frequency, samples);
-  };
-  const auto found = at(points), fine = at(2 * points);
-  const auto same = Eigen::seqN(0, points, 2);
-  const Eigen::VectorXd displacement = fine.displacement(same), force = fine.contact_force(same);
-  solvers::Motion motion;
-  motion.displacement = found.displacement.transpose();
-  motion.force = found.contact_force.transpose();
-  Reference reference =
-      found_reference("rigid_flows", "two linear motions joined where the contact opens and closes",
-                      relative_rms_error(displacement, found.displacement), std::move(motion));
-  reference.force_error = relative_rms_error(force, found.contact_force);
-  reference.converged = found.converged && fine.converged;
-  if (!reference.converged) reference.status = "iteration_limit";
-  return reference;
 }
 
 }  // namespace wavebalance::app

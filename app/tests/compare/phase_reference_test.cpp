@@ -13,6 +13,7 @@
 #include "wavebalance/app/compare/comparison_figure.hpp"
 #include "wavebalance/app/compare/phase_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/period/rigid_reference.hpp"
 #include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
@@ -59,6 +60,30 @@ TEST_P(PhaseReferenceOfJonesLegrand, IsTheMotionThatShootingFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, PhaseReferenceOfJonesLegrand, testing::Values("case1", "case2"),
+                         [](const auto& one) { return std::string(one.param); });
+
+class PhaseReferenceOfRigidBars : public testing::TestWithParam<const char*> {};
+
+TEST_P(PhaseReferenceOfRigidBars, IsTheMotionOfFreeAndClosedBarInTurn) {
+  const Scene scene = jones_legrand(GetParam());
+  const Reference reference = reference_of(scene);
+  ASSERT_TRUE(reference.converged);
+  EXPECT_EQ(reference.kind, "phases");
+  EXPECT_EQ(reference.without_phases, "");
+  EXPECT_LE(reference.error, 1e-12);
+  EXPECT_LT(reference.force_error, 1e-9);
+  EXPECT_EQ(reference.stability.status, "stable");
+  constexpr double repeats = 1e-13;  // of a period
+  const auto joined = solvers::rigid_reference(make_model(scene).structure, scene.contact.gap,
+                                               scene.forcing.frequency, error_points, repeats);
+  ASSERT_TRUE(joined.converged);
+  // The instants of the flows are known to 2^-32 of a sample, and the force begins as steeply as 1 / sqrt(t).
+  const solvers::Motion independent{joined.displacement.transpose(), {}, joined.contact_force.transpose()};
+  EXPECT_LT(displacement_error(independent, reference.motion), 1e-10);
+  EXPECT_LT(force_error(independent, reference.motion), 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, PhaseReferenceOfRigidBars, testing::Values("case1_rigid", "case2_rigid"),
                          [](const auto& one) { return std::string(one.param); });
 
 /// Relative distance of the displacements from those of time stepping.

@@ -16,8 +16,9 @@ namespace {
 
 constexpr int halvings = 32;
 
-// State: displacements and velocities of the dofs with mass, displacement of the tip, cosine and sine of the
-// load; time as a fraction of the period.
+// State: displacements of the dofs with mass, their velocities over a bound of the natural angular
+// frequencies, displacement of the tip, cosine and sine of the load; time as a fraction of the period. The
+// matrix exponential loses the digits by which displacements and velocities differ in size.
 class Flows {
  public:
   Flows(const LinearStructure& structure, double gap, double frequency, int points)
@@ -36,6 +37,7 @@ class Flows {
     forces << -k.topLeftCorner(n, n), -c.topLeftCorner(n, n), -k.col(n).head(n), structure.load.head(n),
         Eigen::VectorXd::Zero(n);
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(m.topLeftCorner(n, n));
+    fastest_ = std::sqrt(lu.solve(k.topLeftCorner(n, n)).norm());
     for (const bool closed : {false, true}) {
       Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
       const Eigen::RowVectorXd tip =
@@ -43,12 +45,15 @@ class Flows {
       a.block(0, n, n, n).setIdentity();
       a.middleRows(n, n) = lu.solve(forces - c.col(n).head(n) * tip);
       a.row(2 * n) = tip;
+      a.middleRows(n, n) /= fastest_;
+      a.middleCols(n, n) *= fastest_;
       a /= frequency;
       a(2 * n + 1, 2 * n + 2) = -2.0 * std::numbers::pi;
       a(2 * n + 2, 2 * n + 1) = 2.0 * std::numbers::pi;
       for (int h = 0; h <= halvings; ++h)
         steps_[closed].push_back(detail::exponential(a * std::ldexp(1.0 / points, -h)));
     }
+    force_.segment(n, n) *= fastest_;
   }
 
   double tip(const Eigen::VectorXd& state) const { return state[2 * masses_]; }
@@ -69,7 +74,7 @@ class Flows {
 
  private:
   int masses_;
-  double gap_;
+  double gap_, fastest_ = 1.0;  // rad/s
   Eigen::RowVectorXd force_;
   std::array<std::vector<Eigen::MatrixXd>, 2> steps_;
 };

@@ -13,7 +13,7 @@ namespace wavebalance::app {
 /// The response that others are measured against: which one it is and how accurate.
 struct Reference {
   bool converged = false;
-  std::string kind;    ///< "linear", "phases", "rigid_flows" or "finer_balance"; empty if none was found
+  std::string kind;    ///< "linear", "phases" or "finer_balance"; empty if none was found
   std::string status;  ///< "converged" or why not
   std::string text;    ///< what it is, for a sentence: "contact phases"
   /// Estimated relative rms errors of its displacements and forces: smaller differences from it say nothing.
@@ -32,16 +32,16 @@ struct Reference {
 /// The reference of a scene's forced response at `points` uniform times, a power of two:
 ///
 ///   contact never closes in the response without contact   that response
-///   elastic laws, any number of contacts                   contact phases
-///   a bar against a rigid obstacle                         free and closed linear motion in turn
-///   everything else, and where these find no such motion   the balance with Fourier functions, refined
+///   elastic laws, rigid ones of contacts without mass      contact phases
+///   everything else, and where no such motion is found     the balance with Fourier functions, refined
 ///
-/// The phases start from a balance with an error of 1e-3, or 1e-4 where they are not found from that, and are
-/// solved to tolerances that fall to 1e-12, and once more with more nodes. The distance of the last two is
-/// the error of the forces; that of the displacements is the estimate, times what the estimate before was too
-/// small by. They take a third of `seconds` (wall time). A structure whose modes are reduced for its dynamics
-/// is not taken, as the phases are then those of the reduced one. Phases and linear motions are taken only
-/// where they stay close to the balance, since there may be several motions.
+/// The phases start from a balance with an error of 1e-3, or 1e-4 where they are not found from that; those
+/// of rigid contact from 15, 31 and 63 functions before, since in finer balances the force oscillates. They
+/// are solved to tolerances that fall to 1e-12, and once more with more nodes. The distance of the last two
+/// is the error of the forces; that of the displacements is the estimate, times what the estimate before was
+/// too small by. They take a third of `seconds` (wall time). A structure whose modes are reduced for its
+/// dynamics is not taken, as the phases are then those of the reduced one. Phases are taken only where they
+/// stay close to the finest of these balances, since there may be several motions.
 ///
 /// The balance is refined to tolerances of 1e-2 to 1e-8 until `seconds` are used; the error of its
 /// displacements is that which the refinement estimates, that of its forces the distance of the last two
@@ -49,10 +49,5 @@ struct Reference {
 /// Throws what weighted_residual_response() throws.
 Reference find_reference(const Scene& scene, const StructureModel& model, int points, double seconds,
                          const solvers::Observer& observer = {});
-
-/// Two linear motions joined where the contact opens and closes, of a structure that has one contact, without
-/// mass, at its last degree of freedom. Twice the points tell its errors, and whether a contact is shorter
-/// than the distance of two points. Not converged after 1000 periods.
-Reference rigid_flows_reference(const Scene& scene, const StructureModel& model, int points);
 
 }  // namespace wavebalance::app
