@@ -7,11 +7,10 @@
 
 #include "stiffness_section.hpp"
 #include "stopwatch.hpp"
+#include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
-#include "wavebalance/solvers/period/rigid_reference.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/wavelets/fast_transform.hpp"
@@ -167,23 +166,16 @@ app::Scene Study::scene(const std::string& basis, int functions, int points) con
 
 Study make_study(const std::string& name, const Sizes& sizes) {
   Study study{name, sizes, {}, {}};
-  const app::Scene scene = study.scene("fourier", 63, sizes.points);
-  const auto structure = app::make_structure(scene);
-  const double frequency = scene.forcing.frequency, gap = scene.contact.gap;
-  if (scene.contact.law == "rigid") {
-    const auto exact = solvers::rigid_reference(structure, gap, frequency, sizes.points);
-    if (!exact.converged) throw std::runtime_error(name + ": the reference did not settle");
-    study.reference = exact.displacement;
-    study.instants = exact.instants;
-    return study;
-  }
-  solvers::ShootingOptions options;
-  options.output_points = sizes.points;
-  const auto shot = solvers::shoot(structure, app::make_law(scene.contact), frequency, options);
-  if (shot.status != solvers::ShootingStatus::converged)
-    throw std::runtime_error(name + ": shooting did not converge");
-  study.reference = shot.contacts.displacement.row(0);
-  study.instants = solvers::contact_instants(study.reference, gap);
+  app::Scene scene = study.scene("fourier", 63, sizes.points);
+  scene.time = {};
+  scene.time.tolerance = 1e-11;
+  scene.analysis.output_points = sizes.points;
+  const app::Response exact = app::phases_response(scene);
+  if (!exact.converged) throw std::runtime_error(name + ": no contact phases: " + exact.status);
+  study.reference = exact.displacement();
+  for (const solvers::ContactPhase& phase : exact.phases->motion.phases)
+    for (const double instant : {phase.begin, phase.end})
+      study.instants.push_back(instant - std::floor(instant));
   return study;
 }
 

@@ -35,7 +35,7 @@ struct Study {
 /// study, basis, method, unknowns, converged, rms_relative_error, estimated_error, iterations, cpu_ms.
 app::Table result_table();
 
-/// Shooting for penalty laws, two linear flows for the rigid obstacle.
+/// With contact phases as the reference.
 Study make_study(const std::string& name, const Sizes& sizes);
 
 /// Uniform levels and adaptive selections of a wavelet Galerkin pair; rows are appended to the table. Returns

@@ -3,13 +3,13 @@
 #include "dense_system.hpp"
 #include "points.hpp"
 #include "stopwatch.hpp"
+#include "wavebalance/app/compare/phase_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
-// What the condensed solver is measured against: the assembled system, time stepping and shooting.
+// What the condensed solver is measured against: the assembled system, time stepping and contact phases.
 namespace wavebalance::bench {
 namespace {
 
@@ -52,23 +52,6 @@ Point dense_point(const Study& study, int functions, double max_seconds) {
   return point;
 }
 
-// `solve(tolerance)` timed and compared, for each tolerance.
-template <class Solve>
-std::vector<Point> reference_points(const std::string& method, const Study& study,
-                                    const std::vector<double>& tolerances, const Solve& solve) {
-  std::vector<Point> points;
-  for (const double tolerance : tolerances) {
-    Point point = named(method, tolerance);
-    decltype(solve(tolerance)) result;
-    point.seconds = least_seconds([&] { result = solve(tolerance); }, {.max_seconds = 0.2});
-    point.status = to_string(result.status);
-    point.converged = point.status == "converged";
-    point.error = error_of(study, result.contacts.displacement.row(0));
-    points.push_back(std::move(point));
-  }
-  return points;
-}
-
 }  // namespace
 
 std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double max_seconds) {
@@ -83,23 +66,32 @@ std::vector<Point> dense_points(const Study& study, const std::vector<int>& func
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances) {
   const solvers::LinearStructure structure = app::make_structure(study.scene());
   const solvers::AnyContactLaw law = app::make_law(study.scene().contact);
-  return reference_points("time_stepping", study, tolerances, [&](double tolerance) {
+  std::vector<Point> points;
+  for (const double tolerance : tolerances) {
+    Point point = named("time_stepping", tolerance);
     solvers::TimeSteppingOptions options;
     options.period_tolerance = tolerance;
     options.step_tolerance = 1e-3 * tolerance;
-    return solvers::integrate_to_periodic(structure, law, study.scene().forcing.frequency, options);
-  });
+    solvers::TimeSteppingResult result;
+    point.seconds = least_seconds(
+        [&] {
+          result = solvers::integrate_to_periodic(structure, law, study.scene().forcing.frequency, options);
+        },
+        {.max_seconds = 0.2});
+    point.status = to_string(result.status);
+    point.converged = result.status == solvers::TimeSteppingStatus::converged;
+    point.error = error_of(study, result.contacts.displacement.row(0));
+    points.push_back(std::move(point));
+  }
+  return points;
 }
 
-std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances) {
-  const solvers::LinearStructure structure = app::make_structure(study.scene());
-  const solvers::AnyContactLaw law = app::make_law(study.scene().contact);
-  return reference_points("shooting", study, tolerances, [&](double tolerance) {
-    solvers::ShootingOptions options;
-    options.tolerance = std::max(1e-11, 1e-2 * tolerance);
-    options.step_tolerance = tolerance;
-    return solvers::shoot(structure, law, study.scene().forcing.frequency, options);
-  });
+std::vector<Point> phase_points(const Study& study, const std::vector<double>& tolerances) {
+  constexpr int functions = 63;
+  app::PhaseStudyOptions options;
+  options.tolerances = tolerances;
+  options.first_functions = options.largest_functions = functions;
+  return app::phase_study(study.measured, study.reference, options);
 }
 
 }  // namespace wavebalance::bench

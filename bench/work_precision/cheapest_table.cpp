@@ -56,7 +56,7 @@ std::string cell_of(const app::Recommendation& found) {
 void CheapestTable::add(const Study& study, const std::vector<Point>& points) {
   Column column{study.title, {}};
   for (const NamedError& error : errors) {
-    const auto found = app::recommend(points, error.value, study.reference_error, study.scene().time);
+    const auto found = app::recommend(points, error.value, study.reference.error, study.scene().time);
     column.cells.push_back(cell_of(found));
     const Point choice = found.choice.value_or(Point{}), fourier = found.fourier.value_or(Point{});
     table_.append_row({study.name, error.value, choice.pair.trial, choice.pair.weight,

@@ -43,18 +43,24 @@ app::SizeStudyOptions sizes(bool quick, std::vector<int> quick_points, double ma
   return options;
 }
 
+std::vector<double> phase_tolerances(bool quick) {
+  if (quick) return {1e-3};
+  return {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+}
+
 std::vector<Point> penalty_points(const Study& study, bool quick) {
   std::vector<Point> points = app::size_study(study.measured, pairs(), sizes(quick, {2}, 0.5));
   append(points, dense_points(study, quick ? std::vector{3, 7} : std::vector{3, 7, 15, 31, 63}, 2.0));
   append(points, time_stepping_points(study, quick ? std::vector{1e-2}
                                                    : std::vector{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}));
-  append(points, shooting_points(study, quick ? std::vector{1e-3} : std::vector{1e-3, 1e-5, 1e-7, 1e-9}));
+  append(points, phase_points(study, phase_tolerances(quick)));
   app::mark_front(points);
   return points;
 }
 
 std::vector<Point> rigid_points(const Study& study, bool quick) {
   std::vector<Point> points = app::size_study(study.measured, pairs(), sizes(quick, {4}, 0.2));
+  append(points, phase_points(study, phase_tolerances(quick)));
   app::mark_front(points);
   return points;
 }
@@ -66,7 +72,7 @@ void report(const Study& study, const std::vector<Point>& points, double seconds
     run += point.status != "not_run" ? 1U : 0U;
   }
   std::printf("%-20s %4zu points, %4zu run, %4zu converged, reference to %.1e, %.1f s\n", study.name.c_str(),
-              points.size(), run, converged, study.reference_error, seconds);
+              points.size(), run, converged, study.reference.error, seconds);
   std::fflush(stdout);
 }
 
@@ -86,8 +92,8 @@ class Results {
       append(table_, study, points);
       picture.add(study, points);
       cheapest_.add(study, points);
-      notes_.push_back("reference of " + study.name + ": " + study.reference_text + ", own error about " +
-                       app::cell_text(study.reference_error));
+      notes_.push_back("reference of " + study.name + ": " + study.reference.text + ", own error about " +
+                       app::cell_text(study.reference.error));
       report(study, points, processor_seconds() - start);
       write_data(program_.output, "work_precision", table_,
                  {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
@@ -118,7 +124,7 @@ class Results {
 
 constexpr const char* about =
     "Measures error over solve time of every pair of bases, in the cases of JL14 and against a rigid obstacle,\n"
-    "beside time stepping, shooting and the assembled system. Writes work_precision.csv, cheapest_pairs.csv and two\n"
+    "beside contact phases, time stepping and the assembled system. Writes work_precision.csv, cheapest_pairs.csv and two\n"
     "pictures. For another scene there is: wavebalance compare SCENE.toml --output DIR";
 
 void run(const Program& program) {

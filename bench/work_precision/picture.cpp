@@ -39,9 +39,11 @@ void WorkPrecisionPicture::add(const Study& study, const std::vector<Point>& poi
   constexpr std::size_t most = 5;
   for (const app::BasisPair& pair : app::leading_pairs(pairs(), points, most))
     panel.add(app::best_of(pair, points));
-  for (app::Series one :
-       {baseline("dense", "Fourier:Fourier, assembled system", 6, points),
-        baseline("time_stepping", "time stepping", 7, points), baseline("shooting", "shooting", 8, points)})
+  app::Series phases = app::best_of(app::BasisPair::phases(), points);
+  phases.label = "contact phases from 63 functions";
+  phases.marker = 8;  // that of no pair in the same colour
+  for (app::Series one : {baseline("dense", "Fourier:Fourier, assembled system", 6, points),
+                          baseline("time_stepping", "time stepping", 7, points), std::move(phases)})
     if (!one.x.empty()) panel.add(std::move(one));
 }
 

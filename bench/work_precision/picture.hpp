@@ -8,8 +8,8 @@
 namespace wavebalance::bench {
 
 /// Error over solve time, a panel a study: the front over everything, what Fourier:Fourier and the four pairs
-/// with the most points on the front reach at best, and the baselines. Points that have not converged are not
-/// drawn.
+/// with the most points on the front reach at best, contact phases and the baselines. Points that have not
+/// converged are not drawn.
 class WorkPrecisionPicture {
  public:
   explicit WorkPrecisionPicture(const std::string& title);

@@ -10,8 +10,10 @@ using Point = app::SolvePoint;
 
 /// Fourier functions through the assembled system of all unknowns.
 std::vector<Point> dense_points(const Study& study, const std::vector<int>& functions, double max_seconds);
-/// Time stepping to each tolerance on the difference of two periods, and shooting to each on its steps.
+/// Contact phases to each tolerance, with their balance of 63 functions, from nothing. The first row has the
+/// tolerance 1e-6, by which phase_study() chooses a balance.
+std::vector<Point> phase_points(const Study& study, const std::vector<double>& tolerances);
+/// Time stepping to each tolerance on the difference of two periods.
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances);
-std::vector<Point> shooting_points(const Study& study, const std::vector<double>& tolerances);
 
 }  // namespace wavebalance::bench

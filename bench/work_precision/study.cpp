@@ -21,11 +21,7 @@ Study study(const std::string& name, const std::string& title, const std::string
   app::Reference reference = app::find_reference(loaded, model, loaded.analysis.output_points, seconds);
   if (!reference.converged)
     throw std::runtime_error("the reference of " + name + " did not converge: " + reference.status);
-  return {name,
-          title,
-          {std::move(loaded), std::move(model), std::move(reference.motion)},
-          reference.error,
-          reference.text};
+  return {name, title, {std::move(loaded), std::move(model), reference.motion}, std::move(reference)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/reference.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 
 namespace wavebalance::bench {
@@ -12,11 +13,10 @@ const std::vector<app::BasisPair>& pairs();
 
 /// A scene whose periodic response is known at 1024 uniform points.
 struct Study {
-  std::string name;              ///< of the column "case"
-  std::string title;             ///< of the panel
-  app::MeasuredScene measured;   ///< the reference has the tip's displacement, m, and force, N
-  double reference_error = 0.0;  ///< estimated, relative: errors below it say nothing
-  std::string reference_text;    ///< where it comes from
+  std::string name;             ///< of the column "case"
+  std::string title;            ///< of the panel
+  app::MeasuredScene measured;  ///< the reference has the tip's displacement, m, and force, N
+  app::Reference reference;     ///< errors below its own say nothing
 
   const app::Scene& scene() const { return measured.scene; }
 };

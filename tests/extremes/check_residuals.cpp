@@ -8,11 +8,11 @@
 #include <functional>
 #include <stdexcept>
 
+#include "period_oracle/shooting.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 #include "wavebalance/spectral/fft.hpp"
@@ -190,15 +190,15 @@ bool can_be_stepped(const Scene& scene, const app::Response& response, int stepp
 }
 
 double periodicity(const Scene& scene, const solvers::Motion& structure) {
-  solvers::ShootingOptions options;
+  oracle::ShootingOptions options;
   options.output_points = 2;
   options.settling_periods = 0;
   options.max_iterations = 1;
   options.initial_displacement = structure.displacement.col(0);
   options.initial_velocity = structure.velocity.col(0);
   try {
-    const auto result = solvers::shoot(app::make_model(scene).structure, app::make_law(scene.contact),
-                                       scene.forcing.frequency, options);
+    const auto result = oracle::shoot(app::make_model(scene).structure, app::make_law(scene.contact),
+                                      scene.forcing.frequency, options);
     return result.residual_history.empty() ? missing : result.residual_history.front();
   } catch (const std::invalid_argument&) {
     return missing;  // an undamped structure at a natural frequency of its own

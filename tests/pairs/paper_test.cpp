@@ -6,7 +6,7 @@
 #include "dense_system.hpp"
 #include "pairs.hpp"
 #include "paper_values.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
+#include "period_oracle/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -20,13 +20,13 @@ namespace {
 using solvers::Formulation;
 using solvers::InnerProducts;
 
-const solvers::ShootingResult& reference(const Case& scene) {
+const oracle::ShootingResult& reference(const Case& scene) {
   static const auto run = [](const Case& c) {
-    solvers::ShootingOptions how;
+    oracle::ShootingOptions how;
     how.full_history = true;
-    return solvers::shoot(c.structure(), c.law(), c.frequency_hz, how);
+    return oracle::shoot(c.structure(), c.law(), c.frequency_hz, how);
   };
-  static const solvers::ShootingResult results[] = {run(cases[0]), run(cases[1])};
+  static const oracle::ShootingResult results[] = {run(cases[0]), run(cases[1])};
   return results[&scene - cases];
 }
 
@@ -56,7 +56,7 @@ double tip_error(const Pair& pair, const Case& scene, int functions) {
 }
 
 TEST(PaperPairs, ReferencesConverge) {
-  for (const Case& scene : cases) EXPECT_EQ(reference(scene).status, solvers::ShootingStatus::converged);
+  for (const Case& scene : cases) EXPECT_EQ(reference(scene).status, oracle::ShootingStatus::converged);
 }
 
 const Pair& pair_named(const std::string& name) {

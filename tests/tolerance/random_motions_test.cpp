@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "random_motions.hpp"
+#include "shooting_nearby.hpp"
 
 namespace wavebalance::tolerance {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "period_oracle/shooting.hpp"
 #include "support/chain_files.hpp"
 #include "support/curve_record.hpp"
 #include "support/scene_texts.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -65,7 +65,7 @@ TEST(CurveMotions, AtAnAmplitudeAreThoseOfShootingFromTheirState) {
     const Table table = table_of(record, name);
     ASSERT_FALSE(table.empty());
     const auto shot = shot_from(scene, model, table);
-    ASSERT_EQ(shot.status, solvers::ShootingStatus::converged) << name;
+    ASSERT_EQ(shot.status, oracle::ShootingStatus::converged) << name;
     const auto u = table.numbers("displacement_m");
     for (std::size_t l = 0; l < u.size(); ++l)
       EXPECT_NEAR(u[l], shot.contacts.displacement(0, Eigen::Index(l)), 5e-5) << name;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "period_oracle/shooting.hpp"
 #include "support/chain_files.hpp"
 #include "support/curve_record.hpp"
 #include "support/scene_error.hpp"
@@ -20,7 +21,6 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -131,7 +131,7 @@ TEST(CurveMotions, AtAFrequencyAreThoseOfShootingFromTheirState) {
     const Table table = table_of(record, name);
     ASSERT_FALSE(table.empty());
     const auto shot = shot_from(scene, model, table);
-    ASSERT_EQ(shot.status, solvers::ShootingStatus::converged) << name;
+    ASSERT_EQ(shot.status, oracle::ShootingStatus::converged) << name;
     const auto u = table.numbers("displacement_m"), force = table.numbers("contact_force_N");
     for (std::size_t l = 0; l < u.size(); ++l) {
       EXPECT_NEAR(u[l], shot.contacts.displacement(0, Eigen::Index(l)), 2e-5) << name;

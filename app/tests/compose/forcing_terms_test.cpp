@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "period_oracle/shooting.hpp"
 #include "support/chain_files.hpp"
 #include "support/scene_error.hpp"
 #include "support/scene_texts.hpp"
@@ -16,7 +17,6 @@
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace {
 
@@ -214,8 +214,8 @@ TEST_F(ForcingTerms, OfAPreloadedContactHaveTheMultipliersOfShooting) {
   ASSERT_TRUE(response.converged);
   ASSERT_TRUE(response.stability);
   const StructureModel model = make_model(scene);
-  const auto shot = wavebalance::solvers::shoot(model.structure, make_law(scene.contact), 50.0);
-  ASSERT_EQ(shot.status, wavebalance::solvers::ShootingStatus::converged);
+  const auto shot = wavebalance::oracle::shoot(model.structure, make_law(scene.contact), 50.0);
+  ASSERT_EQ(shot.status, wavebalance::oracle::ShootingStatus::converged);
   EXPECT_NEAR(std::abs(response.stability->leading), std::abs(shot.floquet_multipliers[0]), 1e-3);
   EXPECT_EQ(response.stability->unstable, int((shot.floquet_multipliers.array().abs() > 1.0).count()));
 }

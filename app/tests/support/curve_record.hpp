@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "period_oracle/shooting.hpp"
 #include "support/stop_scene.hpp"
 #include "temporary_folder.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/results/record.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::app {
 
@@ -63,11 +63,11 @@ inline StartMotion start_of(const Record& record, const std::string& name) {
 
 /// Shooting at 0.18 Hz from the state with which a motion's file begins, without settling.
 inline auto shot_from(const Scene& scene, const StructureModel& model, const Table& motion) {
-  solvers::ShootingOptions options;
+  oracle::ShootingOptions options;
   options.settling_periods = 0;
   options.initial_displacement = Eigen::VectorXd::Constant(1, motion.numbers("displacement_m")[0]);
   options.initial_velocity = Eigen::VectorXd::Constant(1, motion.numbers("velocity_m_per_s")[0]);
-  return solvers::shoot(model.structure, make_law(scene.contact), 0.18, options);
+  return oracle::shoot(model.structure, make_law(scene.contact), 0.18, options);
 }
 
 inline double largest(const Table& table) {

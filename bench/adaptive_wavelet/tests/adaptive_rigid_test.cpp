@@ -6,7 +6,7 @@
 
 #include "adaptive_rigid.hpp"
 #include "pairs.hpp"
-#include "wavebalance/solvers/period/rigid_reference.hpp"
+#include "period_oracle/rigid_reference.hpp"
 
 // Force cells against a rigid obstacle, held to the exact flows of the bar without mass at its tip.
 namespace wavebalance::pairs {
@@ -42,8 +42,8 @@ class ForceCells : public ::testing::TestWithParam<RigidCase> {
     return result;
   }
   const Case scene_ = GetParam().scene;
-  const solvers::RigidReference exact_ =
-      solvers::rigid_reference(structure(scene_), scene_.gap, scene_.frequency_hz, points);
+  const oracle::RigidReference exact_ =
+      oracle::rigid_reference(structure(scene_), scene_.gap, scene_.frequency_hz, points);
   double error(const solvers::CellResponse& response) const {
     return (response.displacement - exact_.displacement).norm() / exact_.displacement.norm();
   }

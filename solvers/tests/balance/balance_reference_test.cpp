@@ -3,8 +3,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "period_oracle/shooting.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -27,11 +27,11 @@ PeriodicResponse solve(const testing::Jl14Case& reference, int functions, int po
 
 const Eigen::VectorXd& shooting_tip(bool second_case) {
   static const auto run = [](const testing::Jl14Case& reference) {
-    ShootingOptions options;
+    oracle::ShootingOptions options;
     options.output_points = output_points;
-    const ShootingResult result =
-        shoot(reference.structure(), reference.law, reference.frequency_hz, options);
-    EXPECT_EQ(result.status, ShootingStatus::converged);
+    const oracle::ShootingResult result =
+        oracle::shoot(reference.structure(), reference.law, reference.frequency_hz, options);
+    EXPECT_EQ(result.status, oracle::ShootingStatus::converged);
     return Eigen::VectorXd(result.contacts.displacement.row(0));
   };
   static const std::array<Eigen::VectorXd, 2> tips{run(testing::jl14_case_1), run(testing::jl14_case_2)};

@@ -6,7 +6,6 @@
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -344,7 +343,6 @@ TEST(ManyContactsErrors, NameTheNumberFoundAndWanted) {
                std::invalid_argument);
   EXPECT_THROW(ContactLaws(std::vector<AnyContactLaw>{}), std::invalid_argument);
   EXPECT_THROW(integrate_to_periodic(chain(3), springs({0, 1}), chain_frequency), std::invalid_argument);
-  EXPECT_THROW(shoot(chain(2), LinearContact{1.0, 1.0}, chain_frequency), std::invalid_argument);
   try {
     ContactSystem(problem, springs({0, 1}));
     FAIL();

@@ -6,11 +6,11 @@
 
 #include "constants.hpp"
 #include "dense_system.hpp"
+#include "period_oracle/shooting.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
@@ -47,10 +47,11 @@ TEST(SeveralLoads, OnALinearOscillatorGiveItsClosedFormInEverySolver) {
   const LinearStructure structure = driven_oscillator(oscillator);
   CondensedProblem problem(testing::fourier_pair(9, load_points), structure, testing::cosine_load());
   problem.set_frequency(oscillator.frequency);
-  ShootingOptions shooting;
+  oracle::ShootingOptions shooting;
   shooting.output_points = load_points;
-  const ShootingResult shot = shoot(structure, AnyContactLaw(), oscillator.frequency, shooting);
-  ASSERT_EQ(shot.status, ShootingStatus::converged);
+  const oracle::ShootingResult shot =
+      oracle::shoot(structure, AnyContactLaw(), oscillator.frequency, shooting);
+  ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
   TimeSteppingOptions stepping;
   stepping.output_points = load_points;
   const auto stepped = integrate_to_periodic(structure, AnyContactLaw(), oscillator.frequency, stepping);
@@ -169,10 +170,10 @@ TEST(SeveralLoads, AgainstAStopGiveTheMotionOfShootingAndTimeStepping) {
   const double touching = (response.contact_force.array() > 0.0).cast<double>().mean();
   EXPECT_GT(touching, 0.2);
   EXPECT_LT(touching, 0.8);
-  ShootingOptions shooting;
+  oracle::ShootingOptions shooting;
   shooting.output_points = 2048;
-  const ShootingResult shot = shoot(structure, stop, 25.0, shooting);
-  ASSERT_EQ(shot.status, ShootingStatus::converged);
+  const oracle::ShootingResult shot = oracle::shoot(structure, stop, 25.0, shooting);
+  ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
   const Eigen::VectorXd reference = shot.contacts.displacement.row(0).transpose();
   EXPECT_LE((response.displacement - reference).norm(), 1e-5 * reference.norm());
   TimeSteppingOptions stepping;

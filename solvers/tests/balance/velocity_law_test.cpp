@@ -15,7 +15,6 @@
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -223,7 +222,6 @@ TEST(VelocityLaw, IsRefusedWhereTheVelocityHasNoValuesAtPoints) {
   ForcedResponseOptions force;
   force.form = ContactForm::force;
   EXPECT_THROW(forced_response(smooth, Damper{}, force), std::invalid_argument);
-  EXPECT_THROW(shoot(testing::unit_oscillator(0.1, 1.0), Damper{}, 0.2), std::invalid_argument);
 }
 
 struct Case {

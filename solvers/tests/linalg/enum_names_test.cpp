@@ -5,7 +5,6 @@
 #include "enumerators.hpp"
 #include "linalg/enum_table.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
@@ -18,8 +17,8 @@ template <class Enum>
 class EnumNames : public ::testing::Test {};
 
 using NamedEnums = ::testing::Types<BackboneStatus, BranchEnd, ContactForm, ModeStatus, PhasesStatus,
-                                    RefinementStatus, ShootingStatus, SolveStatus, SpecialPointType,
-                                    StabilityStatus, Strategy, SweepStatus, TimeSteppingStatus>;
+                                    RefinementStatus, SolveStatus, SpecialPointType, StabilityStatus,
+                                    Strategy, SweepStatus, TimeSteppingStatus>;
 TYPED_TEST_SUITE(EnumNames, NamedEnums);
 
 TYPED_TEST(EnumNames, EveryEnumeratorHasANameOfItsOwn) {

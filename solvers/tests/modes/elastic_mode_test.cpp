@@ -10,10 +10,10 @@
 
 #include "linalg/dense.hpp"
 #include "ll10_rod.hpp"
+#include "period_oracle/shooting.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -134,7 +134,7 @@ LinearStructure structure_of(const UnitRod& rod) {
 
 // Change of the state over one period, by exact integration of the undamped rod.
 double return_error(const UnitRod& rod, const AnyContactLaw& law, const ModePoint& point) {
-  ShootingOptions options;
+  oracle::ShootingOptions options;
   options.settling_periods = 0;
   options.max_iterations = 1;
   options.initial_displacement = Eigen::VectorXd::Zero(rod.mass.rows());
@@ -145,7 +145,7 @@ double return_error(const UnitRod& rod, const AnyContactLaw& law, const ModePoin
     options.initial_velocity -= static_cast<double>(n) * point.omega * shape.imag();
   }
   const double frequency = point.omega / (2.0 * std::numbers::pi);
-  return shoot(structure_of(rod), law, frequency, options).residual_history.front();
+  return oracle::shoot(structure_of(rod), law, frequency, options).residual_history.front();
 }
 
 TEST(ElasticMode, MotionsOfTheBackboneReturnToTheirStartWhenTheyAreIntegrated) {

@@ -8,10 +8,10 @@
 #include <span>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "period_oracle/shooting.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
 #include "wavebalance/solvers/period/first_order_system.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -103,11 +103,12 @@ RC_GTEST_PROP(ShootingProperty, MultipliersMultiplyToTheDecayOfPhaseSpaceVolume,
   oscillator.damping = *rc::gen::inRange(20, 400);
   oscillator.frequency = *rc::gen::inRange(10, 60);
   const LinearContact contact{1e5 * *rc::gen::inRange(1, 100), 1e-5 * *rc::gen::inRange(-20, 60)};
-  ShootingOptions options;
+  oracle::ShootingOptions options;
   options.output_points = 16;
-  const ShootingResult result = shoot(oscillator.structure(), contact, oscillator.frequency, options);
+  const oracle::ShootingResult result =
+      oracle::shoot(oscillator.structure(), contact, oscillator.frequency, options);
   const double expected = std::exp(-oscillator.damping / oscillator.mass / oscillator.frequency);
-  RC_ASSERT(result.status != ShootingStatus::step_failure);
+  RC_ASSERT(result.status != oracle::ShootingStatus::step_failure);
   RC_ASSERT(std::abs(result.floquet_multipliers.prod() - expected) <= 1e-9 * expected);
 }
 

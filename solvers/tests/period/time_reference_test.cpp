@@ -2,8 +2,8 @@
 
 #include <ostream>
 
+#include "period_oracle/shooting.hpp"
 #include "support/jl14_bar.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 
 namespace wavebalance::solvers {
@@ -31,19 +31,19 @@ void expect_reference(const Motion& motion, const Jl14Case& scene, double tolera
   EXPECT_NEAR(fraction, scene.contact_fraction, 2e-4);
 }
 
-ShootingResult shoot_case(const Jl14Case& scene, int points, double step_tolerance) {
-  ShootingOptions options;
+oracle::ShootingResult shoot_case(const Jl14Case& scene, int points, double step_tolerance) {
+  oracle::ShootingOptions options;
   options.output_points = points;
   options.step_tolerance = step_tolerance;
-  return shoot(scene.structure(), scene.law, scene.frequency_hz, options);
+  return oracle::shoot(scene.structure(), scene.law, scene.frequency_hz, options);
 }
 
 class BarInContact : public ::testing::TestWithParam<Jl14Case> {};
 
 TEST_P(BarInContact, ShootingGivesTheReferenceFigures) {
   // 16384 points, so that the largest sample is the maximum to 1e-7.
-  const ShootingResult result = shoot_case(GetParam(), 16384, 1e-12);
-  ASSERT_EQ(result.status, ShootingStatus::converged);
+  const oracle::ShootingResult result = shoot_case(GetParam(), 16384, 1e-12);
+  ASSERT_EQ(result.status, oracle::ShootingStatus::converged);
   expect_reference(result.contacts, GetParam(), 1e-6);
 }
 
@@ -71,11 +71,11 @@ TEST_P(BarInContact, TimeSteppingAgreesWithShooting) {
   const Jl14Case& scene = GetParam();
   TimeSteppingOptions options;
   options.full_history = true;
-  ShootingOptions shooting;
+  oracle::ShootingOptions shooting;
   shooting.full_history = true;
   const Motion stepped =
       integrate_to_periodic(scene.structure(), scene.law, scene.frequency_hz, options).structure;
-  const Motion shot = shoot(scene.structure(), scene.law, scene.frequency_hz, shooting).structure;
+  const Motion shot = oracle::shoot(scene.structure(), scene.law, scene.frequency_hz, shooting).structure;
   EXPECT_LT((stepped.displacement - shot.displacement).norm(), 4e-7 * shot.displacement.norm());
   EXPECT_LT((stepped.velocity - shot.velocity).norm(), 4e-7 * shot.velocity.norm());
 }
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(JonesLegrand2014, BarInContact,
                          [](const auto& scene) { return "Case" + std::to_string(scene.index + 1); });
 
 TEST(BarInContactMultipliers, Case2DecaysBy604PerMillePerPeriod) {
-  const ShootingResult result = shoot_case(testing::jl14_case_2, 1024, 1e-12);
+  const oracle::ShootingResult result = shoot_case(testing::jl14_case_2, 1024, 1e-12);
   EXPECT_NEAR(std::abs(result.floquet_multipliers[0]), 0.604, 5e-4);
 }
 

@@ -4,12 +4,12 @@
 #include <random>
 
 #include "constants.hpp"
+#include "period_oracle/shooting.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
@@ -55,10 +55,10 @@ TEST(ContactPhases, OfBothCasesOfTheBarAreWhatShootingFinds) {
     ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
     ASSERT_EQ(found.motion.phases.size(), 1u);
     EXPECT_NEAR(found.motion.phases[0].length(), jl14.contact_fraction, 1.0 / 1024.0);  // a share of samples
-    ShootingOptions options;
+    oracle::ShootingOptions options;
     options.output_points = 512;
-    const ShootingResult shot = shoot(bar.structure, bar.law[0], jl14.frequency_hz, options);
-    ASSERT_EQ(shot.status, ShootingStatus::converged);
+    const oracle::ShootingResult shot = oracle::shoot(bar.structure, bar.law[0], jl14.frequency_hz, options);
+    ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
     EXPECT_LT(distance(found.motion.displacement(uniform_times(512)), shot.contacts.displacement), 1e-8);
     EXPECT_GT(found.displacement_error, 1e-6);
     EXPECT_LT(found.displacement_error, 1e-2);

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "ll10_rod.hpp"
+#include "period_oracle/shooting.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -151,12 +151,12 @@ TEST(TurnedCoordinates, ChangeNeitherShootingNorSettling) {
   const PeriodicResponse response = forced_response(problem, laws, {});
   ASSERT_TRUE(response.converged());
   EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
-  ShootingOptions shooting;
+  oracle::ShootingOptions shooting;
   shooting.output_points = 256;
   for (const Eigen::MatrixXd& turn : turns(6)) {
     const LinearStructure turned = testing::turned(chain, turn);
-    const ShootingResult shot = shoot(turned, laws[0], driven, shooting);
-    ASSERT_EQ(shot.status, ShootingStatus::converged);
+    const oracle::ShootingResult shot = oracle::shoot(turned, laws[0], driven, shooting);
+    ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
     EXPECT_LE(distance(shot.contacts.displacement.transpose(), response.displacement), 1e-4);
     CondensedProblem other(testing::fourier_pair(63, 256), turned, testing::cosine_load());
     other.set_frequency(driven);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "constants.hpp"
+#include "period_oracle/shooting.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/contact/bilinear_law.hpp"
@@ -13,7 +14,6 @@
 #include "wavebalance/contact/cubic_law.hpp"
 #include "wavebalance/contact/polynomial_law.hpp"
 #include "wavebalance/contact/table_law.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/contact_stiffness.hpp"
@@ -95,14 +95,14 @@ TEST(SpringResponse, EveryBranchOfADuffingOscillatorIsThatOfShooting) {
     const PeriodicResponse response = response_at(system, sweep.points[i].unknown);
     const int count = unstable_multipliers(problem, law, response).count;
     MotionEvaluator evaluate(problem.pair().trial(), 128);
-    ShootingOptions options;
+    oracle::ShootingOptions options;
     options.settling_periods = 0;
     options.initial_displacement = Eigen::VectorXd::Constant(1, response.displacement[0]);
     options.initial_velocity =
         Eigen::VectorXd::Constant(1, evaluate.velocity(response.coefficients.col(0), response.frequency)[0]);
     options.output_points = 128;
-    const ShootingResult exact = shoot(oscillator, law, response.frequency, options);
-    ASSERT_EQ(exact.status, ShootingStatus::converged) << response.frequency;
+    const oracle::ShootingResult exact = oracle::shoot(oscillator, law, response.frequency, options);
+    ASSERT_EQ(exact.status, oracle::ShootingStatus::converged) << response.frequency;
     EXPECT_LE((exact.contacts.displacement - response.displacement.transpose()).cwiseAbs().maxCoeff(), 1e-7);
     EXPECT_EQ(count, (exact.floquet_multipliers.cwiseAbs().array() > 1.0).count()) << response.frequency;
     unstable += count > 0 ? 1 : 0;

@@ -4,9 +4,7 @@
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/period/rigid_reference.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/shooting.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
@@ -120,14 +118,11 @@ TEST(StructuralDamping, OfAnOscillatorAgainstAStopBalancesAtEveryHarmonic) {
 }
 
 TEST(StructuralDamping, HasNoEquationInTime) {
-  const testing::LinearContact law{4.0, 0.5};
-  const ContactLaws laws = AnyContactLaw(law);
+  const ContactLaws laws = AnyContactLaw(testing::LinearContact{4.0, 0.5});
   const auto refuses = [](const std::function<void()>& action) {
     return testing::refusal(action).find("structural damping has no equation in time") != std::string::npos;
   };
   EXPECT_TRUE(refuses([&] { integrate_to_periodic(oscillator(), laws, 0.1); }));
-  EXPECT_TRUE(refuses([&] { shoot(oscillator(), law, 0.1); }));
-  EXPECT_TRUE(refuses([&] { rigid_reference(oscillator(), 0.1, 0.1, 16, 1e-6, 10); }));
   const ContactDynamics dynamics(oscillator());
   EXPECT_TRUE(dynamics.structurally_damped());
   EXPECT_TRUE(refuses([&] { monodromy(dynamics, {}, 0.1); }));

@@ -14,7 +14,7 @@ struct SolvePoint {
   std::string inner_products = {};      ///< "exact" or "quadrature"
   int functions = 0;                    ///< M, of the balance that phases start from; 0 where there is none
   int points = 0;                       ///< N
-  double tolerance = solvers::missing;  ///< of phases, time stepping and shooting
+  double tolerance = solvers::missing;  ///< of phases and time stepping
   double construction_seconds = solvers::missing;
   double seconds =
       solvers::missing;  ///< least of several solves from the contact-free response, plans made before

@@ -1,17 +1,25 @@
-#include "period/shooting_step_table.hpp"
+#include "period_oracle/shooting_step_table.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
 
-#include "linalg/dense.hpp"
-#include "linalg/gauss_rule.hpp"
-
-namespace wavebalance::solvers::detail {
+namespace wavebalance::oracle {
 namespace {
 
 constexpr int nodes = StepTable::nodes;
 using NodeVector = StepTable::NodeVector;
 using NodeMatrix = StepTable::NodeMatrix;
+
+// On [0, 1], the eigenvalues of the Jacobi matrix of Legendre's polynomials [Golub and Welsch, Math. Comp.
+// 23, 1969].
+NodeVector gauss_points() {
+  NodeMatrix jacobi = NodeMatrix::Zero();
+  for (int k = 1; k < nodes; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
+  const Eigen::SelfAdjointEigenSolver<NodeMatrix> eigen(jacobi, Eigen::EigenvaluesOnly);
+  return 0.5 * (1.0 + eigen.eigenvalues().array());
+}
 
 /// Polynomials of degree nodes - 1 on [0, 1] by their values at the Gauss points.
 struct GaussPolynomials {
@@ -24,7 +32,7 @@ struct GaussPolynomials {
 };
 
 GaussPolynomials::GaussPolynomials() {
-  points = gauss_rule(nodes).points;
+  points = gauss_points();
   NodeVector weights;  // barycentric
   for (int i = 0; i < nodes; ++i) {
     weights[i] = 1.0;
@@ -83,7 +91,7 @@ class ModeResponse {
   }
 
   Blocks at(double fraction) const {
-    const Eigen::MatrixXd propagated = exponential(fraction * system_);
+    const Eigen::MatrixXd propagated = (fraction * system_).exp();
     Blocks blocks;
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) blocks.state(i, j) = scale_[i] * propagated(i, j) / scale_[j];
@@ -130,4 +138,4 @@ StepTable::StepTable(const ModalStructure& modes, double step_seconds) {
   }
 }
 
-}  // namespace wavebalance::solvers::detail
+}  // namespace wavebalance::oracle

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/period/rigid_reference.hpp"
+#include "period_oracle/rigid_reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,11 @@
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::oracle {
 namespace {
+
+using namespace solvers;
+namespace testing = solvers::testing;
 
 // Two masses of 1 kg, and a tip without mass behind a damped spring.
 LinearStructure chain_with_massless_tip() {
@@ -83,4 +86,4 @@ TEST(RigidReference, IsTheLimitOfTheBalance) {
 }
 
 }  // namespace
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::oracle

@@ -4,11 +4,11 @@
 #include <functional>
 #include <vector>
 
-#include "period/shooting_modes.hpp"
-#include "period/shooting_step_table.hpp"
+#include "period_oracle/shooting_modes.hpp"
+#include "period_oracle/shooting_step_table.hpp"
 #include "wavebalance/solvers/balance/contact_law.hpp"
 
-namespace wavebalance::solvers::detail {
+namespace wavebalance::oracle {
 
 /// The period map of the structure in contact. Steps have the lengths T / (base_steps 2^level); a step is
 /// halved while the polynomial of the contact force misses the law at its ends by too much, so that steps
@@ -19,7 +19,7 @@ class ContactPropagator {
   /// Called at the start of every step of the coarsest level, with its number and the state there.
   using Recorder = std::function<void(int step, const Eigen::VectorXd& state)>;
 
-  ContactPropagator(ModalStructure modes, AnyContactLaw law, double load_scale, int base_steps,
+  ContactPropagator(ModalStructure modes, solvers::AnyContactLaw law, double load_scale, int base_steps,
                     double tolerance);
 
   /// Takes state (2n) over one period from t = 0; multiplies sensitivity
@@ -46,7 +46,7 @@ class ContactPropagator {
   void propagate_sensitivity(const StepTable& step, Eigen::MatrixXd& sensitivity) const;
 
   ModalStructure modes_;
-  AnyContactLaw law_;
+  solvers::AnyContactLaw law_;
   double load_scale_;
   int base_steps_;
   double tolerance_;
@@ -56,4 +56,4 @@ class ContactPropagator {
   long steps_ = 0;
 };
 
-}  // namespace wavebalance::solvers::detail
+}  // namespace wavebalance::oracle

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/period/rigid_reference.hpp"
+#include "period_oracle/rigid_reference.hpp"
 
 #include <Eigen/LU>
 #include <array>
@@ -6,12 +6,14 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 #include <vector>
 
-#include "linalg/dense.hpp"
+namespace wavebalance::oracle {
 
-namespace wavebalance::solvers {
+using solvers::LinearStructure;
+
 namespace {
 
 constexpr int halvings = 32;
@@ -51,7 +53,7 @@ class Flows {
       a(2 * n + 1, 2 * n + 2) = -2.0 * std::numbers::pi;
       a(2 * n + 2, 2 * n + 1) = 2.0 * std::numbers::pi;
       for (int h = 0; h <= halvings; ++h)
-        steps_[closed].push_back(detail::exponential(a * std::ldexp(1.0 / points, -h)));
+        steps_[closed].push_back(Eigen::MatrixXd((a * std::ldexp(1.0 / points, -h)).exp()));
     }
     force_.segment(n, n) *= fastest_;
   }
@@ -134,4 +136,4 @@ RigidReference rigid_reference(const LinearStructure& structure, double gap, dou
   return result;
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::oracle

@@ -1,9 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "period/shooting_modes.hpp"
+#include "period_oracle/shooting_modes.hpp"
 
-namespace wavebalance::solvers::detail {
+namespace wavebalance::oracle {
 
 /// Propagates the deviation y = (q, q') of the modal state from the response without contact over steps of
 /// one length h, exactly in the linear part: with the contact force a polynomial through its values at Gauss
@@ -27,4 +27,4 @@ struct StepTable {
   Eigen::Matrix<double, Eigen::Dynamic, nodes> end_force;   // 2n x nodes
 };
 
-}  // namespace wavebalance::solvers::detail
+}  // namespace wavebalance::oracle

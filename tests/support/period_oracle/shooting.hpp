@@ -1,25 +1,20 @@
 #pragma once
 #include <Eigen/Core>
-#include <string_view>
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_law.hpp"
-#include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::oracle {
 
 /// How shooting ended.
 enum class ShootingStatus {
   converged,        ///< the state returns to itself after one period
   stalled,          ///< no step along Newton's direction reduces the residual
   iteration_limit,  ///< max_iterations was reached
-  step_failure,     ///< the contact force could not be resolved in time, e.g. a law that jumps
-  cancelled         ///< the observer returned false
+  step_failure      ///< the contact force could not be resolved in time, e.g. a law that jumps
 };
-
-std::string_view to_string(ShootingStatus status);
 
 /// How a periodic motion is sought in the state space.
 struct ShootingOptions {
@@ -32,10 +27,6 @@ struct ShootingOptions {
   bool full_history = false;             ///< also keep every degree of freedom
   Eigen::VectorXd initial_displacement;  ///< n, m, at t = 0; empty: that of the response without contact
   Eigen::VectorXd initial_velocity;      ///< n, m/s, at t = 0; empty: that of the response without contact
-  Observer observer;                     ///< called before each Newton step and after each settling period
-
-  /// Throws std::invalid_argument for a number out of its range, or for initial values that are not `dofs`.
-  void validate(int dofs) const;
 };
 
 /// The periodic motion and its stability.
@@ -48,14 +39,14 @@ struct ShootingResult {
   Eigen::VectorXd displacement;          ///< n, m, at t = 0, the maximum of `load`
   Eigen::VectorXd velocity;              ///< n, m/s, at t = 0
   Eigen::VectorXcd floquet_multipliers;  ///< 2n, of the last iterate, by falling modulus
-  Motion contacts;   ///< of the one contact, from the last iterate on; empty on step_failure
-  Motion structure;  ///< the same of all n degrees of freedom, without forces; with full_history only
+  solvers::Motion contacts;  ///< of the one contact, from the last iterate on; empty on step_failure
+  solvers::Motion
+      structure;  ///< the same of all n degrees of freedom, without forces; with full_history only
 };
 
 /// The periodic response of M u'' + C u' + K u = load cos(2 pi f t) + forces - e f_c(u_c) by Newton on the
-/// period map (u, u')(0) -> (u, u')(T), with its derivative by the variational equations. It shares neither
-/// the time basis of the weighted residual nor the integrator of integrate_to_periodic, and serves to check
-/// both.
+/// period map (u, u')(0) -> (u, u')(T), with its derivative by the variational equations. It shares no time
+/// basis, integrator, equations or dense matrices with the library, which it checks.
 ///
 /// The deviation from the response without contact is propagated in the modes, exactly for a contact force
 /// that is a polynomial of degree 5 through the Gauss points of a step (exponential collocation), whatever
@@ -66,8 +57,8 @@ struct ShootingResult {
 ///
 /// Throws std::invalid_argument when the structure does not fit together, its mass is not positive definite,
 /// its modes do not decouple the damping, an undamped mode is loaded at its own frequency, frequency_hz (Hz)
-/// is not positive and finite, the force depends on the velocity, or an option is out of range.
-ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
-                     const ShootingOptions& options = {});
+/// is not positive and finite, or the force depends on the velocity. Options are not checked.
+ShootingResult shoot(const solvers::LinearStructure& structure, const solvers::AnyContactLaw& law,
+                     double frequency_hz, const ShootingOptions& options = {});
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::oracle

@@ -3,14 +3,14 @@
 
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
-namespace wavebalance::solvers::detail {
+namespace wavebalance::oracle {
 
 /// The structure in its undamped modes, mass-normalised, with the periodic response to the load without
 /// contact.
 struct ModalStructure {
   /// Throws std::invalid_argument when the mass is not positive definite, the modes do not decouple the
   /// damping, or an undamped mode is loaded at its own frequency. O(n^3).
-  ModalStructure(const LinearStructure& structure, double frequency_hz);
+  ModalStructure(const solvers::LinearStructure& structure, double frequency_hz);
 
   int size() const { return static_cast<int>(stiffness.size()); }
 
@@ -24,4 +24,4 @@ struct ModalStructure {
   Eigen::MatrixXcd linear_response;
 };
 
-}  // namespace wavebalance::solvers::detail
+}  // namespace wavebalance::oracle

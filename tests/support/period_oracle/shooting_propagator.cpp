@@ -1,15 +1,13 @@
-#include "period/shooting_propagator.hpp"
+#include "period_oracle/shooting_propagator.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <utility>
 
-#include "linalg/dense.hpp"
-#include "linalg/lapack.hpp"
-
-namespace wavebalance::solvers::detail {
+namespace wavebalance::oracle {
 namespace {
 
 constexpr int finest_level = 30;
@@ -17,18 +15,9 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 using NodeVector = StepTable::NodeVector;
 using NodeMatrix = StepTable::NodeMatrix;
 
-// Replaces `columns` columns at the nodes by their solutions; by numbers that are not finite if the matrix is
-// singular.
-void solve_at_nodes(NodeMatrix matrix, double* right, Eigen::Index columns) {
-  constexpr lapack_int n = StepTable::nodes;
-  lapack_int pivots[n];
-  LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, matrix.data(), n, pivots);
-  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, lapack_size(columns), matrix.data(), n, pivots, right, n);
-}
-
 }  // namespace
 
-ContactPropagator::ContactPropagator(ModalStructure modes, AnyContactLaw law, double load_scale,
+ContactPropagator::ContactPropagator(ModalStructure modes, solvers::AnyContactLaw law, double load_scale,
                                      int base_steps, double tolerance)
     : modes_(std::move(modes)),
       law_(std::move(law)),
@@ -48,7 +37,7 @@ const StepTable& ContactPropagator::table(int level) {
 }
 
 double ContactPropagator::linear_contact(double periods) const {
-  return series_value(linear_contact_, periods);
+  return solvers::series_value(linear_contact_, periods);
 }
 
 /// Newton on u = displacement + node_force f_c(u), from the constant force at the step's start; leaves u in
@@ -60,12 +49,11 @@ bool ContactPropagator::solve_nodes(const StepTable& step, NodeVector& displacem
   for (int i = 0; i < iterations; ++i) {
     law_.evaluate({displacement.data(), StepTable::nodes}, {attempt_.force.data(), StepTable::nodes},
                   {attempt_.tangent.data(), StepTable::nodes});
-    NodeVector residual = displacement - free - step.node_force * attempt_.force;
+    const NodeVector residual = displacement - free - step.node_force * attempt_.force;
     if (!residual.allFinite()) return false;
     if (residual.cwiseAbs().maxCoeff() <= 1e-15 * displacement.cwiseAbs().maxCoeff()) return true;
     const NodeMatrix jacobian = NodeMatrix::Identity() - step.node_force * attempt_.tangent.asDiagonal();
-    solve_at_nodes(jacobian, residual.data(), 1);
-    displacement -= residual;
+    displacement -= jacobian.lu().solve(residual);
   }
   return false;
 }
@@ -97,8 +85,7 @@ void ContactPropagator::propagate_sensitivity(const StepTable& step, Eigen::Matr
   Eigen::MatrixXd force;
   if (contact) {
     const NodeMatrix jacobian = NodeMatrix::Identity() - step.node_force * attempt_.tangent.asDiagonal();
-    force = product(step.node_state, sensitivity);
-    solve_at_nodes(jacobian, force.data(), force.cols());
+    force = jacobian.lu().solve(step.node_state * sensitivity);
     force.array().colwise() *= Eigen::VectorXd(attempt_.tangent).array();
   }
   const Eigen::MatrixXd q = sensitivity.topRows(n);
@@ -106,7 +93,7 @@ void ContactPropagator::propagate_sensitivity(const StepTable& step, Eigen::Matr
       step.from_q_to_q.asDiagonal() * q + step.from_v_to_q.asDiagonal() * sensitivity.bottomRows(n);
   sensitivity.bottomRows(n) =
       (step.from_v_to_v.asDiagonal() * sensitivity.bottomRows(n) + step.from_q_to_v.asDiagonal() * q).eval();
-  if (contact) sensitivity += product(step.end_force, force);
+  if (contact) sensitivity += step.end_force * force;
 }
 
 bool ContactPropagator::propagate_period(Eigen::VectorXd& state, Eigen::MatrixXd* sensitivity,
@@ -133,4 +120,4 @@ bool ContactPropagator::propagate_period(Eigen::VectorXd& state, Eigen::MatrixXd
   return true;
 }
 
-}  // namespace wavebalance::solvers::detail
+}  // namespace wavebalance::oracle

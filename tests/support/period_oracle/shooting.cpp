@@ -1,5 +1,7 @@
-#include "wavebalance/solvers/period/shooting.hpp"
+#include "period_oracle/shooting.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -7,12 +9,13 @@
 #include <numbers>
 
 #include "linalg/damped_newton.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/enum_table.hpp"
-#include "linalg/option_checks.hpp"
-#include "period/shooting_propagator.hpp"
+#include "period_oracle/shooting_propagator.hpp"
 
-namespace wavebalance::solvers {
+namespace wavebalance::oracle {
+
+using solvers::AnyContactLaw, solvers::LinearStructure;
+using solvers::detail::NewtonEnd, solvers::detail::NewtonRun;
+
 namespace {
 
 constexpr int fewest_steps = 512;  // per period
@@ -43,8 +46,8 @@ class Shooting {
       : options_(options),
         law_(law),
         grid_(options.output_points),
-        propagator_(detail::ModalStructure(structure, frequency_hz), law,
-                    largest_load(structure, frequency_hz), grid_.base, options.step_tolerance) {}
+        propagator_(ModalStructure(structure, frequency_hz), law, largest_load(structure, frequency_hz),
+                    grid_.base, options.step_tolerance) {}
 
   ShootingResult run() {
     ShootingResult result;
@@ -75,14 +78,10 @@ class Shooting {
       Eigen::MatrixXd sensitivity;
       if (!std::isfinite(shooting_.residual(state_, change_, &sensitivity))) return false;
       sensitivity.diagonal().array() -= 1.0;
-      direction = detail::Lu<double>(sensitivity).solve(change_);
+      direction = sensitivity.partialPivLu().solve(change_);
       return direction.allFinite();
     }
-    bool goes_on(int iterations) const {
-      return std::isfinite(norm_) &&
-             solvers::goes_on(shooting_.options_.observer,
-                              {"shooting", iterations, norm_, "relative change per period"});
-    }
+    bool goes_on(int) const { return std::isfinite(norm_); }
     const std::vector<double>& history() const { return history_; }
 
    private:
@@ -92,7 +91,7 @@ class Shooting {
     std::vector<double> history_;
   };
 
-  const detail::ModalStructure& modes() const { return propagator_.modes(); }
+  const ModalStructure& modes() const { return propagator_.modes(); }
 
   Eigen::VectorXd initial_deviation() const {
     const int n = modes().size();
@@ -109,7 +108,6 @@ class Shooting {
   ShootingStatus settle(Eigen::VectorXd& state) {
     for (int period = 0; period < options_.settling_periods; ++period) {
       if (!propagator_.propagate_period(state, nullptr)) return ShootingStatus::step_failure;
-      if (!goes_on(options_.observer, {"settling", period + 1})) return ShootingStatus::cancelled;
     }
     return ShootingStatus::converged;
   }
@@ -148,21 +146,20 @@ class Shooting {
   ShootingStatus iterate(Eigen::VectorXd& state, ShootingResult& result) {
     constexpr double min_step = 1.0 / 8192;
     PeriodicityEquation equation(*this);
-    const detail::NewtonRun run = detail::damped_newton(equation, state, options_.max_iterations, min_step);
+    const NewtonRun run = solvers::detail::damped_newton(equation, state, options_.max_iterations, min_step);
     result.iterations = run.iterations;
     result.residual_history = equation.history();
     result.residual = result.residual_history.back();
     if (!std::isfinite(result.residual)) return ShootingStatus::step_failure;
     store_multipliers(state, result);
     switch (run.end) {
-      case detail::NewtonEnd::solved:
+      case NewtonEnd::solved:
         return ShootingStatus::converged;
-      case detail::NewtonEnd::iteration_limit:
+      case NewtonEnd::iteration_limit:
         return ShootingStatus::iteration_limit;
-      case detail::NewtonEnd::cancelled:
-        return ShootingStatus::cancelled;
-      case detail::NewtonEnd::singular:
-      case detail::NewtonEnd::stalled:
+      case NewtonEnd::cancelled:
+      case NewtonEnd::singular:
+      case NewtonEnd::stalled:
         break;
     }
     return ShootingStatus::stalled;
@@ -172,7 +169,7 @@ class Shooting {
     Eigen::VectorXd change;
     Eigen::MatrixXd sensitivity;
     residual(state, change, &sensitivity);
-    result.floquet_multipliers = detail::eigenvalues(sensitivity);
+    result.floquet_multipliers = sensitivity.eigenvalues();
     std::stable_sort(result.floquet_multipliers.begin(), result.floquet_multipliers.end(),
                      [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   }
@@ -194,49 +191,28 @@ class Shooting {
     result.contacts.displacement = modes().contact.transpose() * q;
     result.contacts.velocity = modes().contact.transpose() * v;
     result.contacts.force = result.contacts.displacement.unaryExpr([&](double u) { return law_.force(u); });
-    if (options_.full_history)
-      result.structure = {detail::product(modes().shapes, q), detail::product(modes().shapes, v), {}};
+    if (options_.full_history) result.structure = {modes().shapes * q, modes().shapes * v, {}};
   }
 
   const ShootingOptions& options_;
   const AnyContactLaw& law_;
   OutputGrid grid_;
-  detail::ContactPropagator propagator_;
+  ContactPropagator propagator_;
 };
 
 }  // namespace
 
-std::string_view to_string(ShootingStatus status) {
-  using enum ShootingStatus;
-  return detail::name_in<ShootingStatus>({{converged, "converged"},
-                                          {stalled, "stalled"},
-                                          {iteration_limit, "iteration_limit"},
-                                          {step_failure, "step_failure"},
-                                          {cancelled, "cancelled"}},
-                                         status);
-}
-
-void ShootingOptions::validate(int dofs) const {
-  constexpr const char* who = "ShootingOptions";
-  detail::require_at_least(who, "output_points", output_points, 2);
-  detail::require_at_least(who, "settling_periods", settling_periods, 0);
-  detail::require_at_least(who, "max_iterations", max_iterations, 1);
-  detail::require_positive(who, "tolerance", tolerance);
-  detail::require_positive(who, "step_tolerance", step_tolerance);
-  detail::require_dofs(who, "initial_displacement", initial_displacement, dofs);
-  detail::require_dofs(who, "initial_velocity", initial_velocity, dofs);
-}
-
 ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law, double frequency_hz,
                      const ShootingOptions& options) {
-  detail::require_positive("shoot", "frequency_hz", frequency_hz);
+  if (!(frequency_hz > 0.0 && std::isfinite(frequency_hz)))
+    throw std::invalid_argument("shoot: frequency_hz is " + std::to_string(frequency_hz) +
+                                "; it must be positive and finite");
   structure.validate();
   structure.require_single_contact("shoot");
-  options.validate(structure.size());
   if (law.depends_on_velocity())
     throw std::invalid_argument(
         "shoot: the force of the law depends on the velocity; integrate_to_periodic takes such laws");
   return Shooting(structure, law, frequency_hz, options).run();
 }
 
-}  // namespace wavebalance::solvers
+}  // namespace wavebalance::oracle

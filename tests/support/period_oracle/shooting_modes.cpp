@@ -1,5 +1,7 @@
-#include "period/shooting_modes.hpp"
+#include "period_oracle/shooting_modes.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -7,10 +9,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "linalg/dense.hpp"
-#include "linalg/index.hpp"
+namespace wavebalance::oracle {
 
-namespace wavebalance::solvers::detail {
+using Eigen::Index, solvers::LinearStructure;
+
 namespace {
 
 /// A coupling counts where rounding of the matrices and of the modes does not explain it.
@@ -37,21 +39,23 @@ void require_modal_damping(const Eigen::MatrixXd& modal) {
 
 ModalStructure::ModalStructure(const LinearStructure& structure, double frequency_hz)
     : angular_frequency(2.0 * std::numbers::pi * frequency_hz) {
-  if (!cholesky(Eigen::MatrixXd(structure.mass)))
+  const Eigen::MatrixXd mass = structure.mass;
+  if (Eigen::LLT<Eigen::MatrixXd>(mass).info() != Eigen::Success)
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
   structure.require_causal_damping("shoot");
-  if (!is_symmetric(structure.stiffness))
+  if (!solvers::is_symmetric(structure.stiffness))
     throw std::invalid_argument(
         "shoot: stiffness is not symmetric, so that no real modes decouple the structure; "
         "integrate_to_periodic takes any damping and stiffness");
-  const auto modes = symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
-  if (!modes)
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(structure.stiffness),
+                                                                        mass);
+  if (modes.info() != Eigen::Success)
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
-  stiffness = modes->values;
-  shapes = modes->vectors;
-  const Eigen::MatrixXd modal_damping = transposed_product(shapes, structure.damping * shapes);
+  stiffness = modes.eigenvalues();
+  shapes = modes.eigenvectors();
+  const Eigen::MatrixXd modal_damping = shapes.transpose() * (structure.damping * shapes);
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();
   projection = shapes.transpose() * structure.mass;
@@ -76,4 +80,4 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
                                 " Hz or a multiple; the response without contact is unbounded");
 }
 
-}  // namespace wavebalance::solvers::detail
+}  // namespace wavebalance::oracle
