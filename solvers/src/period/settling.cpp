@@ -209,6 +209,20 @@ class Settling {
   std::vector<PeriodState> states_;          // at the starts of the periods of the load
 };
 
+// The state in which the integration begins: at rest without contact forces, or the state of the options with
+// the forces that the laws have there.
+PeriodState initial_state(const ModalMap& map, int dofs, const SettlingOptions& options) {
+  constexpr const char* who = "SettlingOptions";
+  detail::require_dofs(who, "displacement", options.displacement, dofs);
+  detail::require_dofs(who, "velocity", options.velocity, dofs);
+  const auto or_rest = [dofs](const Eigen::VectorXd& values) -> Eigen::VectorXd {
+    return values.size() > 0 ? values : Eigen::VectorXd::Zero(dofs);
+  };
+  const PeriodState state = map.state(or_rest(options.displacement), or_rest(options.velocity));
+  const bool at_rest = options.displacement.size() == 0 && options.velocity.size() == 0;
+  return at_rest ? state : map.balanced(state);
+}
+
 }  // namespace
 
 void SettlingOptions::validate() const {
@@ -234,8 +248,8 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
   auto flow = ModalFlow::make(structure, frequency, step, options.max_modes);
   if (!flow) return {};
   ModalMap map(problem, laws, options.steps, *std::move(flow));
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(structure.size());
-  SettledMotion result = Settling(map, map.state(rest, rest), load_periods(problem), options).run();
+  SettledMotion result =
+      Settling(map, initial_state(map, structure.size(), options), load_periods(problem), options).run();
   result.start = map.free_motion().start() / load_periods(problem);
   return result;
 }

@@ -84,6 +84,57 @@ TEST(Settling, AgainstAStopArrivesAtTheForcedResponse) {
             1e-2 * response.contact_force.norm());
 }
 
+// Between the folds of its curve, at 0.1699 and 0.1957 Hz, the oscillator has a motion that touches the stop
+// and one that does not.
+class TwoMotions : public ::testing::Test {
+ protected:
+  TwoMotions()
+      : problem_(testing::fourier_pair(63, 256), testing::unit_oscillator(0.05, 0.15),
+                 testing::cosine_load()) {
+    problem_.set_frequency(0.18);
+  }
+  SettledMotion from(double displacement, double velocity) const {
+    SettlingOptions options;
+    options.displacement = Eigen::VectorXd::Constant(1, displacement);
+    options.velocity = Eigen::VectorXd::Constant(1, velocity);
+    return settle(problem_, stop_, options);
+  }
+  SettledMotion again(const SettledMotion& motion) const {
+    return from(motion.last.displacement(0, 0), motion.last.velocity(0, 0));
+  }
+
+  const LinearContact stop_{4.0, 1.0};
+  CondensedProblem problem_;
+};
+
+TEST_F(TwoMotions, OfOneFrequencyAreEachSettledToFromTheirStates) {
+  const SettledMotion light = settle(problem_, stop_), hard = from(1.0, 0.0);
+  ASSERT_EQ(light.attractor_periods, 1);
+  ASSERT_EQ(hard.attractor_periods, 1);
+  EXPECT_EQ(light.last.force.maxCoeff(), 0.0);
+  EXPECT_GT(hard.last.force.maxCoeff(), 0.5);
+  for (const SettledMotion& motion : {light, hard}) {
+    const SettledMotion same = again(motion);
+    EXPECT_EQ(same.attractor_periods, 1);
+    EXPECT_LE((same.last.displacement - motion.last.displacement).norm(),
+              1e-4 * motion.last.displacement.norm());
+    EXPECT_LT(same.periods, motion.periods);  // it begins where the other one ended
+  }
+}
+
+TEST_F(TwoMotions, StateOfRestIsThatWithoutAState) {
+  const SettledMotion rest = settle(problem_, stop_), zero = from(0.0, 0.0);
+  EXPECT_EQ(zero.periods, rest.periods);
+  EXPECT_EQ(zero.last.displacement, rest.last.displacement);
+}
+
+TEST_F(TwoMotions, RefuseAStateThatIsNotOfTheStructure) {
+  SettlingOptions options;
+  options.velocity = Eigen::VectorXd::Zero(2);
+  EXPECT_THROW(settle(problem_, stop_, options), std::invalid_argument);
+  EXPECT_THROW(from(std::nan(""), 0.0), std::invalid_argument);
+}
+
 // The preloaded impact oscillator has ranges of frequency with motions of two and more periods.
 TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
   testing::Oscillator one{.mass = 1.0, .damping = 0.1, .stiffness = 1.0, .load = 1.0};

@@ -9,8 +9,12 @@
 
 namespace wavebalance::solvers {
 
-/// How a motion is integrated from rest until it repeats.
+/// How a motion is integrated until it repeats.
 struct SettlingOptions {
+  /// Of the n degrees of freedom where the integration begins, at a maximum of the load's first harmonic (m
+  /// and m/s); empty: none. Modes that deflect statically and degrees of freedom without mass do not keep
+  /// them.
+  Eigen::VectorXd displacement{}, velocity{};
   int steps = 1024;         ///< per period of the load between contacts; in contact, as many as are needed
   int max_periods = 600;    ///< of the load
   int longest = 16;         ///< periods of the load after which a motion may repeat
@@ -25,7 +29,7 @@ struct SettlingOptions {
   void validate() const;
 };
 
-/// The motion that a structure at rest settles to under its load.
+/// The motion that a structure settles to under its load.
 struct SettledMotion {
   static constexpr int unknown = -1;
   /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for
@@ -48,10 +52,11 @@ struct SettledMotion {
   bool integrated() const { return !last.empty(); }
 };
 
-/// Integrates M u'' + C u' + K u = load - contact forces of `problem` (frequency set before) from rest at a
-/// maximum of the load's first harmonic. Steps in contact are as short as their error demands, and a number
-/// of periods is one that two integrations agree on, the second with a hundredth of the error of the first.
-/// O(n^3) once, O(m^2 + C m) per step.
+/// Integrates M u'' + C u' + K u = load - contact forces of `problem` (frequency set before) from the state
+/// of the options, at a maximum of the load's first harmonic. Steps in contact are as short as their error
+/// demands, and a number of periods is one that two integrations agree on, the second with a hundredth of the
+/// error of the first. Throws std::invalid_argument for options out of range and a state that is not of the n
+/// degrees of freedom or not finite. O(n^3) once, O(m^2 + C m) per step.
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options = {});
 
