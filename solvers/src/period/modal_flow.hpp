@@ -28,6 +28,8 @@ class ModalFlow {
 
   Eigen::Index modes() const { return shapes_.cols(); }  ///< m
   Eigen::Index states() const { return 2 * modes(); }
+  const Eigen::MatrixXd& shapes() const { return shapes_; }          ///< n x m, mass-normalised
+  const Eigen::MatrixXd& projection() const { return projection_; }  ///< m x n, shapes^T mass: to modes
 
   /// Takes a state over a step in which the contact forces (C, N) vanish at the end; to be followed by
   /// add_force().
@@ -55,8 +57,7 @@ class ModalFlow {
   ModalFlow() = default;
   void set_step(double step);
 
-  Eigen::MatrixXd shapes_;             // n x m, mass-normalised
-  Eigen::MatrixXd projection_;         // m x n, shapes^T mass
+  Eigen::MatrixXd shapes_, projection_;
   Eigen::VectorXd sigma_;              // m, rad/s
   Eigen::MatrixXd contact_;            // C x m
   Eigen::MatrixXd rates_;              // 2m x 2m, of the first-order form, 1/s

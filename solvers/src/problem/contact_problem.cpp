@@ -42,6 +42,14 @@ void ContactProblem::set_laws(ContactLaws laws) {
   require_well_posed();
 }
 
+ContactProblem ContactProblem::over_periods(int times) const {
+  CondensedProblem longer(pair(), structure(), solvers::over_periods(condensed_.load_harmonics(), times));
+  longer.set_threads(condensed_.threads());
+  longer.set_periods(times * condensed_.periods());
+  longer.set_load_unit(condensed_.full_load(), condensed_.load_unit());
+  return {std::move(longer), laws_, dynamics_};
+}
+
 void ContactProblem::hold(const PeriodicResponse& response) {
   condensed_.set_load_scale(response.load_scale);
   condensed_.set_frequency(response.frequency);
@@ -100,6 +108,14 @@ PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const Cont
   };
   return contact_phases(phases_problem(condensed_, laws_, *dynamics()), samples(settled.last.displacement),
                         options, samples(settled.last.force));
+}
+
+std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion& start,
+                                                  const ContactPhasesOptions& options) {
+  if (!dynamics()) return std::nullopt;
+  load_fully(frequency);
+  return contact_phases(phases_problem(condensed_, laws_, *dynamics()), start.displacement, options,
+                        start.force);
 }
 
 StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,
@@ -206,7 +222,8 @@ std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const 
   options.stability.stability = stability_options(condensed_);
   options.load_periods = condensed_.periods();
   const auto problems = [&](int periods) {
-    CondensedProblem problem(pairs(periods), structure(), over_periods(condensed_.load_harmonics(), periods));
+    CondensedProblem problem(pairs(periods), structure(),
+                             solvers::over_periods(condensed_.load_harmonics(), periods));
     problem.set_threads(condensed_.threads());
     return problem;
   };

@@ -42,6 +42,10 @@ class ContactProblem {
 
   const TimePair& pair() const { return condensed_.pair(); }
   const LinearStructure& structure() const { return condensed_.structure(); }
+  /// The same over so many times the periods of the load, in the same pair, whose functions then hold as many
+  /// times fewer harmonics of it: for what takes no functions, as settling and phases. A condensation for
+  /// each frequency.
+  ContactProblem over_periods(int times) const;
   int contacts() const { return condensed_.contacts(); }
   int samples() const { return condensed_.samples(); }
   const ContactLaws& laws() const { return laws_; }
@@ -68,6 +72,10 @@ class ContactProblem {
   /// or no modes.
   std::optional<PhaseMotion> phases(double frequency, const SettledMotion& settled,
                                     const ContactPhasesOptions& options = {});
+  /// The phases of contact near displacements of the contacts, and with rigid laws forces, uniform over the
+  /// period; nothing without modes.
+  std::optional<PhaseMotion> phases(double frequency, const Motion& start,
+                                    const ContactPhasesOptions& options = {});
   /// structure_phases() of a motion at a frequency, and its stability where it has converged.
   StructurePhases structure_motion(double frequency, const PhaseMotion& motion, int points,
                                    const StructurePhasesOptions& options = {});
@@ -84,9 +92,9 @@ class ContactProblem {
   FrequencySweep sweep(const FrequencySweepOptions& options, const PeriodicResponse& first);
   /// amplitude_sweep() at a frequency; from and to are in CondensedProblem::load_unit().
   FrequencySweep amplitude_sweep(double frequency, const FrequencySweepOptions& options);
-  /// exact_curve() over the frequency, or at a frequency over the load scale, from the motion near the response
-  /// at options.from: `how` and `start` as of respond(). Where the response has no motion near, from the one
-  /// that settle() finds. Status `no_start` where neither leads to a motion, or without modes.
+  /// exact_curve() over the frequency, or at a frequency over the load scale, from the motion near the
+  /// response at options.from: `how` and `start` as of respond(). Where the response has no motion near, from
+  /// the one that settle() finds. Status `no_start` where neither leads to a motion, or without modes.
   ExactCurve exact_sweep(const ExactCurveOptions& options, const ForcedResponseOptions& how = {},
                          const ResponseStart& start = {});
   ExactCurve exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
@@ -105,7 +113,7 @@ class ContactProblem {
   /// All responses of a curve at a value of its parameter, responses_at().
   std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
 
-  /// Motions in time, from rest: settle(), integrate_to_periodic().
+  /// Motions in time, from rest or the state of the options: settle(), integrate_to_periodic().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
   TimeSteppingResult integrate(double frequency, const TimeSteppingOptions& options = {}) const;
 

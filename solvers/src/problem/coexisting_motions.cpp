@@ -1,0 +1,373 @@
+#include "wavebalance/solvers/problem/coexisting_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "linalg/enum_table.hpp"
+#include "linalg/index.hpp"
+#include "linalg/option_checks.hpp"
+#include "problem/state_box.hpp"
+#include "wavebalance/solvers/response/response_motion.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+constexpr int points_of_period =
+    256;  // at which motions are compared, mixed and measured, per period of the load
+constexpr double same_motion = 1e-6;  // relative distance of displacements
+
+// A motion of the contacts over some periods of the load, from t = 0.
+struct Samples {
+  Motion contacts;
+  int periods = 1;
+
+  Index shift() const { return contacts.displacement.cols() / periods; }
+};
+
+Samples samples_of(const PhaseMotion& motion, int periods) {
+  const int points = periods * points_of_period;
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
+  return {{motion.displacement(times), motion.velocity(times), motion.force(times)}, periods};
+}
+
+// The columns from `first` on, as many as `count`, of values that repeat.
+Eigen::MatrixXd columns_from(const Eigen::MatrixXd& values, Index first, Index count) {
+  Eigen::MatrixXd columns(values.rows(), count);
+  for (Index l = 0; l < count; ++l) columns.col(l) = values.col((first + l) % values.cols());
+  return columns;
+}
+
+bool agree(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
+  return (one - other).norm() <= same_motion * std::max(one.norm(), other.norm());
+}
+
+// Whether `other` is `one`, `periods` periods of the load later.
+bool agree_after(const Samples& one, const Samples& other, int periods) {
+  const Eigen::MatrixXd& values = other.contacts.displacement;
+  return agree(one.contacts.displacement, columns_from(values, periods * other.shift(), values.cols()));
+}
+
+// The least number of periods of the load after which a motion repeats.
+int least_periods(const Samples& motion) {
+  for (int periods = 1; periods < motion.periods; ++periods)
+    if (motion.periods % periods == 0 && agree_after(motion, motion, periods)) return periods;
+  return motion.periods;
+}
+
+// The mean of a motion and itself some periods of the load later.
+Samples mean_with_later(const Samples& one, int later) {
+  const auto mean = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
+    return 0.5 * (values + columns_from(values, later * one.shift(), values.cols()));
+  };
+  return {{mean(one.contacts.displacement), {}, mean(one.contacts.force)}, one.periods};
+}
+
+// The first periods of a motion.
+Samples first_periods(const Samples& samples, int periods) {
+  const Index count = periods * samples.shift();
+  return {{samples.contacts.displacement.leftCols(count), {}, samples.contacts.force.leftCols(count)},
+          periods};
+}
+
+// The period before which a motion changed least from one period to the next, compared with how much it did
+// later: there it was nearest to one that it leaves. 0 where it leaves none.
+int period_before_leaving(const std::vector<double>& changes) {
+  constexpr double leaves = 3.0;
+  double later = 0.0, most = leaves;
+  int period = 0;
+  for (std::size_t k = changes.size(); k-- > 0;) {
+    if (changes[k] > 0.0 && later / changes[k] > most) {
+      most = later / changes[k];
+      period = static_cast<int>(k) + 1;
+    }
+    if (std::isfinite(changes[k])) later = std::max(later, changes[k]);
+  }
+  return period;
+}
+
+class MotionsSearch {
+ public:
+  MotionsSearch(ContactProblem& problem, double frequency, const MotionsOptions& options)
+      : problem_(problem), frequency_(frequency), options_(options) {}
+
+  CoexistingMotions run() {
+    if (!problem_.dynamics()) {
+      result_.status = MotionsStatus::no_modes;
+      return std::move(result_);
+    }
+    from_rest();
+    from_random_states();
+    between_periods();
+    at_boundaries();
+    describe();
+    return std::move(result_);
+  }
+
+ private:
+  bool watched(const Progress& progress) {
+    cancelled_ = cancelled_ || !goes_on(options_.observer, progress);
+    return !cancelled_;
+  }
+
+  // What a step of one of the starts says of the whole.
+  Observer observer(int start) {
+    return [this, start](Progress progress) {
+      progress.done = double(start) / (options_.random_starts + 2);
+      return watched(progress);
+    };
+  }
+
+  // The problem of `periods` periods of the load.
+  ContactProblem& over(int periods) {
+    if (periods == 1) return problem_;
+    const auto at = longer_.find(periods);
+    if (at != longer_.end()) return at->second;
+    return longer_.emplace(periods, problem_.over_periods(periods)).first->second;
+  }
+
+  // The motion of `periods` periods that contact phases find near, and its number in the list if it was found
+  // before or has converged now.
+  std::optional<std::size_t> add(ContactProblem& problem, int periods, const std::optional<PhaseMotion>& near,
+                                 MotionSource source) {
+    if (!near || !near->converged()) return std::nullopt;
+    const Samples samples = samples_of(*near, periods);
+    const int least = least_periods(samples);
+    if (least < periods) return solve(first_periods(samples, least), source);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (samples_[i].periods != periods) continue;
+      for (int later = 0; later < periods; ++later)
+        if (agree_after(samples, samples_[i], later)) return i;
+    }
+    CoexistingMotion found;
+    found.motion = *near;
+    found.periods = periods;
+    found.stability = problem.stability(frequency_, *near);
+    found.max_displacement = samples.contacts.displacement.maxCoeff();
+    found.max_force = samples.contacts.force.maxCoeff();
+    // A structure that settles to an unstable motion began beside it.
+    found.found_by =
+        found.stability.unstable > 0 && source == MotionSource::random ? MotionSource::newton : source;
+    result_.motions.push_back(std::move(found));
+    samples_.push_back(samples);
+    return samples_.size() - 1;
+  }
+
+  ContactPhasesOptions phases_options(int start) {
+    ContactPhasesOptions options;
+    options.tolerance = options_.tolerance;
+    options.observer = observer(start);
+    return options;
+  }
+
+  std::optional<std::size_t> solve(const Samples& start, MotionSource source) {
+    ContactProblem& problem = over(start.periods);
+    return add(problem, start.periods,
+               problem.phases(frequency_, start.contacts, phases_options(result_.starts + 1)), source);
+  }
+
+  SettlingOptions from(const detail::StructureState& state) {
+    SettlingOptions how;
+    how.longest = options_.longest;
+    how.max_returns = 0;
+    how.displacement = state.displacement;
+    how.velocity = state.velocity;
+    how.observer = observer(result_.starts);
+    return how;
+  }
+
+  // The motion that the structure settles to, solved for.
+  std::optional<std::size_t> settle(const SettlingOptions& how, MotionSource source) {
+    const SettledMotion settled = problem_.settle(frequency_, how);
+    if (settled.attractor_periods < 1) {
+      near_returns(settled);
+      return std::nullopt;
+    }
+    const int within = load_periods(problem_.condensed());  // the load may repeat within its period
+    const int periods = settled.attractor_periods / std::gcd(settled.attractor_periods, within);
+    ContactProblem& problem = over(periods);
+    const SettledMotion whole = periods == 1 ? settled : problem.settle(frequency_, how);
+    return add(problem, periods, problem.phases(frequency_, whole, phases_options(result_.starts)), source);
+  }
+
+  std::optional<std::size_t> arrive(const detail::StructureState& state, MotionSource source) {
+    const auto arrived = settle(from(state), source);
+    if (arrived) starts_.emplace(*arrived, state);
+    return arrived;
+  }
+
+  void near_returns(const SettledMotion& settled) {
+    for (const Motion& piece : settled.returns) {
+      if (cancelled_) return;
+      SettledMotion start;
+      start.last = piece;
+      start.start = settled.start;
+      add(problem_, 1, problem_.phases(frequency_, start, phases_options(result_.starts)),
+          MotionSource::newton);
+    }
+  }
+
+  void from_rest() {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem_.structure().size());
+    SettlingOptions how = from({});
+    how.max_returns = SettlingOptions{}.max_returns;
+    if (const auto arrived = settle(how, MotionSource::rest))
+      starts_.emplace(*arrived, detail::StructureState{zero, zero});
+  }
+
+  // By what the motion without contact is to be multiplied so that its displacements reach a gap.
+  double factor_to_gap(const Motion& free) const {
+    const Eigen::VectorXd gaps = problem_.laws().gaps(problem_.contacts());
+    const Eigen::VectorXd largest =
+        (problem_.structure().contact_directions * free.displacement).cwiseAbs().rowwise().maxCoeff();
+    double factor = std::numeric_limits<double>::infinity();
+    for (Index c = 0; c < gaps.size(); ++c)
+      if (gaps[c] > 0.0 && largest[c] > 0.0) factor = std::min(factor, gaps[c] / largest[c]);
+    return std::isfinite(factor) ? std::max(1.0, factor) : 1.0;
+  }
+
+  // Twice as large as the motion without contact, enlarged until it reaches a gap, and those found.
+  std::optional<detail::StateBox> box() {
+    constexpr double larger = 2.0;
+    problem_.condensed().set_load_frequency(frequency_);
+    auto box = detail::StateBox::make(problem_.structure(), frequency_, SettlingOptions{}.max_modes);
+    if (!box) return box;
+    PeriodicResponse open;
+    open.frequency = problem_.condensed().frequency();
+    open.force_on_held_structure = Eigen::VectorXd::Zero(problem_.samples());
+    const Motion free = solvers::structure_motion(problem_.condensed(), open, points_of_period);
+    box->include(free, larger * factor_to_gap(free));
+    for (const CoexistingMotion& one : result_.motions)
+      box->include(
+          over(one.periods)
+              .structure_motion(frequency_, one.motion, one.periods * points_of_period, {.tolerance = 1e-6})
+              .motion,
+          larger);
+    return box;
+  }
+
+  void from_random_states() {
+    if (options_.random_starts == 0 || cancelled_) return;
+    const std::optional<detail::StateBox> states = box();
+    if (!states) return;
+    std::mt19937 generator(options_.seed);
+    while (result_.starts < options_.random_starts && !cancelled_) {
+      const auto arrived = arrive(states->random(generator), MotionSource::random);
+      if (cancelled_) return;
+      ++result_.starts;
+      if (arrived)
+        ++result_.motions[*arrived].arrivals;
+      else
+        ++result_.none;
+    }
+  }
+
+  // Motions that others have lost their stability to by a doubling of the period lie midway between these and
+  // themselves later.
+  void between_periods() {
+    const std::vector<Samples> found = samples_;
+    for (const Samples& one : found)
+      for (int later = 1; later < one.periods && !cancelled_; ++later)
+        if (one.periods % later == 0) solve(mean_with_later(one, later), MotionSource::newton);
+  }
+
+  // From starts on both sides of the boundary between the basins of two motions.
+  void at_boundaries() {
+    const std::map<std::size_t, detail::StructureState> starts = starts_;
+    for (auto one = starts.begin(); one != starts.end(); ++one)
+      for (auto other = std::next(one); other != starts.end() && !cancelled_; ++other)
+        at_boundary(one->first, one->second, other->second);
+  }
+
+  // Bisection of the states until one is so near to the boundary that the motion from there stays near it for
+  // many periods, in which it comes near to an unstable motion on it.
+  void at_boundary(std::size_t motion, detail::StructureState inside, detail::StructureState outside) {
+    constexpr int halvings = 24;
+    detail::StructureState middle;
+    for (int i = 0; i < halvings && !cancelled_; ++i) {
+      middle = {0.5 * (inside.displacement + outside.displacement),
+                0.5 * (inside.velocity + outside.velocity)};
+      const auto arrived = arrive(middle, MotionSource::random);
+      if (arrived && result_.motions[*arrived].stability.unstable > 0) return;
+      (arrived == motion ? inside : outside) = middle;
+    }
+    if (!cancelled_) near_boundary(middle);
+  }
+
+  void near_boundary(const detail::StructureState& state) {
+    SettlingOptions how = from(state);
+    std::vector<double> changes;  // of each period from the one before
+    how.observer = [&](const Progress& progress) {
+      changes.push_back(progress.value);
+      return watched(progress);
+    };
+    problem_.settle(frequency_, how);
+    const int nearest = period_before_leaving(changes);
+    if (cancelled_ || nearest == 0) return;
+    how.observer = [&](const Progress& progress) { return progress.step < nearest; };
+    const SettledMotion piece = problem_.settle(frequency_, how);
+    add(problem_, 1, problem_.phases(frequency_, piece, phases_options(result_.starts)),
+        MotionSource::newton);
+  }
+
+  void describe() {
+    const double n = result_.starts;
+    for (CoexistingMotion& one : result_.motions) {
+      if (result_.starts == 0) break;
+      one.share = one.arrivals / n;
+      one.share_error = std::sqrt(one.share * (1.0 - one.share) / n);
+    }
+    if (cancelled_)
+      result_.status = MotionsStatus::cancelled;
+    else if (!result_.motions.empty())
+      result_.status = MotionsStatus::converged;
+  }
+
+  ContactProblem& problem_;
+  double frequency_;
+  const MotionsOptions& options_;
+  std::map<int, ContactProblem> longer_;                  // by periods of the load
+  std::vector<Samples> samples_;                          // of the motions of the result
+  std::map<std::size_t, detail::StructureState> starts_;  // that settle to them, the first of each
+  CoexistingMotions result_;
+  bool cancelled_ = false;
+};
+
+}  // namespace
+
+void MotionsOptions::validate() const {
+  constexpr const char* who = "MotionsOptions";
+  detail::require_at_least(who, "random_starts", random_starts, 0);
+  detail::require_at_least(who, "longest", longest, 1);
+  detail::require_positive(who, "tolerance", tolerance);
+}
+
+std::string_view to_string(MotionSource source) {
+  using enum MotionSource;
+  return detail::name_in<MotionSource>({{rest, "rest"}, {random, "random"}, {newton, "newton"}}, source);
+}
+
+std::string_view to_string(MotionsStatus status) {
+  using enum MotionsStatus;
+  return detail::name_in<MotionsStatus>(
+      {{converged, "converged"}, {no_motion, "no_motion"}, {no_modes, "no_modes"}, {cancelled, "cancelled"}},
+      status);
+}
+
+CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
+                                     const MotionsOptions& options) {
+  options.validate();
+  if (problem.condensed().periods() != 1)
+    throw std::invalid_argument("coexisting_motions: the problem is one of " +
+                                std::to_string(problem.condensed().periods()) +
+                                " periods of its load; expected 1");
+  return MotionsSearch(problem, frequency, options).run();
+}
+
+}  // namespace wavebalance::solvers

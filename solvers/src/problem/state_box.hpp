@@ -1,0 +1,32 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <random>
+
+#include "wavebalance/solvers/structure/linear_structure.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// The state of all degrees of freedom at one instant, n values each.
+struct StructureState {
+  Eigen::VectorXd displacement, velocity;  ///< m, m/s
+};
+
+/// A box of the modes' displacements and velocities around rest that holds motions.
+class StateBox {
+ public:
+  /// Nothing where the structure has no modes to compute. `frequency` is that of the load, Hz. O(n^3).
+  static std::optional<StateBox> make(const LinearStructure& structure, double frequency, int max_modes);
+
+  /// Makes it large enough for `factor` times a motion of all degrees of freedom.
+  void include(const Motion& motion, double factor);
+  /// A state uniform in the box.
+  StructureState random(std::mt19937& generator) const;
+
+ private:
+  Eigen::MatrixXd shapes_, projection_;      // n x m, m x n
+  Eigen::VectorXd displacement_, velocity_;  // half sides, m
+};
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,174 @@
+// All periodic motions of one frequency, by settling from random states and at the boundaries of basins.
+#include "wavebalance/solvers/problem/coexisting_motions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "constants.hpp"
+#include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::LinearContact;
+
+/// Between its folds at 0.169936531088 and 0.195690553549 Hz it has two stable motions and one unstable one.
+ContactProblem folded() {
+  return {testing::fourier_pair(63, 256), testing::unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}};
+}
+
+/// With a motion of one period that is unstable from 2.2062 to 2.9737 rad/s.
+ContactProblem doubling() {
+  return {testing::fourier_pair(63, 256), testing::unit_oscillator(0.1, 0.8), LinearContact{10.0, 0.1}};
+}
+
+int stable_ones(const CoexistingMotions& all) {
+  return static_cast<int>(std::count_if(all.motions.begin(), all.motions.end(),
+                                        [](const auto& one) { return one.stability.status == "stable"; }));
+}
+
+int arrivals(const CoexistingMotions& all) {
+  return std::accumulate(all.motions.begin(), all.motions.end(), all.none,
+                         [](int sum, const auto& one) { return sum + one.arrivals; });
+}
+
+TEST(CoexistingMotions, BetweenTheFoldsAreThreeOfWhichTwoAreStable) {
+  for (const double frequency : {0.1705, 0.18, 0.195}) {
+    ContactProblem problem = folded();
+    const CoexistingMotions all = coexisting_motions(problem, frequency);
+    EXPECT_EQ(all.status, MotionsStatus::converged);
+    ASSERT_EQ(all.motions.size(), 3u) << frequency;
+    EXPECT_EQ(stable_ones(all), 2);
+    EXPECT_EQ(all.none, 0);
+    EXPECT_EQ(arrivals(all), 24);
+    for (const CoexistingMotion& one : all.motions) {
+      EXPECT_EQ(one.periods, 1);
+      EXPECT_EQ(one.share, one.arrivals / 24.0);
+      EXPECT_EQ(one.share_error, std::sqrt(one.share * (1.0 - one.share) / 24.0));
+      if (one.stability.status == "stable") {
+        EXPECT_GT(one.arrivals, 0);
+      } else {
+        EXPECT_EQ(one.stability.unstable, 1);
+        EXPECT_EQ(one.arrivals, 0);
+        EXPECT_EQ(one.found_by, MotionSource::newton);
+      }
+    }
+  }
+}
+
+TEST(CoexistingMotions, BesideTheFoldsThereIsOne) {
+  for (const double frequency : {0.14, 0.1695, 0.1962, 0.25}) {
+    ContactProblem problem = folded();
+    const CoexistingMotions all = coexisting_motions(problem, frequency);
+    ASSERT_EQ(all.motions.size(), 1u) << frequency;
+    EXPECT_EQ(all.motions[0].found_by, MotionSource::rest);
+    EXPECT_EQ(all.motions[0].arrivals, 24);
+  }
+}
+
+TEST(CoexistingMotions, AreTheSameForTheSameSeed) {
+  ContactProblem problem = folded();
+  const MotionsOptions some{.random_starts = 8}, other{.random_starts = 8, .seed = 3};
+  const CoexistingMotions first = coexisting_motions(problem, 0.18, some),
+                          again = coexisting_motions(problem, 0.18, some),
+                          others = coexisting_motions(problem, 0.18, other);
+  ASSERT_EQ(first.motions.size(), again.motions.size());
+  for (std::size_t i = 0; i < first.motions.size(); ++i) {
+    EXPECT_EQ(first.motions[i].arrivals, again.motions[i].arrivals);
+    EXPECT_EQ(first.motions[i].max_displacement, again.motions[i].max_displacement);
+  }
+  EXPECT_NE(first.motions[1].arrivals, others.motions[1].arrivals);
+  EXPECT_NEAR(first.motions[1].max_displacement, others.motions[1].max_displacement, 1e-8);
+}
+
+TEST(CoexistingMotions, OfTwoPeriodsStandBesideTheUnstableOneThatTheyBranchFrom) {
+  const double frequency = 2.6 / two_pi;
+  ContactProblem problem = doubling();
+  const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 4});
+  ASSERT_EQ(all.motions.size(), 2u);
+  EXPECT_EQ(all.motions[0].periods, 2);
+  EXPECT_EQ(all.motions[0].stability.status, "stable");
+  EXPECT_EQ(all.motions[1].periods, 1);
+  EXPECT_EQ(all.motions[1].found_by, MotionSource::newton);
+  const auto response = problem.phases(problem.respond(frequency));
+  ASSERT_TRUE(response && response->motion.converged());
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
+  const Eigen::MatrixXd expected = response->motion.displacement(times);
+  EXPECT_LE((all.motions[1].motion.displacement(times) - expected).norm(), 1e-8 * expected.norm());
+}
+
+TEST(CoexistingMotions, OfMorePeriodsThanAskedForAreNone) {
+  const double frequency = 4.0 / two_pi;
+  ContactProblem problem = doubling();
+  const CoexistingMotions four = coexisting_motions(problem, frequency, {.random_starts = 6}),
+                          two = coexisting_motions(problem, frequency, {.random_starts = 6, .longest = 2});
+  ASSERT_EQ(four.motions.size(), 2u);
+  EXPECT_EQ(four.motions[1].periods, 3);
+  EXPECT_EQ(four.none, 0);
+  ASSERT_EQ(two.motions.size(), 1u);
+  EXPECT_EQ(two.none, four.motions[1].arrivals);
+  EXPECT_EQ(two.motions[0].arrivals, four.motions[0].arrivals);
+}
+
+// At 2.8 rad/s its motion repeats after no number of periods up to sixteen.
+TEST(CoexistingMotions, WhereNothingSettlesAreUnstableOnesNearReturns) {
+  ContactProblem problem(testing::fourier_pair(63, 256), testing::unit_oscillator(0.1, 1.0),
+                         LinearContact{100.0, 0.0});
+  const CoexistingMotions all = coexisting_motions(problem, 2.8 / two_pi, {.random_starts = 0});
+  EXPECT_EQ(all.status, MotionsStatus::converged);
+  ASSERT_EQ(all.motions.size(), 1u);
+  EXPECT_EQ(all.motions[0].found_by, MotionSource::newton);
+  EXPECT_EQ(all.motions[0].stability.status, "unstable");
+  EXPECT_TRUE(std::isnan(all.motions[0].share));
+}
+
+// Two oscillators that do not act on each other have as many motions as pairs of theirs.
+TEST(CoexistingMotions, OfTwoOscillatorsAreThePairsOfTheirs) {
+  LinearStructure two;
+  for (auto* matrix : {&two.mass, &two.damping, &two.stiffness}) matrix->resize(2, 2);
+  for (int i = 0; i < 2; ++i) {
+    two.mass.insert(i, i) = 1.0;
+    two.damping.insert(i, i) = 0.05;
+    two.stiffness.insert(i, i) = 1.0 + 0.01 * i;
+  }
+  two.load = Eigen::VectorXd::Constant(2, 0.15);
+  two.contact_directions = contact_rows({0, 1}, 2);
+  ContactProblem problem(testing::fourier_pair(63, 256), two, LinearContact{4.0, 1.0});
+  const CoexistingMotions all = coexisting_motions(problem, 0.18);
+  EXPECT_EQ(stable_ones(all), 4);
+  EXPECT_GT(all.motions.size(), 4u);  // and some of the five unstable ones
+  EXPECT_EQ(arrivals(all), 24);
+  for (const CoexistingMotion& one : all.motions) EXPECT_EQ(one.periods, 1);
+}
+
+TEST(CoexistingMotions, EndWhereTheObserverSaysSo) {
+  ContactProblem problem = folded();
+  int starts = 0, calls = 0;
+  MotionsOptions options;
+  options.observer = [&](const Progress& progress) {
+    starts = static_cast<int>(progress.done * (options.random_starts + 2) + 0.5);
+    ++calls;
+    return starts < 3;
+  };
+  const CoexistingMotions all = coexisting_motions(problem, 0.18, options);
+  EXPECT_EQ(all.status, MotionsStatus::cancelled);
+  EXPECT_EQ(all.starts, 3);
+  EXPECT_GE(all.motions.size(), 1u);
+}
+
+TEST(CoexistingMotions, RefuseOptionsOutOfRangeAndProblemsOfSeveralPeriods) {
+  ContactProblem problem = folded();
+  EXPECT_THROW(coexisting_motions(problem, 0.18, {.random_starts = -1}), std::invalid_argument);
+  EXPECT_THROW(coexisting_motions(problem, 0.18, {.longest = 0}), std::invalid_argument);
+  EXPECT_THROW(coexisting_motions(problem, 0.18, {.tolerance = 0.0}), std::invalid_argument);
+  ContactProblem two = problem.over_periods(2);
+  EXPECT_THROW(coexisting_motions(two, 0.18), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
