@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,16 +14,6 @@
 
 namespace wavebalance::app {
 namespace {
-
-/// The scene as a balance with so many Fourier functions.
-Scene balance_of(Scene scene, int functions) {
-  scene.analysis.type = AnalysisType::forced_response;
-  scene.time = {};
-  scene.time.trial = scene.time.weight = "fourier";
-  scene.time.functions = functions;
-  scene.time.quadrature_points = 4 * (functions + 1);
-  return scene;
-}
 
 /// The largest harmonic of the load that a balance has to hold.
 int highest_harmonic(const Forcing& forcing) {
@@ -61,7 +52,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
     return found;
   }
   for (const int functions : phases_starts) {
-    if ((functions - 1) / 2 < highest_harmonic(scene.forcing)) continue;
+    if (functions < least_start_functions(scene)) continue;
     solvers::ContactProblem problem = compose_problem(balance_of(scene, functions), model);
     solvers::ForcedResponseOptions options;
     options.observer = observer;
@@ -164,6 +155,21 @@ bool may_leave_pair(const Time& time) {
 }
 
 }  // namespace
+
+Scene balance_of(Scene scene, int functions) {
+  scene.analysis.type = AnalysisType::forced_response;
+  scene.time = {};
+  scene.time.trial = scene.time.weight = "fourier";
+  scene.time.functions = functions;
+  scene.time.quadrature_points = 4 * (functions + 1);
+  return scene;
+}
+
+int least_start_functions(const Scene& scene) {
+  const int highest = highest_harmonic(scene.forcing);
+  return *std::find_if(phases_starts.begin(), std::prev(phases_starts.end()),
+                       [&](int functions) { return (functions - 1) / 2 >= highest; });
+}
 
 double largest_phases_tolerance(int contacts) {
   constexpr int few = 6;

@@ -115,6 +115,17 @@ std::string count_text(int count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+/// The periods of the load that the motion of a file spans, as the summary beside it says: of the whole
+/// record, or of this one of several motions.
+int periods_of(const Summary& summary, const fs::path& file) {
+  std::string name = file.filename().string();
+  for (const std::string& ending : {std::string(contacts_suffix), std::string(".csv")})
+    if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  for (const std::string& entry : {std::string("subharmonic"), name + "_period"})
+    if (const auto* periods = value_in<std::int64_t>(summary, entry)) return static_cast<int>(*periods);
+  return 1;
+}
+
 }  // namespace
 
 StartMotion read_start_motion(const fs::path& place) {
@@ -125,8 +136,7 @@ StartMotion read_start_motion(const fs::path& place) {
   start.source = file.string();
   start.contacts = motion_of(read_csv(file), file);
   const Summary summary = read_summary(file.parent_path() / "summary.json");
-  if (const auto* periods = value_in<std::int64_t>(summary, "subharmonic"))
-    start.periods = static_cast<int>(*periods);
+  start.periods = periods_of(summary, file);
   return start;
 }
 

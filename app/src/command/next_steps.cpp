@@ -78,6 +78,15 @@ const Remedies& of_shooting() {
   return all;
 }
 
+const Remedies& of_motions() {
+  static const Remedies all{
+      {"no_motion",
+       "a larger analysis.longest_period, more analysis.random_starts, more damping, or analysis.type = "
+       "\"forced_response\""},
+      {"no_modes", "analysis.type = \"forced_response\""}};
+  return all;
+}
+
 }  // namespace
 
 std::string next_step(AnalysisType type, const std::string& status) {
@@ -87,6 +96,7 @@ std::string next_step(AnalysisType type, const std::string& status) {
                              : type == AnalysisType::nonlinear_mode ? of_modes()
                              : type == AnalysisType::time_stepping  ? of_time_stepping()
                              : type == AnalysisType::shooting       ? of_shooting()
+                             : type == AnalysisType::motions        ? of_motions()
                                                                     : of_sweeps();
   const auto found = remedies.find(status);
   return found == remedies.end() ? "" : found->second;

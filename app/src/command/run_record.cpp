@@ -60,7 +60,8 @@ bool may_write(const Scene& scene, bool report, const std::string& name) {
   for (const char* end : {".csv", ".svg", ".figure.js", ".motion.js"})
     if (name == stem + end) return true;
   if (name == "contacts.csv") return !curve;
-  const bool motions = scene.analysis.motion_points > 0 || !scene.analysis.motion_at.empty();
+  const bool motions =
+      scene.analysis.motion_points > 0 || !scene.analysis.motion_at.empty() || type == AnalysisType::motions;
   return motions && (name.starts_with("motion.") || name.starts_with("motion_"));
 }
 

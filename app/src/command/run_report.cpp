@@ -21,7 +21,8 @@ std::string heading_of(const Scene& scene) {
       {AnalysisType::amplitude_sweep, "Response over the amplitude of the load"},
       {AnalysisType::nonlinear_mode, "Nonlinear mode"},
       {AnalysisType::time_stepping, "Response by time stepping"},
-      {AnalysisType::shooting, "Response by contact phases"}};
+      {AnalysisType::shooting, "Response by contact phases"},
+      {AnalysisType::motions, "Coexisting motions"}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& one) { return one.first == scene.analysis.type; });
   const std::string structure = scene.structure.type == StructureType::matrices
@@ -85,10 +86,13 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.scripts = {"motion.js"};
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene))) +
-                                        (record.figure.panels.empty() ? "" : picture(files, heading)) +
-                                        motion(files) +
-                                        folded_table(summary, "motions", "Motions at points of the curve")) +
+      section_html(
+          "What came out",
+          paragraph(outcome_sentences(summary, common_gap(scene))) +
+              (record.figure.panels.empty() ? "" : picture(files, heading)) + motion(files) +
+              folded_table(summary, "motions",
+                           scene.analysis.type == AnalysisType::motions ? "Motions at this frequency"
+                                                                        : "Motions at points of the curve")) +
       section_html("Stability", paragraph(stability_sentences(summary, record.sweep)) +
                                     folded_table(summary, "special_points", "Special points")) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +

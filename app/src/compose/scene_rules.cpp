@@ -114,7 +114,22 @@ void check_subharmonic(const Document& document, const Scene& scene) {
                   ", or more time.functions");
 }
 
-/// Branches begin where multipliers pass the unit circle.
+/// Settling and phases of contact are those of structures with an equation in time and not too many modes.
+void check_coexisting(const Document& document, const Scene& scene) {
+  if (scene.analysis.type != AnalysisType::motions) return;
+  const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
+  if (scene.structure.loss_factor > 0.0)
+    fail_rule(
+        document, {"structure.loss_factor", "analysis.type"},
+        "not with analysis.type = \"motions\", since a loss factor has no equation in time; expected 0, or "
+        "modal_damping = loss_factor / 2 in its place");
+  if (size > most)
+    fail_rule(
+        document, {"structure.kept_modes", "structure.elements", "analysis.type"},
+        std::to_string(size) + " degrees of freedom; expected at most " + std::to_string(most) +
+            " for analysis.type = \"motions\", which computes all modes; structure.kept_modes reduces them");
+}
+
 /// What an exact curve does not do yet, or does not need.
 void check_exact(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
@@ -136,6 +151,7 @@ void check_exact(const Document& document, const Scene& scene) {
         "elastic law, or analysis.exact = false");
 }
 
+/// Branches begin where multipliers pass the unit circle.
 void check_branches(const Document& document, const Scene& scene) {
   if (!scene.analysis.branches) return;
   if (is_rigid(scene.contact.law))
@@ -340,6 +356,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (!stepping && !mode && !phases) check_subharmonic(document, scene);
   check_branches(document, scene);
   check_exact(document, scene);
+  check_coexisting(document, scene);
   check_dense_size(document, scene);
 }
 

@@ -204,8 +204,17 @@ std::string time_lines(const Time& time) {
       pair.admissible ? "admissible" : "NOT admissible: " + pair.reason);
 }
 
+std::string starts_line(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  return fmt::format(
+      "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by phases of contact to "
+      "a relative error of {}\n",
+      analysis.longest_period, analysis.random_starts, analysis.seed, number_text(scene.time.tolerance));
+}
+
 std::string method_lines(const Scene& scene) {
   if (integrates_in_time(scene.analysis.type)) return "";
+  if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }
 

@@ -38,7 +38,8 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     points_no_motion_near{"points_no_motion_near"}, points_phases_not_known{"points_phases_not_known"},
     points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"}, interruptions{"interruptions"},
     stability{"stability"}, stability_by{"stability_by"}, special_points{"special_points"},
-    branches{"branches"}, special_points_of_branches{"special_points_of_branches"}, motions{"motions"};
+    random_starts{"random_starts"}, starts_without_motion{"starts_without_motion"}, branches{"branches"},
+    special_points_of_branches{"special_points_of_branches"}, motions{"motions"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},

@@ -13,6 +13,7 @@
 #include "results/curve_motion_files.hpp"
 #include "results/mode_record.hpp"
 #include "results/motion_files.hpp"
+#include "results/motions_record.hpp"
 #include "results/quantities.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
@@ -284,6 +285,8 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
     case AnalysisType::shooting:
       options.stability = true;
       return response_record(scene, model, phases_response(scene, model, options));
+    case AnalysisType::motions:
+      return motions_record(scene, model, how.observer);
     case AnalysisType::forced_response:
       break;
   }

@@ -65,12 +65,13 @@ inline constexpr std::array<NamedValue<LoadKind>, 3> enum_names<LoadKind>{
      {LoadKind::base_displacement, "base_displacement"},
      {LoadKind::base_acceleration, "base_acceleration"}}};
 template <>
-inline constexpr std::array<NamedValue<AnalysisType>, 6> enum_names<AnalysisType>{
+inline constexpr std::array<NamedValue<AnalysisType>, 7> enum_names<AnalysisType>{
     {{AnalysisType::forced_response, "forced_response"},
      {AnalysisType::frequency_sweep, "frequency_sweep"},
      {AnalysisType::amplitude_sweep, "amplitude_sweep"},
      {AnalysisType::time_stepping, "time_stepping"},
      {AnalysisType::shooting, "shooting"},
+     {AnalysisType::motions, "motions"},
      {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
 template <>
 inline constexpr std::array<NamedValue<TimeMethod>, 2> enum_names<TimeMethod>{

@@ -51,7 +51,7 @@ bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_s
 
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  return type == AnalysisType::shooting ||
+  return type == AnalysisType::shooting || type == AnalysisType::motions ||
          (type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases);
 }
 

@@ -165,12 +165,30 @@ std::vector<std::string> keys_in(const std::string& text) {
 
 TEST(NextSteps, NameKeysThatExist) {
   int advised = 0;
-  for (const auto type : {AnalysisType::forced_response, AnalysisType::frequency_sweep,
-                          AnalysisType::nonlinear_mode, AnalysisType::time_stepping, AnalysisType::shooting})
-    for (const char* status :
-         {"stalled", "iteration_limit", "effort_limit", "inaccurate", "singular", "unbalanced", "size_limit",
-          "stagnated", "not_converged", "returned", "no_start", "closed", "lost", "unbounded", "point_limit",
-          "cycling", "ended at frequency ratio 1.2", "subharmonic", "step_failure"})
+  for (const auto type :
+       {AnalysisType::forced_response, AnalysisType::frequency_sweep, AnalysisType::nonlinear_mode,
+        AnalysisType::time_stepping, AnalysisType::shooting, AnalysisType::motions})
+    for (const char* status : {"stalled",
+                               "iteration_limit",
+                               "effort_limit",
+                               "inaccurate",
+                               "singular",
+                               "unbalanced",
+                               "size_limit",
+                               "stagnated",
+                               "not_converged",
+                               "returned",
+                               "no_start",
+                               "closed",
+                               "lost",
+                               "unbounded",
+                               "point_limit",
+                               "cycling",
+                               "ended at frequency ratio 1.2",
+                               "subharmonic",
+                               "step_failure",
+                               "no_motion",
+                               "no_modes"})
       for (const std::string& key : keys_in(next_step(type, status))) {
         ++advised;
         EXPECT_TRUE(key == "forcing.terms" || find_scene_key(key) != nullptr) << key;

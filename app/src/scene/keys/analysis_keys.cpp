@@ -57,6 +57,18 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
            within(1, 100'000'000), optional);
 }
 
+void add_motions(std::vector<SceneKey>& keys) {
+  const Section motions(keys, "analysis", analysis_part, analysis_is({"motions"}));
+  motions(&Analysis::random_starts, "random_starts", "",
+          "random states, beside that of rest, from which the structure settles to a motion",
+          within(0, 1'000'000), optional);
+  motions(&Analysis::seed, "seed", "", "of the random states: the same seed gives the same ones",
+          within(0, 2'147'483'647), optional);
+  motions(&Analysis::longest_period, "longest_period", "",
+          "periods of the load after which a motion may repeat; one that takes more counts as none",
+          within(1, 64), optional);
+}
+
 void add_mode(std::vector<SceneKey>& keys) {
   const Section mode(keys, "analysis", analysis_part, analysis_is({"nonlinear_mode"}));
   mode(&Analysis::mode, "mode", "", "the linear mode that the nonlinear one continues", within(1, 10'000'000),
@@ -119,14 +131,14 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       "and those at frequencies, of an amplitude sweep at amplitudes, solved for there, each time that "
       "the curve passes one; [\"peak\", 150.0] is an example",
       positive, optional, only_with(analysis_is({"frequency_sweep", "amplitude_sweep"})));
-  analysis(
-      &Analysis::motion_points, "motion_points", "",
-      "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
-      "for ParaView, matrices to motion.mtx, a column an instant; of a sweep the motions of motion_at",
-      within(0, 9999),
-      derived("32 for a blade, 0 for matrices and where there is no motion", default_motion_points),
-      only_with(structure_is({"blade", "matrices"}) &&
-                analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
+  analysis(&Analysis::motion_points, "motion_points", "",
+           "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
+           "for ParaView, matrices to motion.mtx, a column an instant; of a sweep the motions of motion_at",
+           within(0, 9999),
+           derived("32 for a blade, 0 for matrices and where there is no motion", default_motion_points),
+           only_with(structure_is({"blade", "matrices"}) &&
+                     analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "motions",
+                                  "nonlinear_mode"})));
   analysis(
       &Analysis::stability, "stability", "",
       "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
@@ -149,6 +161,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            only_with(analysis_is({"forced_response", "frequency_sweep"}) && by_balance()));
   add_sweep(keys);
   add_time_stepping(keys);
+  add_motions(keys);
   add_mode(keys);
 }
 

@@ -7,10 +7,11 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
   forcing(&Forcing::amplitude, "amplitude", "N",
           "force amplitude cos(2 pi frequency t): at the tip of a bar, at one place of a blade's tip, along "
           "load or load_dofs of matrices",
-          required_with(analysis_is(
-              {"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "shooting"})));
+          required_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping",
+                                     "shooting", "motions"})));
   forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
-          required_with(analysis_is({"forced_response", "amplitude_sweep", "time_stepping", "shooting"})));
+          required_with(
+              analysis_is({"forced_response", "amplitude_sweep", "time_stepping", "shooting", "motions"})));
   forcing(&Forcing::load, "load", "",
           "forces of all degrees of freedom for amplitude 1: Matrix Market array file of one column", path,
           optional, only_with(structure_is({"matrices"})));

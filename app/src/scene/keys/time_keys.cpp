@@ -28,8 +28,8 @@ void add_time_keys(std::vector<SceneKey>& keys) {
        "relative rms error of the contact displacement over the period to be met, in place of functions and "
        "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
        "these too; with method = \"phases\" that of the phases",
-       within(0, 1), derived("none; 1e-9 with method = \"phases\"", default_tolerance),
-       only_with(analysis_is({"forced_response", "shooting"})));
+       within(0, 1), derived("none; 1e-9 with method = \"phases\" and of motions", default_tolerance),
+       only_with(analysis_is({"forced_response", "shooting", "motions"})));
   time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
        required_with(balance), only_with(by_balance()));
   time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),

@@ -37,6 +37,7 @@ enum class AnalysisType {
   amplitude_sweep,
   time_stepping,
   shooting,
+  motions,
   nonlinear_mode
 };
 /// What a response solves for, time.method: the balance in a pair of bases, or the motion of the structure
@@ -252,6 +253,10 @@ struct Analysis {
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
 
+  int random_starts = 24;  ///< motions: random states from which the structure settles
+  int seed = 20140817;     ///< motions: of these states
+  int longest_period = 4;  ///< motions: periods of the load after which a motion may repeat
+
   int mode = 1;                       ///< nonlinear_mode: the linear mode that is continued, from 1
   int harmonics = 10;                 ///< nonlinear_mode: N of the Fourier series
   int samples = 0;                    ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
@@ -293,7 +298,7 @@ std::string name_of(LoadKind value);
 std::vector<std::string> input_files(const Scene& scene);
 
 /// Whether its motion is solved for by phases of contact, without functions and points of its own:
-/// time.method, and analysis.type = "shooting", which is another name for the same.
+/// time.method, and analysis.type = "shooting", which is another name for the same, and "motions".
 bool solves_by_phases(const Scene& scene);
 
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,

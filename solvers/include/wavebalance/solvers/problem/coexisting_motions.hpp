@@ -22,7 +22,7 @@ struct MotionsOptions {
 enum class MotionSource {
   rest,    ///< the structure settles to it from rest
   random,  ///< or from a random state
-  newton   ///< Newton's method from states between motions, or from ones that nearly return
+  newton   ///< Newton's method from between motions, or near states that nearly return
 };
 
 std::string_view to_string(MotionSource source);
@@ -32,8 +32,8 @@ struct CoexistingMotion {
   PhaseMotion motion;  ///< over `periods` periods of the load
   int periods = 1;     ///< after which it repeats, and no fewer
   MotionStability stability;
-  double max_displacement = 0.0;  ///< of any contact, m
-  double max_force = 0.0;         ///< N
+  double max_displacement = 0.0;  ///< of any contact at 256 instants of each period of the load, m
+  double max_force = 0.0;         ///< likewise, N
   MotionSource found_by = MotionSource::rest;
   int arrivals = 0;  ///< random starts that settle to it
   /// arrivals / starts: how much of the states it attracts, and the standard error sqrt(p (1 - p) / n). NaN
@@ -59,17 +59,20 @@ struct CoexistingMotions {
 };
 
 /// The periodic motions at a frequency of the load: those that the structure settles to from rest and from
-/// random states, and unstable ones between them. The states are uniform in a box of the modes, whose
-/// displacements and velocities are up to twice the largest of the motion without contact and of the one
-/// settled to from rest. Each motion is solved for by contact phases, so that two are the same where their
-/// displacements agree to 1e-6, also by whole periods of the load later.
+/// random states, and unstable ones between them. The states are uniform in a box of the modes. Its half
+/// sides are twice the largest displacements and velocities of the motion settled to from rest, and of the
+/// motion without contact, enlarged until it reaches a gap. Each motion is solved for by contact phases, so
+/// that two are the same where their displacements agree to 1e-6, also by whole periods of the load later.
 ///
-/// Unstable motions are sought by Newton's method from u_1 + a (u_2 - u_1) between any two motions found, or
-/// one and itself periods later, and from states that nearly return where the structure settles to none.
-/// Neither they nor motions of small basins are certain to be found.
+/// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
+/// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that settle to different motions
+/// are bisected until the motion from between them stays beside an unstable one of the load's period for
+/// long, near which Newton's method starts. Others lie midway between a motion of several periods and itself
+/// later, or near states that nearly return where the structure settles to none from rest. Neither they nor
+/// motions of small basins are certain to be found.
 ///
-/// `problem` must be one of a single period of its load, or std::invalid_argument is thrown, as for options
-/// out of range. A settle() for each start.
+/// Throws std::invalid_argument for options out of range and a problem of several periods of its load. A
+/// settle() for each start, and up to 26 for each pair of motions that starts arrive at.
 CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
                                      const MotionsOptions& options = {});
 

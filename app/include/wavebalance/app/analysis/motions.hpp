@@ -1,0 +1,30 @@
+#pragma once
+#include <vector>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/problem/coexisting_motions.hpp"
+
+namespace wavebalance::app {
+
+/// One of the motions of a frequency, as it is written.
+struct FoundMotion {
+  solvers::CoexistingMotion found;
+  solvers::Motion contacts;   ///< of all contacts, analysis.output_points points of its whole period
+  int contact = 0;            ///< the leading one, see leading_contact()
+  Eigen::MatrixXd structure;  ///< of the reduced structure at analysis.motion_points instants, m; or empty
+};
+
+/// The motions at forcing.frequency.
+struct Motions {
+  solvers::MotionsStatus status = solvers::MotionsStatus::no_motion;
+  std::vector<FoundMotion> motions;
+  int starts = 0, none = 0;   ///< as of solvers::CoexistingMotions
+  double wall_seconds = 0.0;  ///< composition, search and samples
+};
+
+/// solvers::coexisting_motions() of a scene with analysis.type = "motions".
+Motions coexisting_motions(const Scene& scene, const StructureModel& model,
+                           const solvers::Observer& observer = {});
+
+}  // namespace wavebalance::app

@@ -1,0 +1,114 @@
+#include "results/motions_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "files/missing.hpp"
+#include "results/motion_files.hpp"
+#include "results/quantities.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/analysis/motions.hpp"
+#include "wavebalance/app/results/tables.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}", number); }
+
+Table motions_table(const Motions& all) {
+  Table table({"file", "number", "period", "stability", "unstable_multipliers", "leading_multiplier_real",
+               "leading_multiplier_imag", "max_displacement_m", "max_contact_force_N", "share", "share_error",
+               "found_by"});
+  for (std::size_t i = 0; i < all.motions.size(); ++i) {
+    const FoundMotion& one = all.motions[i];
+    const solvers::MotionStability& stability = one.found.stability;
+    table.append_row({name_of_motion(i + 1) + ".csv", std::int64_t(i + 1), std::int64_t{one.found.periods},
+                      stability.status, stability.unstable < 0 ? missing : double(stability.unstable),
+                      stability.leading.real(), stability.leading.imag(),
+                      one.contacts.displacement.maxCoeff(), one.contacts.force.maxCoeff(), one.found.share,
+                      one.found.share_error, std::string(to_string(one.found.found_by))});
+  }
+  return table;
+}
+
+std::string words_of(const FoundMotion& motion, std::size_t number) {
+  const std::string periods =
+      motion.found.periods == 1 ? "" : fmt::format(" over {} periods of the load", motion.found.periods);
+  return fmt::format("motion {}{}, {}", number, periods, motion.found.stability.status);
+}
+
+void append_files(Record& record, const StructureModel& model, const FoundMotion& motion,
+                  std::size_t number) {
+  const std::string name = name_of_motion(number), about = words_of(motion, number);
+  const bool several = motion.contacts.rows() > 1;
+  record.files.push_back({name + ".csv", csv_text(response_table(motion.contacts.contact(motion.contact))),
+                          about + (several ? ": the leading contact" : "")});
+  if (several)
+    record.files.push_back(
+        {name + "_contacts.csv", csv_text(contacts_table(motion.contacts)), about + ": every contact"});
+  for (RecordFile& file : motion_files(model, motion.structure, name)) {
+    file.about = about + ": the whole structure";
+    record.files.push_back(std::move(file));
+  }
+}
+
+void warn_of_none(Record& record, const Motions& all, int longest) {
+  if (all.none > 0)
+    record.warnings.push_back(
+        fmt::format("{} of {} random starts settled to no motion of up to {} periods that was solved for.",
+                    all.none, all.starts, longest));
+}
+
+/// The largest of a number of all motions; missing without any.
+template <class Number>
+double largest(const Motions& all, const Number& number) {
+  double value = missing;
+  for (const FoundMotion& one : all.motions) value = std::fmax(value, double(number(one)));
+  return value;
+}
+
+}  // namespace
+
+Record motions_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  const Motions all = coexisting_motions(scene, model, observer);
+  int iterations = 0, unknowns = 0;
+  for (const FoundMotion& one : all.motions) {
+    iterations += one.found.motion.iterations;
+    unknowns = std::max(unknowns, one.found.motion.unknowns);
+  }
+  Record record;
+  record.warnings = model.warnings;
+  record.converged = all.status == solvers::MotionsStatus::converged;
+  record.interrupted = all.status == solvers::MotionsStatus::cancelled;
+  record.status = to_string(all.status);
+  record.summary =
+      solution_entries(record.converged, record.status,
+                       largest(all, [](const FoundMotion& one) { return one.found.motion.residual; }),
+                       iterations, unknowns, all.wall_seconds);
+  record.summary.emplace_back(quantities::max_displacement, largest(all, [](const FoundMotion& one) {
+                                return one.contacts.displacement.maxCoeff();
+                              }));
+  record.summary.emplace_back(quantities::max_contact_force, largest(all, [](const FoundMotion& one) {
+                                return one.contacts.force.maxCoeff();
+                              }));
+  record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
+  record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
+  record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::phases));
+  record.summary.emplace_back(quantities::random_starts, std::int64_t{all.starts});
+  record.summary.emplace_back(quantities::starts_without_motion, std::int64_t{all.none});
+  warn_of_scene(record, scene);
+  warn_of_none(record, all, scene.analysis.longest_period);
+  record.summary.emplace_back(quantities::motions, motions_table(all));
+  // read_start_motion() takes these, since tables are not read.
+  for (std::size_t i = 0; i < all.motions.size(); ++i)
+    if (all.motions[i].found.periods > 1)
+      record.summary.emplace_back(name_of_motion(i + 1) + "_period",
+                                  std::int64_t{all.motions[i].found.periods});
+  append_structure(record.summary, model);
+  for (std::size_t i = 0; i < all.motions.size(); ++i) append_files(record, model, all.motions[i], i + 1);
+  return record;
+}
+
+}  // namespace wavebalance::app
