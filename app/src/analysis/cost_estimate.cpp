@@ -77,6 +77,17 @@ double balance_bytes(const Sizes& s) {
          100.0 * s.contacts * coarse;
 }
 
+bool seeks_phases(const Scene& scene) {
+  return solves_by_phases(scene) || scene.analysis.phases || scene.analysis.exact;
+}
+
+/// Newton's matrix, its factors, and the influences of forces on displacements and velocities that it is made
+/// of, with one phase of 24 nodes for each contact.
+double phases_bytes(const Sizes& s) {
+  constexpr double unknowns = 26.0, matrices = 8.0;
+  return 8.0 * matrices * std::pow(unknowns * s.contacts, 2);
+}
+
 double response_seconds(const Sizes& s) {
   return 8e-8 * s.contacts * s.points * std::log2(s.points) +
          2e-8 * s.contacts * s.contacts * s.functions * s.degrees + 5e-10 * std::pow(s.active, 3);
@@ -110,7 +121,8 @@ CostEstimate estimate_cost(const Scene& scene) {
   const Sizes sizes = sizes_of(scene);
   CostEstimate cost;
   cost.bytes = structure_bytes(scene, sizes) + output_bytes(scene, sizes);
-  if (!is_balance(scene) || solves_by_phases(scene) || scene.time.tolerance > 0.0) {
+  if (seeks_phases(scene)) cost.bytes += phases_bytes(sizes);
+  if (!is_balance(scene) || solves_by_phases(scene) || scene.analysis.exact || scene.time.tolerance > 0.0) {
     cost.seconds = std::numeric_limits<double>::quiet_NaN();
     return cost;
   }

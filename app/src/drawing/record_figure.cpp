@@ -57,17 +57,36 @@ Eigen::VectorXd with_first_value_repeated(const Eigen::VectorXd& values) {
   return result;
 }
 
-std::string time_label(int periods) {
-  if (periods == 1) return "Time (fraction of a period)";
-  return "Time (fraction of " + std::to_string(periods) + " periods of the load)";
+std::string time_label(int periods, bool shaded) {
+  const std::string what = periods == 1 ? "a period" : std::to_string(periods) + " periods of the load";
+  return "Time (fraction of " + what + (shaded ? "; shaded: contact)" : ")");
+}
+
+/// Where the contact that is drawn exerts a force, by phases of contact.
+std::vector<std::pair<double, double>> contact_spans(const Response& response) {
+  std::vector<std::pair<double, double>> spans;
+  if (!response.phases || response.phases->motion.parts == nullptr) return spans;
+  for (const solvers::ContactPhase& phase : response.phases->motion.phases) {
+    if (phase.contact != response.contact) continue;
+    spans.emplace_back(phase.begin, std::min(phase.end, 1.0));
+    if (phase.end > 1.0) spans.emplace_back(0.0, phase.end - 1.0);
+  }
+  return spans;
 }
 
 void add_motion(Figure& figure, const std::string& quantity, const std::string& unit,
                 const Eigen::VectorXd& values, const Response& response) {
   const Scale scale = axis_scale(values.cwiseAbs().maxCoeff());
   Panel& panel = figure.add_panel();
-  panel.x = {
-      .label = time_label(response.periods), .lower = 0.0, .upper = 1.0, .ticks = {}, .tick_format = "%.1f"};
+  const std::vector<std::pair<double, double>> spans = contact_spans(response);
+  for (const auto& [begin, end] : spans)
+    panel.rectangles.push_back({begin, scale.factor * values.minCoeff(), end,
+                                scale.factor * values.maxCoeff(), Colour::sky_blue, 0.35});
+  panel.x = {.label = time_label(response.periods, !spans.empty()),
+             .lower = 0.0,
+             .upper = 1.0,
+             .ticks = {},
+             .tick_format = "%.1f"};
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
   const auto points = static_cast<Eigen::Index>(values.size());
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(points + 1, 0.0, 1.0);

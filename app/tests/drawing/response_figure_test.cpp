@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "drawing/record_figure.hpp"
+#include "support/bar_scene.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+TEST(ResponseFigure, ShadesThePhasesOfContactInEachPanel) {
+  for (const char* phases : {"true", "false"}) {
+    const Scene scene = parse_scene(bar_scene, "bar.toml",
+                                    std::vector<std::string>{"analysis.phases=" + std::string(phases)});
+    const Response response = weighted_residual_response(scene);
+    const Figure figure = response_figure(scene, response);
+    ASSERT_EQ(figure.panels.size(), 3u);
+    for (const Panel& panel : figure.panels) {
+      double shaded = 0.0, in_contact = 0.0;
+      for (const Rectangle& one : panel.rectangles) {
+        EXPECT_GE(one.x1, 0.0);
+        EXPECT_LE(one.x2, 1.0);
+        shaded += one.x2 - one.x1;
+      }
+      if (response.phases)
+        for (const solvers::ContactPhase& phase : response.phases->motion.phases) in_contact += phase.length();
+      EXPECT_NEAR(shaded, in_contact, 1e-12);
+      EXPECT_EQ(in_contact > 0.0, std::string(phases) == "true");
+      EXPECT_EQ(panel.x.label.find("shaded") != std::string::npos, in_contact > 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wavebalance::app
