@@ -282,13 +282,15 @@ class MotionsSearch {
     const std::map<std::size_t, detail::StructureState> starts = starts_;
     for (auto one = starts.begin(); one != starts.end(); ++one)
       for (auto other = std::next(one); other != starts.end() && !cancelled_; ++other)
-        at_boundary(one->first, one->second, other->second);
+        at_boundary(one->first, other->first, one->second, other->second);
   }
 
   // Bisection of the states until one is so near to the boundary that the motion from there stays near it for
   // many periods, in which it comes near to an unstable motion on it.
-  void at_boundary(std::size_t motion, detail::StructureState inside, detail::StructureState outside) {
+  void at_boundary(std::size_t motion, std::size_t other, detail::StructureState inside,
+                   detail::StructureState outside) {
     constexpr int halvings = 24;
+    const int periods = std::lcm(result_.motions[motion].periods, result_.motions[other].periods);
     detail::StructureState middle;
     for (int i = 0; i < halvings && !cancelled_; ++i) {
       middle = {0.5 * (inside.displacement + outside.displacement),
@@ -297,22 +299,34 @@ class MotionsSearch {
       if (arrived && result_.motions[*arrived].stability.unstable > 0) return;
       (arrived == motion ? inside : outside) = middle;
     }
-    if (!cancelled_) near_boundary(middle);
+    if (!cancelled_) near_boundary(middle, periods);
   }
 
-  void near_boundary(const detail::StructureState& state) {
+  // The unstable motion has the period of the load, or that of the motions on both sides.
+  void near_boundary(const detail::StructureState& state, int periods) {
+    constexpr int longest_stay = 60;  // periods of the load
+    std::vector<double> changes;      // of each period from the one before
     SettlingOptions how = from(state);
-    std::vector<double> changes;  // of each period from the one before
     how.observer = [&](const Progress& progress) {
       changes.push_back(progress.value);
       return watched(progress);
     };
     problem_.settle(frequency_, how);
-    const int nearest = period_before_leaving(changes);
-    if (cancelled_ || nearest == 0) return;
-    how.observer = [&](const Progress& progress) { return progress.step < nearest; };
-    const SettledMotion piece = problem_.settle(frequency_, how);
-    add(problem_, 1, problem_.phases(frequency_, piece, phases_options(result_.starts)),
+    if (const int nearest = period_before_leaving(changes); nearest > 0) solve_after(how, nearest, 1);
+    if (periods == 1 || periods > options_.longest) return;
+    const std::size_t known = samples_.size();
+    const int last = std::min(longest_stay, static_cast<int>(changes.size()));
+    for (int after = 2 * periods; after < last && samples_.size() == known; after += periods)
+      solve_after(how, after, periods);
+  }
+
+  // From the periods of the load that end so many of them after the start.
+  void solve_after(SettlingOptions& how, int after, int periods) {
+    if (cancelled_) return;
+    how.observer = [&](const Progress& progress) { return progress.step < after; };
+    ContactProblem& problem = over(periods);
+    const SettledMotion piece = problem.settle(frequency_, how);
+    add(problem, periods, problem.phases(frequency_, piece, phases_options(result_.starts)),
         MotionSource::newton);
   }
 

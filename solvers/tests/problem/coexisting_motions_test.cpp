@@ -107,12 +107,23 @@ TEST(CoexistingMotions, OfMorePeriodsThanAskedForAreNone) {
   ContactProblem problem = doubling();
   const CoexistingMotions four = coexisting_motions(problem, frequency, {.random_starts = 6}),
                           two = coexisting_motions(problem, frequency, {.random_starts = 6, .longest = 2});
-  ASSERT_EQ(four.motions.size(), 2u);
+  ASSERT_EQ(four.motions.size(), 3u);
   EXPECT_EQ(four.motions[1].periods, 3);
+  EXPECT_EQ(four.motions[1].stability.status, "stable");
   EXPECT_EQ(four.none, 0);
   ASSERT_EQ(two.motions.size(), 1u);
   EXPECT_EQ(two.none, four.motions[1].arrivals);
   EXPECT_EQ(two.motions[0].arrivals, four.motions[0].arrivals);
+}
+
+TEST(CoexistingMotions, OfThreePeriodsAreABoundaryOfTheBasinOfOneOfOne) {
+  ContactProblem problem = doubling();
+  const CoexistingMotions all = coexisting_motions(problem, 4.2 / two_pi, {.random_starts = 8});
+  ASSERT_EQ(all.motions.size(), 3u);
+  EXPECT_EQ(stable_ones(all), 2);
+  EXPECT_EQ(all.motions[2].periods, 3);
+  EXPECT_EQ(all.motions[2].stability.unstable, 1);
+  EXPECT_GT(all.motions[2].stability.leading.real(), 1.0);
 }
 
 // At 2.8 rad/s its motion repeats after no number of periods up to sixteen.
