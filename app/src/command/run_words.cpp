@@ -109,6 +109,20 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
                                   quantity(highest, "m"), beside_gap(highest, gap)));
 }
 
+void append_motions(std::vector<std::string>& sentences, const Summary& summary, double gap) {
+  const auto* motions = value_in<Table>(summary, quantities::motions.name);
+  if (motions == nullptr || motions->rows() == 0) return;
+  int stable = 0;
+  for (std::size_t i = 0; i < motions->rows(); ++i)
+    stable += cell_text(motions->at(i, "stability")) == "stable";
+  const std::size_t all = motions->rows();
+  sentences.push_back(fmt::format("There {} {} motion{}, of which {} {} stable, from {} and rest.",
+                                  all == 1 ? "is" : "are", all, all == 1 ? "" : "s", stable,
+                                  stable == 1 ? "is" : "are",
+                                  count_of(summary, quantities::random_starts, "random start")));
+  append_motion(sentences, summary, gap);
+}
+
 void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap) {
   const double highest = number_in(summary, quantities::max_displacement);
   sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
@@ -270,6 +284,8 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
     append_curve(sentences, summary, gap);
   else if (analysis == "nonlinear_mode")
     append_mode(sentences, summary);
+  else if (analysis == "motions")
+    append_motions(sentences, summary, gap);
   else
     append_motion(sentences, summary, gap);
   append_contact(sentences, summary, curve ? "up to " : "");

@@ -90,6 +90,9 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.summary.emplace_back(quantities::max_displacement, largest(all, [](const FoundMotion& one) {
                                 return one.contacts.displacement.maxCoeff();
                               }));
+  record.summary.emplace_back(quantities::min_displacement, -largest(all, [](const FoundMotion& one) {
+                                return -one.contacts.displacement.minCoeff();
+                              }));
   record.summary.emplace_back(quantities::max_contact_force, largest(all, [](const FoundMotion& one) {
                                 return one.contacts.force.maxCoeff();
                               }));

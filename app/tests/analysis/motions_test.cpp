@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "command/run_words.hpp"
 #include "support/curve_record.hpp"
 #include "support/scene_error.hpp"
 #include "support/summary_value.hpp"
@@ -69,6 +70,10 @@ TEST(Motions, BetweenTheFoldsAreTwoStableOnesAndOneUnstableOne) {
   EXPECT_NEAR(shares, 1.0, 1e-15);
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "random_starts"), 24);
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "starts_without_motion"), 0);
+  const std::vector<std::string> sentences = outcome_sentences(record.summary, 1.0);
+  ASSERT_EQ(sentences.size(), 4u);
+  EXPECT_EQ(sentences[1], "There are 3 motions, of which 2 are stable, from 24 random starts and rest.");
+  EXPECT_EQ(sentences[2].find("not known"), std::string::npos);
 }
 
 TEST(Motions, BelowTheFoldsThereIsOne) {

@@ -66,10 +66,10 @@ struct CoexistingMotions {
 ///
 /// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
 /// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that settle to different motions
-/// are bisected until the motion from between them stays beside an unstable one for long,
-/// near which Newton's method starts. It has the load's period or that of the two. Others lie midway
-/// between a motion of several periods and itself later, or near states that nearly return where the
-/// structure settles to none from rest. Neither they nor motions of small basins are certain to be found.
+/// are bisected until the motion from between them stays beside an unstable one for long, near which Newton's
+/// method starts. It has the load's period or that of the two. Others lie midway between a motion of several
+/// periods and itself later, or near states that nearly return where the structure settles to none from rest.
+/// Neither they nor motions of small basins are certain to be found.
 ///
 /// Throws std::invalid_argument for options out of range and a problem of several periods of its load. A
 /// settle() for each start, and up to 26 for each pair of motions that starts arrive at, as well as shorter
