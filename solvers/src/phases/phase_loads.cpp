@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <complex>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "wavebalance/solvers/structure/periodic_force.hpp"
@@ -40,9 +41,16 @@ LinearStructure held_by_springs(const LinearStructure& structure, double holding
 
 namespace {
 
-CondensationMethod method_for(const LinearStructure& structure) {
+// Modes are exact to rounding beside a resonance, where an LU of the dynamic stiffness loses as many digits
+// as its condition has.
+Condensation condensation_of(const LinearStructure& structure) {
   constexpr int largest_dense = 200;
-  return structure.size() > largest_dense ? CondensationMethod::sparse : CondensationMethod::dense;
+  if (structure.size() > largest_dense) return Condensation(structure, CondensationMethod::sparse);
+  try {
+    return Condensation(structure, CondensationMethod::modal);
+  } catch (const std::invalid_argument&) {  // the damping couples the modes, or there is no symmetry
+    return Condensation(structure, CondensationMethod::dense);
+  }
 }
 
 }  // namespace
@@ -51,7 +59,7 @@ FreeContacts::FreeContacts(const LinearStructure& structure, Eigen::VectorXcd ha
     : structure_(structure),
       harmonics_(std::move(harmonics)),
       repeats_(repeats_within_period(harmonics_)),
-      condensation_(held_by_springs(structure, holding), method_for(structure)) {}
+      condensation_(condensation_of(held_by_springs(structure, holding))) {}
 
 Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
   const int contacts = structure_.contacts();
