@@ -146,6 +146,7 @@ Eigen::MatrixXd residual_by_motion(const Evaluation& now, const Eigen::MatrixXd&
 Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
                          const Influence& influence) {
   const Index n = now.force.size(), m = now.passing.size();
+  if (n + m == 0) return {};
   Eigen::MatrixXd result = residual_by_motion(now, influence.displacement, influence.node_velocity);
   result = result * impulses_of(at, now, nodes).asDiagonal();
   result.diagonal().head(n) += now.own;
