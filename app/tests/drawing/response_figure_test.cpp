@@ -26,7 +26,8 @@ TEST(ResponseFigure, ShadesThePhasesOfContactInEachPanel) {
         shaded += one.x2 - one.x1;
       }
       if (response.phases)
-        for (const solvers::ContactPhase& phase : response.phases->motion.phases) in_contact += phase.length();
+        for (const solvers::ContactPhase& phase : response.phases->motion.phases)
+          in_contact += phase.length();
       EXPECT_NEAR(shaded, in_contact, 1e-12);
       EXPECT_EQ(in_contact > 0.0, std::string(phases) == "true");
       EXPECT_EQ(panel.x.label.find("shaded") != std::string::npos, in_contact > 0.0);

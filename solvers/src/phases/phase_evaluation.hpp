@@ -37,9 +37,9 @@ struct Evaluation {
     const double places = m > 0 ? residual.tail(m).cwiseAbs().maxCoeff() / displacement_size : 0.0;
     return std::max(force_error(), places);
   }
-  /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the largest
-  /// force, or forces of its size move the contacts by nothing. A short contact has a small force and the
-  /// rounding errors of large displacements.
+  /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the
+  /// largest force, or forces of its size move the contacts by nothing. A short contact has a small force and
+  /// the rounding errors of large displacements.
   bool is_rounding(double before) const {
     constexpr double small = 1e-9, nothing = 1e-11;
     const double now = error();

@@ -59,8 +59,8 @@ Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
 /// The scene's curve over frequency or amplitude with analysis.exact: motions of the structure themselves, by
-/// phases of contact, with their stability and special points. Turning points are its folds, and the errors of
-/// its phases are those that are estimated. Starts as frequency_sweep() does.
+/// phases of contact, with their stability and special points. Turning points are its folds, and the errors
+/// of its phases are those that are estimated. Starts as frequency_sweep() does.
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                   const StartMotion& start = {});
 
