@@ -84,6 +84,13 @@ TEST(ExactSweep, ThatIsInterruptedHasItsPointsSoFar) {
   EXPECT_GT(record.sweep.rows(), 5u);
 }
 
+TEST(ExactSweep, ThatIsInterruptedAtOnceSaysSoWhateverItHas) {
+  const Record record =
+      record_of({"analysis.frequency_from=0.18"}, [](const solvers::Progress&) { return false; });
+  EXPECT_EQ(record.status, "interrupted");
+  EXPECT_LE(record.sweep.rows(), 1u);
+}
+
 TEST(ExactSweep, RefusesByNameWhatItDoesNotDo) {
   const auto error = [](std::vector<std::string> overrides) {
     overrides.emplace_back("analysis.exact=true");

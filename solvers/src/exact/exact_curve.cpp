@@ -42,14 +42,18 @@ class Tracer {
   }
 
   void advance() {
-    if (std::optional<Switch> over = detail::disappearance(model_, points_.back())) {
-      go_over(std::move(*over));
+    std::optional<Switch> vanishes = detail::disappearance(model_, points_.back());
+    if (vanishes && within(vanishes->grazing.value)) {
+      go_over(std::move(*vanishes));
       return;
     }
     std::optional<PathPoint> next = corrected();
     if (next && !next->agrees) {
       if (std::optional<Switch> over = detail::appearance(model_, points_.back(), *next)) {
-        go_over(std::move(*over));
+        if (within(over->grazing.value))
+          go_over(std::move(*over));
+        else
+          end_before(over->grazing);
         return;
       }
       next.reset();
@@ -150,10 +154,6 @@ class Tracer {
   }
 
   void go_over(Switch over) {
-    if (!within(over.grazing.value)) {
-      curve_.status = end_at(over.grazing.value);
-      return;
-    }
     if (over.appears) {
       note_events(over.grazing);
       over.between.push_back(std::move(over.next));
@@ -178,9 +178,8 @@ class Tracer {
     std::optional<PathPoint> last =
         detail::zero_between(model_, points_.back(), next, model_.fastest(points_.back(), true),
                              [limit](const PathPoint& point) { return point.value - limit; });
-    curve_.status = status;
-    if (!last) return;
-    go_to(std::move(*last));
+    curve_.status = last ? status : SweepStatus::lost;
+    if (last) go_to(std::move(*last));
   }
 
   const PathModel& model_;

@@ -26,7 +26,6 @@ Eigen::VectorXd uniform(Index count) {
   return Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / double(count));
 }
 
-// The value of an unknown in an iterate; forces at nodes are not compared by value.
 double& passage_of(PhaseIterate& iterate, Index i) {
   return iterate.layout.passages[static_cast<std::size_t>(i)].time;
 }

@@ -21,6 +21,21 @@ CondensedProblem with_cosine(TimePair pair, const LinearStructure& structure, in
   return problem;
 }
 
+// The same options, and whether their observer stops the work.
+ForcedResponseOptions watched(ForcedResponseOptions options, bool& cancelled) {
+  options.observer = [&cancelled, observer = std::move(options.observer)](const Progress& progress) {
+    cancelled = cancelled || !goes_on(observer, progress);
+    return !cancelled;
+  };
+  return options;
+}
+
+ExactCurve without_points(bool cancelled) {
+  ExactCurve curve;
+  curve.status = cancelled ? SweepStatus::cancelled : SweepStatus::no_start;
+  return curve;
+}
+
 }  // namespace
 
 ContactProblem::ContactProblem(TimePair pair, const LinearStructure& structure, ContactLaws laws, int periods)
@@ -188,8 +203,9 @@ ExactCurve ContactProblem::exact_sweep(const ExactCurveOptions& options, const F
   options.validate();
   if (!dynamics()) return {};
   load_fully(options.from);
-  const std::optional<PhaseMotion> first = motion_here(options, how, start);
-  if (!first) return {};
+  bool cancelled = false;
+  const auto first = motion_here(options, watched(how, cancelled), start);
+  if (!first) return without_points(cancelled);
   return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::frequency}, *first, options);
 }
 
@@ -200,8 +216,9 @@ ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCu
   if (!dynamics()) return {};
   condensed_.set_load_frequency(frequency);
   condensed_.set_load_scale(options.from);
-  const std::optional<PhaseMotion> first = motion_here(options, how, start);
-  if (!first) return {};
+  bool cancelled = false;
+  const auto first = motion_here(options, watched(how, cancelled), start);
+  if (!first) return without_points(cancelled);
   return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, *first, options);
 }
 
