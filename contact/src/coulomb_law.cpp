@@ -1,0 +1,159 @@
+#include "wavebalance/contact/coulomb_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "checks.hpp"
+#include "friction_march.hpp"
+
+namespace wavebalance::contact {
+namespace {
+
+using detail::FrictionMarch;
+using detail::Pair;
+
+Pair slider_of(const FrictionParameters& parameters) {
+  Pair slider{};
+  std::copy(parameters.slider.begin(), parameters.slider.end(), slider.begin());
+  return slider;
+}
+
+double distance(const Pair& one, const Pair& other) {
+  return std::hypot(one[0] - other[0], one[1] - other[1]);
+}
+
+// The force of two tangents before the first sample that a period brings back, by Newton's method on the
+// period from where two periods lead. A contact that slips little forgets slowly without it.
+void close_period(FrictionMarch& march) {
+  constexpr int most = 30;
+  constexpr double closed = 1e-14;
+  for (int i = 0; i < most; ++i) {
+    const Pair begin = march.force();
+    march.forget();
+    march.period(nullptr);
+    const Pair end = march.force();
+    const double size = std::max(std::hypot(end[0], end[1]), std::hypot(begin[0], begin[1]));
+    if (march.stuck() || !(distance(begin, end) > closed * size)) return;
+    const Pair change = march.closed_change({end[0] - begin[0], end[1] - begin[1]});
+    march.set_force(march.within_limit({begin[0] + change[0], begin[1] + change[1]}));
+  }
+}
+
+// A step of the tangents in series with flexibilities: f = return(f_before, k (travel - h f)).
+struct SeriesStep {
+  double stiffness, first_limit, last_limit;
+  Pair force, travel, flexibility;
+};
+
+Pair increment_for(const SeriesStep& step, const Pair& force) {
+  return {step.stiffness * (step.travel[0] - step.flexibility[0] * force[0]),
+          step.stiffness * (step.travel[1] - step.flexibility[1] * force[1])};
+}
+
+// The cut at the limit commutes with the series.
+Pair end_of_one(const SeriesStep& step) {
+  const double increment = increment_for(step, step.force)[0] / (1.0 + step.stiffness * step.flexibility[0]);
+  return detail::return_mapping({step.force, {increment, 0.0}, step.first_limit, step.last_limit}, 1, false)
+      .force;
+}
+
+// The step is shortened by the force at its end, which is found by repetition: a contraction.
+Pair end_of_two(const SeriesStep& step) {
+  constexpr int most = 100;
+  constexpr double settled = 1e-15;
+  const double yielding = 1.0 + step.stiffness * std::max(step.flexibility[0], step.flexibility[1]);
+  Pair force = step.force;
+  for (int round = 0; round < most; ++round) {
+    const Pair target =
+        detail::return_mapping({step.force, increment_for(step, force), step.first_limit, step.last_limit}, 2,
+                               false)
+            .force;
+    const Pair next{force[0] + (target[0] - force[0]) / yielding,
+                    force[1] + (target[1] - force[1]) / yielding};
+    const double change = distance(next, force);
+    force = next;
+    if (!(change > settled * step.last_limit)) break;
+  }
+  return force;
+}
+
+}  // namespace
+
+CoulombLaw::CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> normal)
+    : parameters_(std::move(parameters)), normal_(normal) {
+  constexpr const char* who = "CoulombLaw";
+  detail::require_at_least(who, "friction", parameters_.friction, 0.0, detail::Bound::closed);
+  detail::require_positive(who, "tangential_stiffness", parameters_.tangential_stiffness);
+  detail::require_at_least(who, "normal_load", parameters_.normal_load, 0.0, detail::Bound::closed);
+  if (parameters_.tangents < 1 || parameters_.tangents > 2)
+    detail::reject(who, "tangents", parameters_.tangents, "1 or 2");
+  if (!parameters_.slider.empty())
+    detail::require_length(who, "slider", parameters_.slider.size(),
+                           static_cast<std::size_t>(parameters_.tangents));
+  for (const double position : parameters_.slider) detail::require_finite(who, "slider", position);
+  if (!normal_ && !(parameters_.normal_load > 0.0))
+    detail::reject(who, "normal_load", parameters_.normal_load,
+                   "positive where there is no normal direction, since the limit is friction times it");
+}
+
+double CoulombLaw::raw_normal_force(double normal_displacement) const {
+  if (!normal_) return parameters_.normal_load;
+  return parameters_.normal_load + normal_->stiffness() * (normal_displacement - normal_->gap());
+}
+
+// The first period begins with the slider at rest. With one tangent the force at the end of a period is a
+// translation and cuts of that at its start, the translations adding up to zero, so that a second period
+// changes it no more.
+FrictionPeriod CoulombLaw::over_period(int points, std::span<const double> displacement,
+                                       bool with_slopes) const {
+  detail::require_length("CoulombLaw", "displacement", displacement.size(),
+                         static_cast<std::size_t>(points * rows()));
+  FrictionMarch march(*this, points, displacement, with_slopes);
+  march.begin(slider_of(parameters_));
+  march.period(nullptr);
+  if (tangents() == 2 && !march.stuck()) {
+    march.period(nullptr);
+    if (!march.stuck()) {
+      close_period(march);
+      march.close_memory();
+    }
+  }
+  FrictionPeriod period;
+  march.period(&period);
+  period.history_dependent = march.stuck();
+  return period;
+}
+
+void CoulombLaw::start(std::span<const double> displacement, std::span<double> force) const {
+  FrictionMarch march(*this, 1, displacement, false);
+  march.begin(slider_of(parameters_));
+  if (normal_) force[0] = std::max(0.0, raw_normal_force(displacement[0]));
+  for (int i = 0; i < tangents(); ++i)
+    force[static_cast<std::size_t>(normal_rows() + i)] = march.force()[static_cast<std::size_t>(i)];
+}
+
+void CoulombLaw::advance(std::span<const double> before, std::span<const double> v,
+                         std::span<const double> flexibility, std::span<double> force) const {
+  double share = 1.0, first = parameters_.normal_load, last = first;
+  if (normal_) {
+    const double was = raw_normal_force(before[0]);
+    const double now = raw_normal_force(v[0]) / (1.0 + normal_->stiffness() * flexibility[0]);
+    if (now > 0.0 && was <= 0.0) share = now / (now - was);
+    first = std::max(0.0, was);
+    last = force[0] = std::max(0.0, now);
+  }
+  const auto begin = static_cast<std::size_t>(normal_rows());
+  SeriesStep step{share * tangential_stiffness(), friction() * first, friction() * last, {}, {}, {}};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(tangents()); ++i) {
+    step.force[i] = force[begin + i];
+    step.travel[i] = v[begin + i] - before[begin + i];
+    step.flexibility[i] = flexibility[begin + i];
+  }
+  const Pair result = tangents() == 1 ? end_of_one(step) : end_of_two(step);
+  std::copy_n(result.begin(), tangents(), force.begin() + normal_rows());
+}
+
+}  // namespace wavebalance::contact
