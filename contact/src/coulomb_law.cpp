@@ -1,6 +1,7 @@
 #include "wavebalance/contact/coulomb_law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -127,12 +128,14 @@ FrictionPeriod CoulombLaw::over_period(int points, std::span<const double> displ
   return period;
 }
 
-void CoulombLaw::start(std::span<const double> displacement, std::span<double> force) const {
-  FrictionMarch march(*this, 1, displacement, false);
-  march.begin(slider_of(parameters_));
-  if (normal_) force[0] = std::max(0.0, raw_normal_force(displacement[0]));
-  for (int i = 0; i < tangents(); ++i)
-    force[static_cast<std::size_t>(normal_rows() + i)] = march.force()[static_cast<std::size_t>(i)];
+void CoulombLaw::start(std::span<const double> v, std::span<const double> flexibility,
+                       std::span<double> force) const {
+  std::array<double, 3> before{};
+  if (normal_) before[0] = v[0];
+  const Pair slider = slider_of(parameters_);
+  std::copy_n(slider.begin(), tangents(), before.begin() + normal_rows());
+  std::fill(force.begin(), force.end(), 0.0);
+  advance(std::span(before).first(static_cast<std::size_t>(rows())), v, flexibility, force);
 }
 
 void CoulombLaw::advance(std::span<const double> before, std::span<const double> v,

@@ -211,17 +211,32 @@ void FrictionMarch::follow(int sample, const ReturnResult& result, const Closing
   memory_.drop_small();
 }
 
+// The distance that the slider moves in a step, m, and the mean force meanwhile. In a step that opens the
+// force falls to zero until the instant of opening.
+std::pair<double, double> FrictionMarch::slip_in(int sample, const ReturnStep& step,
+                                                 const ReturnResult& result) const {
+  const double stiffness = law_.tangential_stiffness();
+  if (result.state == FrictionState::slip)
+    return {std::hypot(step.increment[0] - result.force[0] + step.force[0],
+                       step.increment[1] - result.force[1] + step.force[1]) /
+                stiffness,
+            result.mean_limit};
+  const double was = raw_[static_cast<std::size_t>(before(sample))],
+               now = raw_[static_cast<std::size_t>(sample)];
+  if (result.state == FrictionState::stick || !(was > 0.0)) return {0.0, 0.0};
+  const double share = was / (was - now);
+  return {std::hypot(share * step.increment[0] + step.force[0], share * step.increment[1] + step.force[1]) /
+              stiffness,
+          0.5 * std::hypot(step.force[0], step.force[1])};
+}
+
 void FrictionMarch::note(int sample, const ReturnStep& step, const ReturnResult& result,
                          FrictionPeriod& record) const {
   record.state.push_back(result.state);
-  double slip = 0.0;
-  if (result.state == FrictionState::slip)
-    slip = std::hypot(step.increment[0] - result.force[0] + step.force[0],
-                      step.increment[1] - result.force[1] + step.force[1]) /
-           law_.tangential_stiffness();
+  const auto [slip, limit] = slip_in(sample, step, result);
   record.slip.push_back(slip);
-  record.work += result.mean_limit * slip;
-  if (law_.friction() > 0.0) record.normal_work += result.mean_limit / law_.friction() * slip;
+  record.work += limit * slip;
+  if (law_.friction() > 0.0) record.normal_work += limit / law_.friction() * slip;
   for (int i = 0; i < law_.tangents(); ++i)
     record.force[static_cast<std::size_t>(tangent_at(i, sample))] = result.force[static_cast<std::size_t>(i)];
   for (const Memory::Entry& entry : memory_.entries())

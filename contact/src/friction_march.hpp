@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/contact/coulomb_law.hpp"
@@ -86,6 +87,7 @@ class FrictionMarch {
   Closing closing(int sample) const;
   ReturnStep step_to(int sample, const Closing& closing, Pair& travel) const;
   void follow(int sample, const ReturnResult& result, const Closing& closing, const Pair& travel);
+  std::pair<double, double> slip_in(int sample, const ReturnStep& step, const ReturnResult& result) const;
   void note(int sample, const ReturnStep& step, const ReturnResult& result, FrictionPeriod& record) const;
 
   const CoulombLaw& law_;

@@ -222,7 +222,7 @@ TEST(CoulombLaw, InSeriesWithAFlexibilityIsItsStepAtTheDisplacementThatFollows) 
       v[r] = before[r] + 0.5 * normal(generator);
       h[r] = 0.3 * std::abs(normal(generator));
     }
-    law.start(before, force);
+    law.start(before, none, force);
     direct = force;
     law.advance(before, v, h, force);
     for (std::size_t r = 0; r < rows; ++r) u[r] = v[r] - h[r] * force[r];

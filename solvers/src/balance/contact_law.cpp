@@ -33,6 +33,11 @@ void AnyContactLaw::refuse_instant() {
       "sweeps in the displacement form take such laws");
 }
 
+void AnyContactLaw::refuse_steps() {
+  throw std::invalid_argument(
+      "a contact law acts over a period and cannot go on step by step, as integration in time needs it to");
+}
+
 bool AnyContactLaw::is_rigid() const {
   if (acts_over_period()) return false;
   const double at = gap();

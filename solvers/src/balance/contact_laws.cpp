@@ -73,6 +73,12 @@ bool ContactLaws::act_over_period() const {
                      [](const AnyContactLaw& law) { return law.acts_over_period(); });
 }
 
+bool ContactLaws::advance_in_steps() const {
+  return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) {
+    return !law.acts_over_period() || law.advances_in_steps();
+  });
+}
+
 ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
   std::vector<AnyContactLaw> laws;
   for (int c = 0; c < flexibility.size(); ++c) laws.emplace_back(ResolventLaw((*this)[c], flexibility[c]));

@@ -5,70 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "period/step_forces.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
 // How often a step is halved at most. A contact that opens or closes is then known to 1e-9 periods.
 constexpr int deepest_level = 20;
-
-// The force f = law(u - d f, v - m f) of a law that depends on the velocity, by the regula falsi of Illinois
-// between 0 and the force at (u, v), every third step halved: the residual rises with f where no slope is
-// negative. At a jump of the law it is the value within.
-double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility) {
-  constexpr int max_steps = 150;
-  constexpr double settled = 1e-13;
-  double near = 0.0, far = law.force(u, v);
-  if (far == 0.0) return 0.0;
-  const auto excess = [&](double f) { return f - law.force(u - compliance * f, v - mobility * f); };
-  double near_excess = -far, far_excess = excess(far);
-  for (int i = 1; i <= max_steps && far_excess != 0.0; ++i) {
-    const bool halve = i % 3 == 0 || far_excess == near_excess;
-    const double share = halve ? 0.5 : far_excess / (far_excess - near_excess);
-    const double middle = far - share * (far - near), now = excess(middle);
-    if (std::abs(now) <= settled * std::abs(middle) || std::abs(far - near) <= settled * std::abs(far))
-      return middle;
-    if (now * far > 0.0) {
-      far = middle;
-      far_excess = now;
-      near_excess *= 0.5;
-    } else {
-      near = middle;
-      near_excess = now;
-      far_excess *= 0.5;
-    }
-  }
-  return far;
-}
-
-// Contact forces f at the end of a step with f_c = law_c(displacement_c - (D f)_c, velocity_c - (B f)_c), D
-// and B compliance and mobility of the step: Gauss-Seidel, each force by its resolvent for the flexibility
-// D_cc. `velocity` is empty where no law depends on it. Starts from `force`.
-Eigen::VectorXd solved_forces(const ContactLaws& laws, const Eigen::MatrixXd& compliance,
-                              const Eigen::MatrixXd& mobility, const Eigen::VectorXd& displacement,
-                              const Eigen::VectorXd& velocity, Eigen::VectorXd force) {
-  constexpr int max_rounds = 200;
-  constexpr double settled = 1e-12;
-  for (int round = 0; round < max_rounds; ++round) {
-    double change = 0.0;
-    for (Eigen::Index c = 0; c < force.size(); ++c) {
-      const AnyContactLaw& law = laws[static_cast<int>(c)];
-      const double d = compliance(c, c);
-      const double u = displacement[c] - compliance.row(c).dot(force) + d * force[c];
-      double next = 0.0;
-      if (velocity.size() > 0 && law.depends_on_velocity()) {
-        const double m = mobility(c, c);
-        const double v = velocity[c] - mobility.row(c).dot(force) + m * force[c];
-        next = implicit_force(law, u, v, d, m);
-      } else {
-        next = d > 0.0 ? law.resolvent(u, d).force : law.force(u);
-      }
-      change = std::max(change, std::abs(next - force[c]));
-      force[c] = next;
-    }
-    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) break;
-  }
-  return force;
-}
 
 // Whether a contact has a force at one of two times alone.
 bool opens_or_closes(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
@@ -82,7 +25,8 @@ ModalMap::ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int
       steps_(steps),
       free_(problem, 2 * steps),
       clear_below_(laws.gaps(problem.contacts())),
-      depends_on_velocity_(laws.depend_on_velocity()) {
+      depends_on_velocity_(laws.depend_on_velocity()),
+      has_memory_(laws.act_over_period()) {
   free_state_ = flow.state(free_.initial_displacement(), free_.initial_velocity());
   for (int c = 0; c < problem.contacts(); ++c)
     if (!laws[c].unilateral() || !std::isfinite(clear_below_[c]))  // a spring may have no gap
@@ -99,8 +43,13 @@ PeriodState ModalMap::balanced(PeriodState state) const {
   const ModalFlow& flow = flows_.front();
   const Eigen::VectorXd displacement = free_displacement(0) + flow.contact_displacement(state.motion);
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(displacement.size(), displacement.size());
-  state.force = solved_forces(laws_, flow.static_compliance(), none, displacement,
-                              depends_on_velocity_ ? velocity(state, 0) : Eigen::VectorXd(), state.force);
+  state.force = step_forces(laws_,
+                            {flow.static_compliance(),
+                             none,
+                             displacement,
+                             depends_on_velocity_ ? velocity(state, 0) : Eigen::VectorXd(),
+                             {}},
+                            state.force);
   return state;
 }
 
@@ -129,6 +78,12 @@ Eigen::VectorXd ModalMap::velocity(const PeriodState& state, Ticks time) const {
   return free_velocity(time) + flows_.front().contact_velocity(state.motion);
 }
 
+Eigen::VectorXd ModalMap::displacement(const PeriodState& state, Ticks time) const {
+  const ModalFlow& flow = flows_.front();
+  return free_displacement(time) + flow.contact_displacement(state.motion) -
+         flow.static_compliance() * state.force;
+}
+
 bool ModalMap::is_clear(const Eigen::VectorXd& displacement) const {
   return (displacement.array() <= clear_below_.array()).all();
 }
@@ -147,8 +102,11 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
   step.end.force = Eigen::VectorXd::Zero(predicted.size());
   if (is_clear(predicted)) return step;
   const Eigen::VectorXd velocity = depends_on_velocity_ ? this->velocity(step.end, end) : Eigen::VectorXd();
-  step.end.force =
-      solved_forces(laws_, flow.step_compliance(), flow.step_mobility(), predicted, velocity, begin.force);
+  const Ticks start = end - (Ticks{1} << (deepest_level - level));
+  step.end.force = step_forces(laws_,
+                               {flow.step_compliance(), flow.step_mobility(), predicted, velocity,
+                                has_memory_ ? displacement(begin, start) : Eigen::VectorXd()},
+                               begin.force);
   flow.add_force(step.end.motion, step.end.force);
   step.displacement -= flow.step_compliance() * step.end.force;
   return step;
@@ -209,8 +167,7 @@ Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
   for (Eigen::MatrixXd* values :
        {&period.contacts.displacement, &period.contacts.velocity, &period.contacts.force})
     values->resize(contacts, steps_);
-  Step at{begin, free_displacement(0) + flows_.front().contact_displacement(begin.motion) -
-                     flows_.front().static_compliance() * begin.force};
+  Step at{begin, displacement(begin, 0)};
   for (int k = 0; k < steps_; ++k) {
     period.contacts.displacement.col(k) = at.displacement;
     period.contacts.velocity.col(k) = velocity(at.end, k * length);

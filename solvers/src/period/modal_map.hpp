@@ -16,8 +16,9 @@ namespace wavebalance::solvers {
 /// section II.4]; and where a contact opens or closes, until it differs much less. So an impact of any length
 /// is resolved, and a force that jumps. Each step is exact for contact forces that are linear in time. The
 /// forces at its end are solved for with the resolvents of the laws, so that any law serves, rigid ones too
-/// [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999]. A period begins at the load's maximum. The motion
-/// of a state is the deviation of the modes from the motion without contact, in the norm of the energy.
+/// [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999], and of friction by its return mapping; the memory
+/// of such a law is its force. A period begins at the load's maximum. The motion of a state is the deviation
+/// of the modes from the motion without contact, in the norm of the energy.
 class ModalMap final : public PeriodMap {
  public:
   /// `laws` are kept by reference. `flow` has the step of a period of the load over `steps`, which are also
@@ -41,6 +42,7 @@ class ModalMap final : public PeriodMap {
   const ModalFlow& flow(int level);
   Eigen::VectorXd free_displacement(Ticks time) const;
   Eigen::VectorXd free_velocity(Ticks time) const;
+  Eigen::VectorXd displacement(const PeriodState& state, Ticks time) const;
   Eigen::VectorXd velocity(const PeriodState& state, Ticks time) const;
   bool is_clear(const Eigen::VectorXd& displacement) const;
   Step single(const PeriodState& begin, Ticks end, int level);
@@ -53,7 +55,7 @@ class ModalMap final : public PeriodMap {
   std::vector<ModalFlow> flows_;  // of the steps halved 0, 1, 2, ... times
   Eigen::VectorXd free_state_;
   Eigen::VectorXd clear_below_;  // C, m: no force at or below
-  bool depends_on_velocity_;
+  bool depends_on_velocity_, has_memory_;
   double operations_ = 0.0, max_operations_ = 0.0;
   std::vector<ContactChange> changes_;  // of the period under way
 };

@@ -40,8 +40,13 @@ void place(const Motion& period, int block, Motion& whole) {
 class Settling {
  public:
   // `load_periods` are those of the problem.
-  Settling(PeriodMap& map, PeriodState begin, int load_periods, const SettlingOptions& options)
-      : options_(options), map_(map), load_periods_(load_periods), states_{std::move(begin)} {}
+  Settling(PeriodMap& map, PeriodState begin, int load_periods, bool has_memory,
+           const SettlingOptions& options)
+      : options_(options),
+        map_(map),
+        load_periods_(load_periods),
+        has_memory_(has_memory),
+        states_{std::move(begin)} {}
 
   SettledMotion run() {
     SettledMotion result;
@@ -59,7 +64,8 @@ class Settling {
       tolerance = std::max(finest, finer * tolerance);
     }
     const bool settles = result.attractor_periods > 0 && load_periods_ % result.attractor_periods == 0;
-    if (!result.cancelled && !settles) add_returns(result);
+    // Newton's method on returns takes the motion as the whole state, which it is without memory.
+    if (!result.cancelled && !settles && !has_memory_) add_returns(result);
     return result;
   }
 
@@ -205,6 +211,7 @@ class Settling {
   const SettlingOptions& options_;
   PeriodMap& map_;
   int load_periods_;
+  bool has_memory_;
   double limit_ = 0.0, return_limit_ = 0.0;  // of operations
   std::vector<PeriodState> states_;          // at the starts of the periods of the load
 };
@@ -242,14 +249,15 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
   options.validate();
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
-  if (structure.size() > options.max_size || structure.is_free() || laws.act_over_period()) return {};
+  if (structure.size() > options.max_size || structure.is_free() || !laws.advance_in_steps()) return {};
   const double frequency = load_periods(problem) * problem.frequency();
   const double step = 1.0 / (frequency * options.steps);
   auto flow = ModalFlow::make(structure, frequency, step, options.max_modes);
   if (!flow) return {};
   ModalMap map(problem, laws, options.steps, *std::move(flow));
-  SettledMotion result =
-      Settling(map, initial_state(map, structure.size(), options), load_periods(problem), options).run();
+  SettledMotion result = Settling(map, initial_state(map, structure.size(), options), load_periods(problem),
+                                  laws.act_over_period(), options)
+                             .run();
   result.start = map.free_motion().start() / load_periods(problem);
   return result;
 }

@@ -75,8 +75,8 @@ class CoulombLaw {
   /// entries. With flexibilities of 0 it is the step of over_period().
   void advance(std::span<const double> before, std::span<const double> v, std::span<const double> flexibility,
                std::span<double> force) const;
-  /// The same forces where the displacements are at rest since ever, before any slip.
-  void start(std::span<const double> displacement, std::span<double> force) const;
+  /// The same of displacements at rest, reached from the slider's position at rest.
+  void start(std::span<const double> v, std::span<const double> flexibility, std::span<double> force) const;
 
   /// For the solvers' concept of a law over a period: see PeriodKinematics and PeriodForces there.
   template <class Motion, class Forces>

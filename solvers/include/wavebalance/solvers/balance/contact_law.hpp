@@ -121,6 +121,16 @@ class AnyContactLaw {
     model_->evaluate(motion, forces);
   }
 
+  /// Whether it AdvancesInSteps, and the step and start of such a law; others throw std::invalid_argument.
+  bool advances_in_steps() const { return model_->advances_in_steps(); }
+  void advance(std::span<const double> before, std::span<const double> v, std::span<const double> flexibility,
+               std::span<double> force) const {
+    model_->advance(before, v, flexibility, force);
+  }
+  void start(std::span<const double> v, std::span<const double> flexibility, std::span<double> force) const {
+    model_->start(v, flexibility, force);
+  }
+
   double force(double displacement) const;    ///< of a law that depends on the velocity: at rest
   double tangent(double displacement) const;  ///< likewise
   double potential(double displacement) const;
@@ -159,11 +169,22 @@ class AnyContactLaw {
   }
 
  private:
+  [[noreturn]] static void refuse_instant();
+  [[noreturn]] static void refuse_steps();
+
   struct Interface {
     virtual ~Interface() = default;
     virtual int rows() const = 0;
     virtual bool acts_over_period() const = 0;
     virtual void evaluate(const PeriodKinematics&, PeriodForces&) const = 0;
+    virtual bool advances_in_steps() const { return false; }
+    virtual void advance(std::span<const double>, std::span<const double>, std::span<const double>,
+                         std::span<double>) const {
+      refuse_steps();
+    }
+    virtual void start(std::span<const double>, std::span<const double>, std::span<double>) const {
+      refuse_steps();
+    }
     virtual double force(double displacement) const = 0;
     virtual double tangent(double displacement) const = 0;
     virtual double potential(double displacement) const = 0;
@@ -269,8 +290,6 @@ class AnyContactLaw {
     Law law_;
   };
 
-  [[noreturn]] static void refuse_instant();
-
   /// A law over a period, which has no force at one displacement.
   template <class Law>
   struct PeriodModel final : Interface {
@@ -279,6 +298,21 @@ class AnyContactLaw {
     bool acts_over_period() const override { return true; }
     void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const override {
       law_.evaluate(motion, forces);
+    }
+    bool advances_in_steps() const override { return AdvancesInSteps<Law>; }
+    void advance(std::span<const double> before, std::span<const double> v,
+                 std::span<const double> flexibility, std::span<double> force) const override {
+      if constexpr (AdvancesInSteps<Law>)
+        law_.advance(before, v, flexibility, force);
+      else
+        refuse_steps();
+    }
+    void start(std::span<const double> v, std::span<const double> flexibility,
+               std::span<double> force) const override {
+      if constexpr (AdvancesInSteps<Law>)
+        law_.start(v, flexibility, force);
+      else
+        refuse_steps();
     }
     double force(double) const override { refuse_instant(); }
     double tangent(double) const override { refuse_instant(); }

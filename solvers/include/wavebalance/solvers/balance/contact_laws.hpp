@@ -54,6 +54,8 @@ class ContactLaws {
   bool depend_on_velocity() const;
   /// Whether one is a PeriodLaw.
   bool act_over_period() const;
+  /// Whether those that are AdvancesInSteps, so that motions can be integrated in time.
+  bool advance_in_steps() const;
   /// The laws of the force form: the resolvents of the laws for a flexibility 1 / epsilon (m/N) per contact.
   ContactLaws resolvents(const Eigen::VectorXd& flexibility) const;
 

@@ -42,6 +42,17 @@ concept PeriodLaw = std::copy_constructible<Law> &&
   law.evaluate(motion, forces);                // any displacements that are finite
 };
 
+/// A law over a period that also goes on step by step, from the forces that it has: integration in time needs
+/// that. The displacements go straight from `before` to v - flexibility f, f the force along the same row at
+/// the end of the step, flexibilities at least 0, m/N. `force` has the forces before the step and receives
+/// those after it; start() gives those of displacements at rest since ever.
+template <class Law>
+concept AdvancesInSteps = PeriodLaw<Law> &&
+    requires(const Law& law, std::span<const double> rows, std::span<double> force) {
+  law.advance(rows, rows, rows, force);  // before, v, flexibility, force
+  law.start(rows, rows, force);          // v, flexibility, force
+};
+
 /// The derivative of the contact forces over a period by the motion of the contacts, samples contact-major.
 struct PeriodSlopes {
   Eigen::VectorXd displacement;    ///< N/m: of each force by the displacement of the same sample

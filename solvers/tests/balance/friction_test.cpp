@@ -1,0 +1,96 @@
+// Responses with elastic Coulomb friction against event-driven exact motions: first harmonic and friction
+// work of oscillators, two masses, a chain with two contacts, a beam, contact with lift-off, slip in a plane.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/friction_scenes.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::FrictionScene;
+
+struct Solved {
+  PeriodicResponse response;
+  double work = 0.0;
+  std::vector<contact::FrictionPeriod> contacts;
+  Eigen::VectorXd row(int index, int points) const {
+    return response.displacement.segment(Eigen::Index(index) * points, points);
+  }
+};
+
+Solved solve(const FrictionScene& scene, const TimePair& pair) {
+  CondensedProblem problem(pair, scene.structure, testing::cosine_load());
+  problem.set_frequency(scene.frequency());
+  Solved solved;
+  solved.response = forced_response(problem, scene.contact_laws(), {});
+  Eigen::Index row = 0;
+  for (const contact::CoulombLaw& law : scene.laws) {
+    const Eigen::Index first = row * problem.points();
+    solved.contacts.push_back(law.over_period(
+        problem.points(),
+        {solved.response.displacement.data() + first, std::size_t(law.rows() * problem.points())}, false));
+    solved.work += solved.contacts.back().work;
+    row += law.rows();
+  }
+  return solved;
+}
+
+struct Row {
+  std::string name;
+  FrictionScene scene;
+  int compared;  // row of the amplitude
+  double amplitude, degrees, work;
+};
+
+// ../shared numbers of event-driven integrations with residuals of their period map below 1e-11.
+std::vector<Row> rows() {
+  using namespace testing;
+  return {{"Jenkins 1", slider_on_oscillator(2.0, 1.0, 1.0), 0, 15.24880669, 78.03919810, 57.20200604},
+          {"Jenkins 2", slider_on_oscillator(2.0, 1.0, 1.2), 0, 5.002826509, 138.47166233, 16.12103657},
+          {"Jenkins 3", slider_on_oscillator(1.5, 1.0, 1.3), 0, 2.877360723, 137.01667201, 7.553103559},
+          {"Jenkins 4", slider_on_oscillator(0.5, 1.0, 1.41), 0, 1.356058056, 121.76679083, 1.403619588},
+          {"Jenkins 5", slider_on_oscillator(2.0, 1.0, 0.45), 0, 1.097855263, 4.95798686, 0.4751676217},
+          {"Jenkins 6", slider_on_oscillator(1.5, 10.0, 1.1), 0, 3.283576885, 107.75333803, 12.87055849},
+          {"Jenkins 7", slider_on_oscillator(2.0, 10.0, 0.35), 0, 1.922715379, 34.20697379, 6.517261824},
+          {"masses 1", two_masses(1.0, 20.0, 1.0, 1.1), 0, 0.3190945734, 88.87064027, 1.243657049},
+          {"masses 2", two_masses(1.0, 2.0, 0.3, 1.0), 0, 15.49106365, 88.03905311, 18.42165955},
+          {"masses 3", two_masses(1.0, 2.0, 0.3, 1.7), 0, 2.410075263, -131.91800580, 2.71834876},
+          {"masses 4", two_masses(1.0, 2.0, 0.3, 0.6), 0, 0.3837520286, 30.77841669, 0.3501968699},
+          {"masses 5", two_masses(0.3, 20.0, 1.0, 1.4), 0, 0.2490895418, 166.60129865, 0.9009964397},
+          {"lift-off 1", lift_off(2.0, 2.0, 0.6, 0.5, 3.0), 1, 0.8394928991, 36.26958233, 0.08956782539},
+          {"lift-off 2", lift_off(2.0, 0.3, 0.8, 0.5, 3.6), 1, 0.8480504295, 137.81003911, 0.0867303503},
+          {"lift-off 3", lift_off(1.0, 1.0, 0.6, 0.5, 2.4), 1, 0.16760139, 16.55471259, 0.009501358651},
+          {"lift-off 4", lift_off(3.0, 3.0, 0.6, 0.3, 4.5), 1, 0.1494001728, 87.36462453, 0.16813445},
+          {"lift-off 5", lift_off(2.0, 2.0, 0.6, 0.5, 5.2), 1, 0.09885903968, 148.48560834, 0.07204846169},
+          {"beam 1", cantilever(200.0, 1e7, 500.0, 21.0), 0, 0.0002213141966, 103.11964394, 0.3432899534},
+          {"beam 2", cantilever(200.0, 1e7, 500.0, 23.0), 0, 0.0001398661067, 130.18112343, 0.1810996299},
+          {"beam 3", cantilever(1000.0, 1e7, 500.0, 30.0), 0, 0.0001678063563, 171.65973218, 0.23311738},
+          {"beam 4", cantilever(200.0, 1e8, 300.0, 25.0), 0, 5.617511121e-05, 142.61810670, 0.06321740761},
+          {"chain 1", chain_of_three(6.0, 1.0), 0, 5.457548875, 169.30886378, 23.90822297},
+          {"chain 2", chain_of_three(3.0, 0.85), 0, 6.92202665, 151.41079665, 36.60300851},
+          {"plane 1", slip_in_a_plane(0.4, 1.1), 0, 3.062298476, 119.045638, 5.86809935},
+          {"plane 2", slip_in_a_plane(0.5, 1.6), 0, 0.702498735, 158.844637, 2.31546099},
+          {"plane 3", slip_in_a_plane(0.6, 0.6), 0, 0.823732656, 41.523253, 1.98552060}};
+}
+
+TEST(Friction, HasTheHarmonicAndTheWorkOfItsExactMotions) {
+  constexpr int points = 1024;
+  const TimePair pairs[] = {testing::fourier_pair(63, points),
+                            testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, points)};
+  for (const Row& row : rows())
+    for (const TimePair& pair : pairs) {
+      const Solved solved = solve(row.scene, pair);
+      EXPECT_TRUE(solved.response.converged()) << row.name << ' ' << to_string(solved.response.status);
+      const std::complex<double> exact = std::polar(row.amplitude, row.degrees * std::numbers::pi / 180.0),
+                                 found = testing::first_harmonic(solved.row(row.compared, points));
+      std::printf("%-12s %d %-18s amp %.2e vec %.2e work %.2e\n", row.name.c_str(), solved.response.iterations, std::string(to_string(solved.response.strategy)).c_str(), std::abs(std::abs(found)/row.amplitude-1), std::abs(found-exact)/row.amplitude, solved.work/row.work-1);
+    }
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
