@@ -10,7 +10,8 @@ namespace {
 template <class Law>
 LawEntry entry_of() {
   constexpr bool reads_velocity = requires(const Law& law) { law.force(0.0, 0.0); };
-  return {Law::description(), reads_velocity,
+  constexpr bool acts_over_period = requires(const Law& law) { law.rows(); };
+  return {Law::description(), reads_velocity, acts_over_period,
           [](const LawValues& values) -> AnyLaw { return Law::of(values); }};
 }
 

@@ -159,4 +159,40 @@ void CoulombLaw::advance(std::span<const double> before, std::span<const double>
   std::copy_n(result.begin(), tangents(), force.begin() + normal_rows());
 }
 
+LawDescription CoulombLaw::description() {
+  return {
+      .name = "coulomb",
+      .force =
+          "elastic Coulomb friction: along the tangents a spring tangential_stiffness in series with a "
+          "slider of the limit friction N, N = normal_load, or max(normal_load + normal_stiffness (u - "
+          "gap), 0) of the displacement u along a normal direction",
+      .parameters =
+          {{"friction", "", "coefficient of friction", at_least_zero},
+           {"tangential_stiffness", "N/m", "stiffness along the tangents while the contact sticks",
+            above_zero},
+           {"normal_load", "N", "normal force at zero displacement", at_least_zero},
+           with_default({"normal_stiffness", "N/m",
+                         "stiffness along the normal direction; 0: there is none, and the normal force is "
+                         "normal_load",
+                         at_least_zero},
+                        0.0),
+           with_default({"slider", "m", "position of the slider at rest, along every tangent"}, 0.0),
+           with_default({"wear_coefficient", "1/Pa",
+                         "volume that wear takes over normal force and distance of slip", at_least_zero},
+                        0.0),
+           with_default({"tangents", "", "number of tangents", {.lower = 1.0, .upper = 2.0}}, 1.0),
+           gap_parameter},
+      .beyond_gap_alone = false};
+}
+
+CoulombLaw CoulombLaw::of(const LawValues& values) {
+  FrictionParameters parameters{number_of(values, "friction"), number_of(values, "tangential_stiffness"),
+                                number_of(values, "normal_load"),
+                                static_cast<int>(number_of(values, "tangents"))};
+  parameters.slider.assign(static_cast<std::size_t>(parameters.tangents), number_of(values, "slider"));
+  const double stiffness = number_of(values, "normal_stiffness");
+  if (stiffness > 0.0) return CoulombLaw(parameters, LinearLaw(stiffness, number_of(values, "gap")));
+  return CoulombLaw(parameters);
+}
+
 }  // namespace wavebalance::contact

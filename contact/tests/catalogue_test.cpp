@@ -105,17 +105,25 @@ TEST_F(Catalogue, MakesEveryLawFromValuesInItsRangesAndTheLawIsWhatTheRowSays) {
       std::visit(
           [&](const auto& law) {
             constexpr bool moving = requires { law.force(0.0, 0.0); };
+            constexpr bool over_period = requires { law.rows(); };
             EXPECT_EQ(moving, entry.reads_velocity) << entry.name;
-            if (entry.has_gap()) {
-              EXPECT_EQ(law.gap(), 0.75) << entry.name;
+            EXPECT_EQ(over_period, entry.acts_over_period) << entry.name;
+            if constexpr (over_period) {
+              EXPECT_EQ(law.friction(), 0.75) << entry.name;
+              EXPECT_EQ(law.normal_stiffness(), all ? 0.75 : 0.0) << entry.name;
+              return;
+            } else {
+              if (entry.has_gap()) {
+                EXPECT_EQ(law.gap(), 0.75) << entry.name;
+              }
+              if (entry.beyond_gap_alone) {
+                EXPECT_TRUE(law.unilateral()) << entry.name;
+              }
+              if constexpr (!moving) {
+                EXPECT_EQ(std::isinf(law.force(1e3)), entry.rigid) << entry.name;
+              }
+              if (!entry.rigid) check_derivatives(law, entry.name);
             }
-            if (entry.beyond_gap_alone) {
-              EXPECT_TRUE(law.unilateral()) << entry.name;
-            }
-            if constexpr (!moving) {
-              EXPECT_EQ(std::isinf(law.force(1e3)), entry.rigid) << entry.name;
-            }
-            if (!entry.rigid) check_derivatives(law, entry.name);
           },
           entry.make(examples(entry, all)));
 }

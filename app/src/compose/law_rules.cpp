@@ -78,10 +78,68 @@ void check_law_of_mode(const Document& document, const std::string& law) {
               "not with a nonlinear mode, which begins where a contact touches" + expected);
 }
 
+/// Friction is solved by balances in the displacement form.
+void check_friction_analysis(const Document& document, const Scene& scene) {
+  const AnalysisType type = scene.analysis.type;
+  const bool balanced = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
+                        type == AnalysisType::amplitude_sweep;
+  if (!balanced)
+    fail_rule(document, {"analysis.type", "contact.law"},
+              "not with friction; expected \"forced_response\", \"frequency_sweep\" or \"amplitude_sweep\"");
+  const auto refuse = [&](bool given, const char* key, const char* expected) {
+    if (given)
+      fail_rule(document, {key, "contact.law"},
+                std::string("not with friction, of which there are no phases yet; expected ") + expected);
+  };
+  refuse(solves_by_phases(scene), "time.method", "\"balance\"");
+  refuse(scene.analysis.phases, "analysis.phases", "false");
+  refuse(scene.analysis.exact, "analysis.exact", "false");
+}
+
+/// The directions of a contact with friction fit its law.
+void check_friction_pair(const Document& document, const Scene& scene, const SceneContact& contact) {
+  const double stiffness = contact::number_of(contact.values, "normal_stiffness");
+  const ContactPair* pair = contact.pair ? &scene.contact.pairs[*contact.pair] : nullptr;
+  const std::string section = pair ? pair_section(*contact.pair) : "contact";
+  const bool has_normal = pair && !pair->tangent.empty();
+  if (has_normal && !(stiffness > 0.0))
+    fail_rule(document, {section + ".normal_stiffness", "contact.normal_stiffness", section + ".tangent"},
+              "the contact has a normal direction, dofs, beside its tangent; expected a number in N/m, > 0");
+  if (!has_normal && stiffness > 0.0)
+    fail_rule(
+        document, {section + ".normal_stiffness", "contact.normal_stiffness"},
+        "the contact has no tangent beside the direction dofs, which is then the tangent itself; expected 0, or "
+        "[[contact.pairs]] with tangent");
+  if (!has_normal && !(contact::number_of(contact.values, "normal_load") > 0.0))
+    fail_rule(
+        document, {section + ".normal_load", "contact.normal_load"},
+        "the contact has no normal direction, so that the limit is friction times normal_load; expected a number in N, > 0");
+  if (pair && !has_normal && pair->side != ObstacleSide::positive)
+    fail_rule(document, {section + ".side"},
+              "a slider without a normal direction has no side; expected \"positive\"");
+}
+
+/// Tangents belong to a law with friction.
+void check_tangents(const Document& document, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
+    const ContactPair& pair = scene.contact.pairs[i];
+    if (has_friction(pair.law)) continue;
+    const std::string key = pair_section(i) + (pair.tangent.empty() ? ".second_tangent" : ".tangent");
+    if (!pair.tangent.empty() || !pair.second_tangent.empty())
+      fail_rule(document, {key, "contact.law"},
+                "not with the law \"" + pair.law +
+                    "\", which has no friction; expected none, or law = \"coulomb\"");
+  }
+}
+
 }  // namespace
 
 void check_laws(const Document& document, const Scene& scene) {
+  check_tangents(document, scene);
   const std::vector<SceneContact> contacts = contacts_of(scene);
+  if (has_friction(scene)) check_friction_analysis(document, scene);
+  for (const SceneContact& contact : contacts)
+    if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
   check_laws_exist(document, contacts);
   for (const SceneContact& contact : contacts) {
     if (scene.analysis.type == AnalysisType::nonlinear_mode) check_law_of_mode(document, contact.law);

@@ -7,6 +7,7 @@
 
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_axis.hpp"
+#include "drawing/friction_figure.hpp"
 #include "plot/thin_curve.hpp"
 #include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
@@ -205,10 +206,11 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   add_motion(figure, "Velocity", "m/s", response.velocity(), response);
   add_motion(figure, "Contact force", "N", response.force(), response);
   const SceneContact contact = contacts_of(scene).at(static_cast<std::size_t>(response.contact));
-  if (has_gap(contact.law)) {
+  if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
     figure.panels.front().mark_level(scale.factor * contact.gap, "gap", scale.prefix + "m");
   }
+  add_friction(figure, scene, response);
   return figure;
 }
 

@@ -11,6 +11,7 @@
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
 #include "results/curve_motion_files.hpp"
+#include "results/friction_record.hpp"
 #include "results/mode_record.hpp"
 #include "results/motion_files.hpp"
 #include "results/motions_record.hpp"
@@ -105,6 +106,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
                                     response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
   append_dissipation(record.summary, scene, response);
+  append_friction(record, scene, response);
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
   if (scene.analysis.type == AnalysisType::forced_response || is_by_phases(response))
@@ -134,7 +136,9 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.figure = response_figure(scene, response);
   add_contacts(record, response.contacts, response.contact);
   record.bar_motion = bar_motion_of(scene, model, response);
-  if (scene.analysis.motion_points > 0) record.files = motion_files(model, response.structure.displacement);
+  if (scene.analysis.motion_points > 0)
+    for (RecordFile& file : motion_files(model, response.structure.displacement))
+      record.files.push_back(std::move(file));
   return record;
 }
 

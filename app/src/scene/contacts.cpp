@@ -9,6 +9,20 @@
 
 namespace wavebalance::app {
 
+namespace {
+
+void add_tangents(const ContactPair& pair, std::size_t index, std::vector<SceneContact>& contacts) {
+  int place = 0;
+  const auto add = [&](const std::vector<int>& dofs, const std::vector<double>& coefficients) {
+    if (!dofs.empty())
+      contacts.push_back({.dofs = dofs, .coefficients = coefficients, .pair = index, .place = ++place});
+  };
+  add(pair.tangent, pair.tangent_coefficients);
+  add(pair.second_tangent, pair.second_tangent_coefficients);
+}
+
+}  // namespace
+
 std::vector<SceneContact> contact_places(const Scene& scene) {
   const Structure& structure = scene.structure;
   if (structure.type == StructureType::bar) return std::vector<SceneContact>(1);
@@ -21,11 +35,24 @@ std::vector<SceneContact> contact_places(const Scene& scene) {
     const ContactPair& pair = scene.contact.pairs[i];
     SceneContact one{.dofs = pair.dofs, .coefficients = pair.coefficients, .pair = i};
     if (pair.side != ObstacleSide::negative) contacts.push_back(one);
+    if (pair.side != ObstacleSide::negative) add_tangents(pair, i, contacts);
     for (double& coefficient : one.coefficients) coefficient = -coefficient;
-    if (pair.side != ObstacleSide::positive) contacts.push_back(std::move(one));
+    if (pair.side == ObstacleSide::positive) continue;
+    contacts.push_back(std::move(one));
+    add_tangents(pair, i, contacts);
   }
   return contacts;
 }
+
+namespace {
+
+// The number of tangents of a contact with friction.
+int tangents_of(const Scene& scene, const SceneContact& contact) {
+  if (!contact.pair) return 1;
+  return scene.contact.pairs[*contact.pair].second_tangent.empty() ? 1 : 2;
+}
+
+}  // namespace
 
 int tip_corners(const BladeStructure& blade) { return 2 * (blade.chord_elements + 1); }
 
@@ -53,6 +80,7 @@ std::vector<SceneContact> contacts_of(const Scene& scene) {
     one.law = pair ? pair->law : contact.law;
     one.gap = pair ? pair->gap : contact.gaps.empty() ? contact.gap : contact.gaps[i];
     one.values = law_values(one.law, pair ? pair->values : contact.values, one.gap);
+    if (has_friction(one.law)) one.values.insert_or_assign("tangents", double(tangents_of(scene, one)));
   }
   return contacts;
 }
@@ -61,6 +89,12 @@ bool has_damped_contact(const Scene& scene) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const SceneContact& one) { return is_damped(one.law); });
+}
+
+bool has_friction(const Scene& scene) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const SceneContact& one) { return has_friction(one.law); });
 }
 
 double common_gap(const Scene& scene) {

@@ -23,7 +23,7 @@ class PairReader {
         keys_(pair_keys(index)) {}
 
   void read() {
-    read_direction();
+    read_directions();
     read_law();
   }
 
@@ -48,23 +48,38 @@ class PairReader {
       taken.set(scene_, taken.derived(scene_));
   }
 
-  void read_direction() {
+  void read_directions() {
     if (entry("dofs") == nullptr) fail_missing("dofs", "");
-    take("dofs");
-    if (std::set<int>(pair_.dofs.begin(), pair_.dofs.end()).size() < pair_.dofs.size())
-      fail_at(document_, *entry("dofs"), "a degree of freedom is there twice; expected each once");
-    const std::string one_each = ", one for each of " + std::to_string(pair_.dofs.size()) + " dofs";
-    const DocumentEntry* coefficients = entry("coefficients");
-    if (coefficients == nullptr && pair_.dofs.size() > 2) fail_missing("coefficients", one_each);
-    take("coefficients");
-    if (pair_.coefficients.size() != pair_.dofs.size())
-      fail_at(document_, *coefficients,
-              "there are " + std::to_string(pair_.coefficients.size()) + "; expected a list of numbers" +
-                  one_each);
-    if (std::all_of(pair_.coefficients.begin(), pair_.coefficients.end(),
-                    [](double one) { return one == 0.0; }))
-      fail_at(document_, *coefficients, "all are zero; expected a direction, with one that is not");
+    read_direction({"dofs", "coefficients", pair_.dofs, pair_.coefficients});
+    read_direction({"tangent", "tangent_coefficients", pair_.tangent, pair_.tangent_coefficients});
+    read_direction({"second_tangent", "second_tangent_coefficients", pair_.second_tangent,
+                    pair_.second_tangent_coefficients});
     take("side");
+  }
+
+  struct PairDirection {
+    std::string_view dofs_name, weights_name;
+    const std::vector<int>& dofs;
+    const std::vector<double>& weights;
+  };
+
+  void read_direction(const PairDirection& one) {
+    const DocumentEntry *dofs = entry(one.dofs_name), *weights = entry(one.weights_name);
+    if (dofs == nullptr && weights != nullptr)
+      fail_at(document_, *weights, "there is no " + std::string(one.dofs_name) + "; expected both, or none");
+    if (dofs == nullptr) return;
+    take(one.dofs_name);
+    if (std::set<int>(one.dofs.begin(), one.dofs.end()).size() < one.dofs.size())
+      fail_at(document_, *dofs, "a degree of freedom is there twice; expected each once");
+    const std::string one_each =
+        ", one for each of " + std::to_string(one.dofs.size()) + " " + std::string(one.dofs_name);
+    if (weights == nullptr && one.dofs.size() > 2) fail_missing(one.weights_name, one_each);
+    take(one.weights_name);
+    if (one.weights.size() != one.dofs.size())
+      fail_at(document_, *weights,
+              "there are " + std::to_string(one.weights.size()) + "; expected a list of numbers" + one_each);
+    if (std::all_of(one.weights.begin(), one.weights.end(), [](double weight) { return weight == 0.0; }))
+      fail_at(document_, *weights, "all are zero; expected a direction, with one that is not");
   }
 
   void read_law() {

@@ -36,6 +36,7 @@ bool has_gap(std::string_view law) { return contact::law_entry(law).has_gap(); }
 bool is_damped(std::string_view law) { return contact::law_entry(law).reads_velocity; }
 bool acts_on_both_sides(std::string_view law) { return !contact::law_entry(law).beyond_gap_alone; }
 bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
+bool has_friction(std::string_view law) { return contact::law_entry(law).acts_over_period; }
 
 Scene with_longer_period(Scene scene, int times) {
   Time& time = scene.time;

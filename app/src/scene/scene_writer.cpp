@@ -31,6 +31,8 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
 bool has_value(const Scene& scene, std::size_t index, const SceneKey& key) {
   const ContactPair& pair = scene.contact.pairs[index];
   if (key.name == "coefficients") return !pair.coefficients.empty();
+  if (key.name.find("tangent") != std::string_view::npos && key.laws.empty())
+    return !(key.name.starts_with("second") ? pair.second_tangent : pair.tangent).empty();
   if (key.name == "law") return pair.law != no_law && !is_rigid(pair.law);
   if (key.laws.empty()) return true;
   return contact::law_entry(pair.law).find(key.name) != nullptr && !is_empty(key.get(scene));

@@ -144,6 +144,7 @@ void ContactLaws::require_numbers(int contacts, const Eigen::VectorXd& displacem
 }
 
 Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement) const {
+  if (act_over_period()) return force_over_period(displacement, {});
   return Eigen::MatrixXd::NullaryExpr(
       displacement.rows(), displacement.cols(), [&](Eigen::Index contact, Eigen::Index point) {
         return (*this)[static_cast<int>(contact)].force(displacement(contact, point));
@@ -152,11 +153,24 @@ Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement) const {
 
 Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement,
                                    const Eigen::MatrixXd& velocity) const {
+  if (act_over_period()) return force_over_period(displacement, velocity);
   return Eigen::MatrixXd::NullaryExpr(displacement.rows(), displacement.cols(),
                                       [&](Eigen::Index contact, Eigen::Index point) {
                                         return (*this)[static_cast<int>(contact)].force(
                                             displacement(contact, point), velocity(contact, point));
                                       });
+}
+
+Eigen::MatrixXd ContactLaws::force_over_period(const Eigen::MatrixXd& displacement,
+                                               const Eigen::MatrixXd& velocity) const {
+  const auto contacts = static_cast<int>(displacement.rows());
+  const auto samples = [](const Eigen::MatrixXd& by_contact) -> Eigen::VectorXd {
+    return by_contact.transpose().reshaped();
+  };
+  ContactForces forces;
+  evaluate(contacts, samples(displacement), depend_on_velocity() ? samples(velocity) : Eigen::VectorXd(),
+           forces);
+  return forces.force.reshaped(displacement.cols(), contacts).transpose();
 }
 
 }  // namespace wavebalance::solvers

@@ -112,6 +112,21 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
   return step;
 }
 
+// The forces that laws with memory have at the end of a step once its motion is extrapolated. Otherwise what
+// a contact that sticks remembers would drift from its displacement.
+void ModalMap::remember(const Step& before, Step& step, Ticks end) {
+  const ModalFlow& flow = flows_.front();
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(clear_below_.size(), clear_below_.size());
+  step.end.force = step_forces(laws_,
+                               {flow.static_compliance(),
+                                none,
+                                free_displacement(end) + flow.contact_displacement(step.end.motion),
+                                {},
+                                before.displacement},
+                               before.end.force);
+  step.displacement = displacement(step.end, end);
+}
+
 // The same, halved as far as needed for an error in the state of at most `allowed`. `whole_step` is the
 // result of single(), if there is one.
 ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int level, double allowed,
@@ -134,6 +149,7 @@ ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int leve
       opens_or_closes(begin.force, first.end.force) || opens_or_closes(first.end.force, second.end.force);
   if (!(correction.norm() > allowed * (changes ? event : 1.0))) {
     second.end.motion += correction;
+    if (has_memory_) remember(first, second, start + length);
     note_changes(begin, first, start + half, level + 1);
     note_changes(first.end, second, start + length, level + 1);
     return second;

@@ -47,6 +47,7 @@ class ModalMap final : public PeriodMap {
   bool is_clear(const Eigen::VectorXd& displacement) const;
   Step single(const PeriodState& begin, Ticks end, int level);
   Step refined(const PeriodState& begin, Ticks start, int level, double allowed, const Step* whole_step);
+  void remember(const Step& before, Step& step, Ticks end);
   void note_changes(const PeriodState& begin, const Step& step, Ticks end, int level);
 
   const ContactLaws& laws_;

@@ -30,6 +30,20 @@ Motion structure_motion(CondensedProblem& problem, const PeriodicResponse& respo
                   problem.frequency());
 }
 
+namespace {
+
+// The energy that the springs of a contact with friction store under its forces, rows x points.
+Eigen::VectorXd energy_of_springs(const FrictionConstants& friction, const Eigen::MatrixXd& force) {
+  Eigen::VectorXd energy = Eigen::VectorXd::Zero(force.cols());
+  if (friction.normal_rows > 0)
+    energy += 0.5 / friction.normal_stiffness * force.row(0).cwiseAbs2().transpose();
+  energy += 0.5 / friction.tangential_stiffness *
+            force.bottomRows(friction.tangents).cwiseAbs2().colwise().sum().transpose();
+  return energy;
+}
+
+}  // namespace
+
 Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaws& laws,
                               const Motion& motion) {
   laws.require(structure.contacts());
@@ -39,8 +53,15 @@ Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaw
                                   elastic.cwiseProduct(motion.displacement).colwise().sum())
                                      .transpose();
   const Eigen::MatrixXd contacts = structure.contact_directions * motion.displacement;
-  for (int c = 0; c < structure.contacts(); ++c)
-    for (Eigen::Index l = 0; l < energy.size(); ++l) energy[l] += laws[c].potential(contacts(c, l));
+  const Eigen::MatrixXd memory = laws.act_over_period()
+                                     ? laws.force(contacts, structure.contact_directions * motion.velocity)
+                                     : Eigen::MatrixXd();
+  for (int c = 0; c < structure.contacts(); c += laws[c].rows()) {
+    if (const auto friction = laws[c].friction())
+      energy += energy_of_springs(*friction, memory.middleRows(c, laws[c].rows()));
+    else
+      for (Eigen::Index l = 0; l < energy.size(); ++l) energy[l] += laws[c].potential(contacts(c, l));
+  }
   return energy;
 }
 

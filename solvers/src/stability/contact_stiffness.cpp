@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "linalg/enum_table.hpp"
 #include "linalg/index.hpp"
 #include "stability/contact_along.hpp"
-#include "stability/stiffness_cuts.hpp"
+#include "stability/friction_along.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -132,6 +134,37 @@ std::optional<Intervals> intervals_of_action(const ContactAlong& along, int cont
   return intervals;
 }
 
+constexpr std::ptrdiff_t most_cuts = 64;
+
+// The levels of the curve at the breakpoints, ascending; in the force form those of v = u + flexibility f.
+std::vector<double> levels(const ContactAlong& along) {
+  const std::vector<double> all = along.law.breakpoints(), kinks = along.law.kinks();
+  std::vector<double> result;
+  std::set_difference(all.begin(), all.end(), kinks.begin(), kinks.end(), std::back_inserter(result));
+  if (along.flexibility > 0.0)
+    for (double& level : result) level += along.flexibility * along.law.force(level);
+  return result;
+}
+
+// The times (in periods) at which a contact passes the breakpoints of its law that are not its kinks, where
+// intervals end as it is. Nothing of more than 64, since a table that dense is nearly smooth and rules that
+// check themselves cut it as finely as they need. O(N log points + crossings).
+std::vector<double> cut_times(const ContactAlong& along) {
+  const std::vector<double> at = levels(along);
+  std::vector<double> times;
+  if (at.empty()) return times;
+  const Eigen::VectorXd& samples = along.curve.samples();
+  const Eigen::Index count = samples.size();
+  for (Eigen::Index l = 0; l < count; ++l) {
+    const auto [low, high] = std::minmax(samples[l], samples[(l + 1) % count]);
+    const auto first = std::lower_bound(at.begin(), at.end(), low);
+    const auto last = std::lower_bound(first, at.end(), high);
+    if (std::distance(first, last) + std::ptrdiff_t(times.size()) > most_cuts) return {};
+    for (auto level = first; level != last; ++level) times.push_back(crossing(along.curve, *level, l));
+  }
+  return times;
+}
+
 std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) {
   auto intervals = along.has_velocity() ? intervals_of_action(along, contact)
                    : along.unilateral   ? intervals_beyond_gap(along, contact)
@@ -200,7 +233,8 @@ std::string_view to_string(StabilityStatus status) {
                                            {coupled_massless, "coupled_massless"},
                                            {too_many_states, "too_many_states"},
                                            {structural_damping, "structural_damping"},
-                                           {effort_limit, "effort_limit"}},
+                                           {effort_limit, "effort_limit"},
+                                           {unsupported_law, "unsupported_law"}},
                                           status);
 }
 
@@ -222,6 +256,29 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
   return contact_stiffness(problem.pair().trial(), laws, unknowns);
 }
 
+namespace {
+
+// Adds the contacts with friction; false where one has slip along two tangents or is another law over a
+// period.
+bool add_friction(const AnyTimeBasis& trial, const ContactLaws& laws, const ContactUnknowns& unknowns,
+                  PeriodicStiffness& stiffness) {
+  const int count = static_cast<int>(unknowns.samples.cols());
+  for (int c = 0; c < count; c += laws[c].rows()) {
+    if (!laws[c].acts_over_period()) continue;
+    if (!laws[c].friction()) return false;
+    std::vector<ContactCurve> curves;
+    for (int row = c; row < c + laws[c].rows(); ++row)
+      curves.emplace_back(trial, unknowns.coefficients.col(row), unknowns.samples.col(row),
+                          unknowns.first_sample);
+    auto along = friction_along(laws[c], c, curves);
+    if (!along) return false;
+    stiffness.friction.push_back(std::move(*along));
+  }
+  return stiffness.friction.empty() || !laws.depend_on_velocity();
+}
+
+}  // namespace
+
 PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws& laws,
                                     const ContactUnknowns& unknowns) {
   const int count = static_cast<int>(unknowns.samples.cols());
@@ -229,6 +286,10 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   PeriodicStiffness stiffness;
   int rigid = 0, elastic = 0;  // intervals of contact
   const auto contacts = std::make_shared<std::vector<ContactAlong>>();
+  if (!add_friction(trial, laws, unknowns, stiffness)) {
+    stiffness.status = StabilityStatus::unsupported_law;
+    return stiffness;
+  }
   for (int c = 0; c < count; ++c) {
     const double flexibility = unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0;
     contacts->push_back(
@@ -236,6 +297,7 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
          ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample),
          unknowns.frequency});
     const ContactAlong& along = contacts->back();
+    if (along.law.acts_over_period()) continue;
     const auto intervals = find_intervals(along, c);
     if (!intervals) {
       stiffness.status = StabilityStatus::too_few_samples;
@@ -244,7 +306,7 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
     (along.law.is_rigid() ? rigid : elastic) += static_cast<int>(intervals->size());
     stiffness.intervals.insert(stiffness.intervals.end(), intervals->begin(), intervals->end());
     if (!intervals->empty())
-      for (const double time : detail::cut_times(along)) stiffness.cuts.push_back({c, time});
+      for (const double time : cut_times(along)) stiffness.cuts.push_back({c, time});
   }
   if (rigid > 0) {
     stiffness.status = StabilityStatus::no_finite_stiffness;

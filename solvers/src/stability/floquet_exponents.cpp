@@ -213,6 +213,7 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   options.validate();
   FloquetExponents result;
   result.status = stiffness.status;
+  if (!stiffness.friction.empty()) result.status = StabilityStatus::unsupported_law;
   if (result.status != StabilityStatus::converged) return result;
   if (dynamics.structurally_damped()) {
     result.status = StabilityStatus::structural_damping;

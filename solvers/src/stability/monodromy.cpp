@@ -188,24 +188,10 @@ class Propagator {
   std::vector<Eigen::MatrixXd> below_;
 };
 
-// The generator Lambda of free motion, a' = Lambda a, block diagonal.
-Eigen::MatrixXd generator(const ContactDynamics& dynamics, Index size) {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-  Index i = 0;
-  for (const ContactPole& pole : dynamics.poles()) {
-    const double re = pole.exponent.real(), im = pole.exponent.imag();
-    matrix(i, i) = re;
-    if (im != 0.0) matrix.block(i, i, 2, 2) << re, -im, im, re;
-    i += im != 0.0 ? 2 : 1;
-  }
-  return matrix;
-}
-
 // Holds contacts at zero from a state in which they need not be there: the impulse that closes them, and the
 // map over `length` (s) under the forces that keep them. h0 is the jump of the displacements after a unit
 // impulse.
-bool hold(const PoleStates& states, const ContactDynamics& dynamics, const std::vector<int>& closed,
-          double length, Eigen::MatrixXd& map) {
+bool hold(const PoleStates& states, const std::vector<int>& closed, double length, Eigen::MatrixXd& map) {
   const Eigen::MatrixXd displaced = states.free_motion(0.0)(closed, Eigen::all);
   const Eigen::MatrixXd struck = states.after_impulse(0.0)(Eigen::all, closed);
   const Eigen::MatrixXd jump = detail::product(displaced, struck);
@@ -215,7 +201,7 @@ bool hold(const PoleStates& states, const ContactDynamics& dynamics, const std::
   if (!(jump.diagonal().array() > 1e-9 * terms.diagonal().array()).all() || h0.is_singular(1e-9))
     return false;
   map -= detail::product(struck, h0.solve(detail::product(displaced, map)));
-  const Eigen::MatrixXd free = generator(dynamics, states.size());
+  const Eigen::MatrixXd free = states.generator();
   const Eigen::MatrixXd held = free - detail::product(struck, h0.solve(detail::product(displaced, free)));
   map = detail::product(detail::exponential(length * held), map);
   return true;
@@ -341,7 +327,7 @@ Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const Periodic
     const double length = piece.end - piece.begin;
     if (piece.closed.empty())
       states.advance(length, map);
-    else if (!hold(states, dynamics, piece.closed, length / frequency, map))
+    else if (!hold(states, piece.closed, length / frequency, map))
       return Eigen::VectorXcd::Constant(states.size(), missing);
   }
   return by_falling_modulus(map);

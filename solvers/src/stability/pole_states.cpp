@@ -44,6 +44,17 @@ Eigen::MatrixXd PoleStates::motion_of_contacts(double time, int derivative) cons
   return motion;
 }
 
+Eigen::MatrixXd PoleStates::generator() const {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size_, size_);
+  for (std::size_t l = 0; l < begins_.size(); ++l) {
+    const Index i = begins_[l];
+    const double re = dynamics_.poles()[l].exponent.real(), im = dynamics_.poles()[l].exponent.imag();
+    matrix(i, i) = re;
+    if (im != 0.0) matrix.block(i, i, 2, 2) << re, -im, im, re;
+  }
+  return matrix;
+}
+
 Eigen::MatrixXd PoleStates::free_motion(double time) const { return motion_of_contacts(time, 0); }
 
 Eigen::MatrixXd PoleStates::free_velocity(double time) const { return motion_of_contacts(time, 1); }

@@ -21,6 +21,8 @@ class PoleStates {
   /// C x n: displacements of the contacts (m), and their velocities (m/s), a time after the states.
   Eigen::MatrixXd free_motion(double time) const;
   Eigen::MatrixXd free_velocity(double time) const;
+  /// The generator Lambda of free motion, a' = Lambda a in 1/s, block diagonal.
+  Eigen::MatrixXd generator() const;
   /// Takes the states of all columns on by `time`.
   void advance(double time, Eigen::MatrixXd& states) const;
   /// n x C: the states a time after unit impulses (N s) at the contacts.

@@ -9,6 +9,7 @@
 
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
+#include "stability/friction_monodromy.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/stability_checks.hpp"
 #include "stability/winding.hpp"
@@ -87,6 +88,20 @@ std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& d
   return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
 }
 
+// The multipliers of a motion with friction; nothing and the reason where they are not known.
+std::optional<Eigen::VectorXcd> by_friction(const ContactDynamics& dynamics,
+                                            const PeriodicStiffness& stiffness, double frequency,
+                                            const StabilityOptions& options, StabilityStatus& status) {
+  status = stiffness.status;
+  if (dynamics.structurally_damped()) status = StabilityStatus::structural_damping;
+  if (dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states)
+    status = StabilityStatus::too_many_states;
+  if (status != StabilityStatus::converged) return std::nullopt;
+  Eigen::VectorXcd multipliers = friction_monodromy(dynamics, stiffness, frequency);
+  if (!multipliers.allFinite()) status = StabilityStatus::too_few_harmonics;
+  return status == StabilityStatus::converged ? std::optional(std::move(multipliers)) : std::nullopt;
+}
+
 // The count for rigid contact, where it has a limit.
 UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
                                       double frequency, const StabilityOptions& options) {
@@ -150,6 +165,11 @@ StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
                                          const PeriodicStiffness& of_contacts, double frequency,
                                          const StabilityOptions& options) {
+  if (!of_contacts.friction.empty()) {
+    StabilityStatus status = StabilityStatus::converged;
+    const auto multipliers = by_friction(dynamics, of_contacts, frequency, options, status);
+    return multipliers ? count_of(*multipliers) : without_count(status);
+  }
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   if (stiffness.damping && dynamics.structurally_damped())
     return without_count(StabilityStatus::structural_damping);
@@ -213,11 +233,9 @@ UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const 
 
 namespace {
 
-StabilitySigns signs_by_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                                  double frequency, const StabilityOptions& options) {
+StabilitySigns signs_of(const std::optional<Eigen::VectorXcd>& multipliers, StabilityStatus otherwise) {
   StabilitySigns signs;
-  const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
-  signs.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
+  signs.status = multipliers ? StabilityStatus::converged : otherwise;
   if (!multipliers) return signs;
   const auto real = multipliers->imag().array() == 0.0;
   signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
@@ -229,6 +247,11 @@ StabilitySigns signs_by_monodromy(const ContactDynamics& dynamics, const Periodi
 
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                                double frequency, const StabilityOptions& options) {
+  if (!of_contacts.friction.empty()) {
+    StabilityStatus status = StabilityStatus::converged;
+    const auto multipliers = by_friction(dynamics, of_contacts, frequency, options, status);
+    return signs_of(multipliers, status);
+  }
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   StabilitySigns signs;
   if (stiffness.damping && dynamics.structurally_damped()) {
@@ -241,9 +264,13 @@ StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicSt
   if (signs.status != StabilityStatus::converged) return signs;
   const Truncation truncation =
       stiffness.damping ? Truncation{} : truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0) return signs_by_monodromy(dynamics, stiffness, frequency, options);
+  if (truncation.harmonics == 0)
+    return signs_of(by_monodromy(dynamics, stiffness, frequency, options),
+                    StabilityStatus::too_few_harmonics);
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (!determinant.resolved()) return signs_by_monodromy(dynamics, stiffness, frequency, options);
+  if (!determinant.resolved())
+    return signs_of(by_monodromy(dynamics, stiffness, frequency, options),
+                    StabilityStatus::too_few_harmonics);
   signs.fold = determinant.sign_at_zero();
   signs.flip = determinant.sign_at_half();
   return signs;

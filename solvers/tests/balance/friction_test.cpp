@@ -47,7 +47,7 @@ struct Row {
   double amplitude, degrees, work;
 };
 
-// ../shared numbers of event-driven integrations with residuals of their period map below 1e-11.
+// Of event-driven integrations with residuals of their period map below 1e-11.
 std::vector<Row> rows() {
   using namespace testing;
   return {{"Jenkins 1", slider_on_oscillator(2.0, 1.0, 1.0), 0, 15.24880669, 78.03919810, 57.20200604},
@@ -57,11 +57,11 @@ std::vector<Row> rows() {
           {"Jenkins 5", slider_on_oscillator(2.0, 1.0, 0.45), 0, 1.097855263, 4.95798686, 0.4751676217},
           {"Jenkins 6", slider_on_oscillator(1.5, 10.0, 1.1), 0, 3.283576885, 107.75333803, 12.87055849},
           {"Jenkins 7", slider_on_oscillator(2.0, 10.0, 0.35), 0, 1.922715379, 34.20697379, 6.517261824},
-          {"masses 1", two_masses(1.0, 20.0, 1.0, 1.1), 0, 0.3190945734, 88.87064027, 1.243657049},
-          {"masses 2", two_masses(1.0, 2.0, 0.3, 1.0), 0, 15.49106365, 88.03905311, 18.42165955},
-          {"masses 3", two_masses(1.0, 2.0, 0.3, 1.7), 0, 2.410075263, -131.91800580, 2.71834876},
-          {"masses 4", two_masses(1.0, 2.0, 0.3, 0.6), 0, 0.3837520286, 30.77841669, 0.3501968699},
-          {"masses 5", two_masses(0.3, 20.0, 1.0, 1.4), 0, 0.2490895418, 166.60129865, 0.9009964397},
+          {"masses 1", rubbing_masses(1.0, 20.0, 1.0, 1.1), 0, 0.3190945734, 88.87064027, 1.243657049},
+          {"masses 2", rubbing_masses(1.0, 2.0, 0.3, 1.0), 0, 15.49106365, 88.03905311, 18.42165955},
+          {"masses 3", rubbing_masses(1.0, 2.0, 0.3, 1.7), 0, 2.410075263, -131.91800580, 2.71834876},
+          {"masses 4", rubbing_masses(1.0, 2.0, 0.3, 0.6), 0, 0.3837520286, 30.77841669, 0.3501968699},
+          {"masses 5", rubbing_masses(0.3, 20.0, 1.0, 1.4), 0, 0.2490895418, 166.60129865, 0.9009964397},
           {"lift-off 1", lift_off(2.0, 2.0, 0.6, 0.5, 3.0), 1, 0.8394928991, 36.26958233, 0.08956782539},
           {"lift-off 2", lift_off(2.0, 0.3, 0.8, 0.5, 3.6), 1, 0.8480504295, 137.81003911, 0.0867303503},
           {"lift-off 3", lift_off(1.0, 1.0, 0.6, 0.5, 2.4), 1, 0.16760139, 16.55471259, 0.009501358651},
@@ -78,18 +78,38 @@ std::vector<Row> rows() {
           {"plane 3", slip_in_a_plane(0.6, 0.6), 0, 0.823732656, 41.523253, 1.98552060}};
 }
 
+std::complex<double> exact_of(const Row& row) {
+  return std::polar(row.amplitude, row.degrees * std::numbers::pi / 180.0);
+}
+
+// The error of the balance is that of its functions: at 63 the worst row, a stiff slider, has 1.6e-4.
 TEST(Friction, HasTheHarmonicAndTheWorkOfItsExactMotions) {
   constexpr int points = 1024;
-  const TimePair pairs[] = {testing::fourier_pair(63, points),
-                            testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, points)};
+  const TimePair fourier = testing::fourier_pair(63, points),
+                 spline = testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, points);
   for (const Row& row : rows())
-    for (const TimePair& pair : pairs) {
+    for (const auto& [pair, allowed] : {std::pair(fourier, 2e-4), std::pair(spline, 1e-3)}) {
       const Solved solved = solve(row.scene, pair);
-      EXPECT_TRUE(solved.response.converged()) << row.name << ' ' << to_string(solved.response.status);
-      const std::complex<double> exact = std::polar(row.amplitude, row.degrees * std::numbers::pi / 180.0),
-                                 found = testing::first_harmonic(solved.row(row.compared, points));
-      std::printf("%-12s %d %-18s amp %.2e vec %.2e work %.2e\n", row.name.c_str(), solved.response.iterations, std::string(to_string(solved.response.strategy)).c_str(), std::abs(std::abs(found)/row.amplitude-1), std::abs(found-exact)/row.amplitude, solved.work/row.work-1);
+      ASSERT_TRUE(solved.response.converged()) << row.name << ' ' << to_string(solved.response.status);
+      EXPECT_LE(solved.response.iterations, 20) << row.name;
+      EXPECT_LE(std::abs(testing::first_harmonic(solved.row(row.compared, points)) - exact_of(row)),
+                allowed * row.amplitude)
+          << row.name;
+      EXPECT_NEAR(solved.work, row.work, allowed * row.work) << row.name;
     }
+}
+
+TEST(Friction, HasThemToFiveDigitsWithEnoughFunctions) {
+  constexpr int points = 4096;
+  const TimePair pair = testing::fourier_pair(255, points);
+  for (const Row& row : rows()) {
+    const Solved solved = solve(row.scene, pair);
+    ASSERT_TRUE(solved.response.converged()) << row.name << ' ' << to_string(solved.response.status);
+    EXPECT_LE(std::abs(testing::first_harmonic(solved.row(row.compared, points)) - exact_of(row)),
+              1e-5 * row.amplitude)
+        << row.name;
+    EXPECT_NEAR(solved.work, row.work, 1e-4 * row.work) << row.name;
+  }
 }
 
 }  // namespace

@@ -59,6 +59,12 @@ void add_law_keys_of_pair(std::vector<SceneKey>& keys, std::size_t index) {
   }
 }
 
+/// The weights of one or two degrees of freedom; none of others.
+std::vector<double> default_weights(const std::vector<int>& dofs) {
+  if (dofs.empty()) return {};
+  return dofs.size() == 1 ? std::vector<double>{1.0} : std::vector<double>{1.0, -1.0};
+}
+
 }  // namespace
 
 void add_contact_keys(std::vector<SceneKey>& keys) {
@@ -95,9 +101,20 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
       "a surface",
       within(1, 100'000'000), named_dofs);
   pair(&ContactPair::coefficients, "coefficients", "", "their weights, one for each", within(-1e9, 1e9),
-       derived("[1.0] for one of dofs, [1.0, -1.0] for two", [=](const Scene& scene) {
-         return part(scene).dofs.size() == 1 ? std::vector<double>{1.0} : std::vector<double>{1.0, -1.0};
-       }));
+       derived("[1.0] for one of dofs, [1.0, -1.0] for two",
+               [=](const Scene& scene) { return default_weights(part(scene).dofs); }));
+  const auto add_tangent = [&](std::vector<int> ContactPair::*dofs, std::vector<double> ContactPair::*weights,
+                               std::string_view name, std::string_view weights_name, std::string_view help) {
+    pair(dofs, name, "", help, within(1, 100'000'000), named_dofs, optional);
+    pair(weights, weights_name, "", "their weights, one for each", within(-1e9, 1e9),
+         derived("as coefficients", [=](const Scene& scene) { return default_weights(part(scene).*dofs); }));
+  };
+  add_tangent(
+      &ContactPair::tangent, &ContactPair::tangent_coefficients, "tangent", "tangent_coefficients",
+      "of a law with friction, the tangent beside the normal direction that dofs are then; without it dofs are "
+      "the tangent of a slider with a constant limit");
+  add_tangent(&ContactPair::second_tangent, &ContactPair::second_tangent_coefficients, "second_tangent",
+              "second_tangent_coefficients", "the other tangent of a contact that slips in a plane");
   pair(&ContactPair::side, "side", "",
        "where the obstacle stands: the displacement may exceed gap, or -gap on the negative side, or both",
        derived("\"positive\"", [](const Scene&) { return name_of(ObstacleSide::positive); }));

@@ -29,7 +29,8 @@ void add(std::vector<SharedParameter>& all, const LawEntry& law, const LawParame
 std::vector<SharedParameter> all_parameters() {
   std::vector<SharedParameter> all;
   for (const LawEntry& law : contact::law_catalogue())
-    for (const LawParameter& parameter : law.parameters) add(all, law, parameter);
+    for (const LawParameter& parameter : law.parameters)
+      if (parameter.name != "tangents") add(all, law, parameter);  // a scene says it by its directions
   std::stable_partition(all.begin(), all.end(),
                         [](const SharedParameter& one) { return one.first.name != "gap"; });
   return all;
@@ -109,7 +110,8 @@ std::vector<std::string_view> laws_of_modes() {
 
 std::string parameter_names(std::string_view law) {
   std::vector<std::string> names;
-  for (const LawParameter& one : contact::law_entry(law).parameters) names.emplace_back(one.name);
+  for (const LawParameter& one : contact::law_entry(law).parameters)
+    if (one.name != "tangents") names.emplace_back(one.name);
   return names.empty() ? "none" : joined(names);
 }
 

@@ -6,6 +6,7 @@
 
 #include "wavebalance/contact/bilinear_law.hpp"
 #include "wavebalance/contact/clearance_law.hpp"
+#include "wavebalance/contact/coulomb_law.hpp"
 #include "wavebalance/contact/cubic_law.hpp"
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
@@ -32,11 +33,13 @@ using AnyLaw = std::variant<NoContact,        //
                             ClearanceLaw,     //
                             TableLaw,         //
                             HuntCrossleyLaw,  //
-                            KelvinVoigtLaw>;
+                            KelvinVoigtLaw,   //
+                            CoulombLaw>;
 
 /// A row of the catalogue.
 struct LawEntry : LawDescription {
   bool reads_velocity = false;                    ///< whether the force depends on the velocity, too
+  bool acts_over_period = false;                  ///< whether it follows from the motion over a whole period
   std::function<AnyLaw(const LawValues&)> maker;  ///< from complete values
 
   /// The law of these values. Throws LawFault as complete_values() does, also for values that are in range

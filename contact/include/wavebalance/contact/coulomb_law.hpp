@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "wavebalance/contact/law_description.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 
 namespace wavebalance::contact {
@@ -56,11 +57,17 @@ class CoulombLaw {
   /// tangents, and without a normal direction for N0 = 0.
   explicit CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> normal = {});
 
+  /// Its row of the catalogue, and the law of complete values: without a normal direction where
+  /// normal_stiffness is 0.
+  static LawDescription description();
+  static CoulombLaw of(const LawValues& values);
+
   int rows() const { return normal_rows() + parameters_.tangents; }
   int tangents() const { return parameters_.tangents; }
   int normal_rows() const { return normal_ ? 1 : 0; }
   double friction() const { return parameters_.friction; }
   double tangential_stiffness() const { return parameters_.tangential_stiffness; }
+  double gap() const { return normal_ ? normal_->gap() : 0.0; }  ///< g0, m; 0 without a normal direction
   /// k_n, N/m; 0 without a normal direction.
   double normal_stiffness() const { return normal_ ? normal_->stiffness() : 0.0; }
   /// N, without the bound at zero: negative where the contact is open. Without a normal direction N0.

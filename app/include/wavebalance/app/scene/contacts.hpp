@@ -8,11 +8,13 @@
 
 namespace wavebalance::app {
 
-/// One contact of a scene, whichever keys say it: where it is, and its law.
+/// One direction of contact of a scene, whichever keys say it: where it is, and its law. A contact with
+/// friction has its normal direction, where there is one, and then its tangents.
 struct SceneContact {
   std::vector<int> dofs = {};  ///< rows of matrices, from 1; empty at a bar's tip and along a blade's
   std::vector<double> coefficients = {};  ///< one for each of dofs, with the sign of the obstacle's side
   std::optional<std::size_t> pair = {};   ///< the entry of [[contact.pairs]], from 0
+  int place = 0;  ///< among the directions of its contact, from 0
   std::string law{no_law};
   contact::LawValues values = {};  ///< of this law alone, its gap included
   double gap = 0.0;                ///< m; without meaning where the law has no gap
@@ -21,7 +23,7 @@ struct SceneContact {
   bool same_law(const SceneContact& other) const { return law == other.law && values == other.values; }
 };
 
-/// All contacts of a scene in the order of the solvers: those of structure.contact_dofs or of a bar or blade,
+/// All directions of contact of a scene in the order of the solvers: those of structure.contact_dofs or of a bar or blade,
 /// then those of [[contact.pairs]], of which one with obstacles on both sides has two, the positive one
 /// first. Throws std::invalid_argument for another number of gaps than one, or one each.
 std::vector<SceneContact> contacts_of(const Scene& scene);
@@ -36,6 +38,8 @@ double common_gap(const Scene& scene);
 
 /// Whether the force of a contact depends on the velocity.
 bool has_damped_contact(const Scene& scene);
+/// Whether a contact has friction.
+bool has_friction(const Scene& scene);
 
 /// The values of [contact] or of a pair that the law takes, its gap included.
 contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap);

@@ -128,6 +128,10 @@ inline constexpr std::string_view no_law = "none";
 struct ContactPair {
   std::vector<int> dofs = {};             ///< from 1, none twice
   std::vector<double> coefficients = {};  ///< one each, not all zero; empty before loading: 1, or 1 and -1
+  /// Of a law with friction the first tangent beside the normal direction above, and the second one; empty:
+  /// the direction above is itself the tangent.
+  std::vector<int> tangent = {}, second_tangent = {};
+  std::vector<double> tangent_coefficients = {}, second_tangent_coefficients = {};
   ObstacleSide side = ObstacleSide::positive;
   std::string law{no_law};         ///< as in Contact
   contact::LawValues values = {};  ///< as in Contact
@@ -164,6 +168,8 @@ bool is_damped(std::string_view law);
 bool acts_on_both_sides(std::string_view law);
 /// Whether its force beyond the gap is infinite.
 bool is_rigid(std::string_view law);
+/// Whether its force follows from the motion over a whole period: friction.
+bool has_friction(std::string_view law);
 
 /// One entry of [[forcing.terms]], which acts beside Forcing::amplitude: amplitude cos(harmonic 2 pi
 /// frequency t

@@ -2,6 +2,7 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -131,6 +132,9 @@ class AnyContactLaw {
     model_->start(v, flexibility, force);
   }
 
+  /// The constants of a law that IsElasticFriction, nothing for others.
+  std::optional<FrictionConstants> friction() const { return model_->friction(); }
+
   double force(double displacement) const;    ///< of a law that depends on the velocity: at rest
   double tangent(double displacement) const;  ///< likewise
   double potential(double displacement) const;
@@ -185,6 +189,7 @@ class AnyContactLaw {
     virtual void start(std::span<const double>, std::span<const double>, std::span<double>) const {
       refuse_steps();
     }
+    virtual std::optional<FrictionConstants> friction() const { return std::nullopt; }
     virtual double force(double displacement) const = 0;
     virtual double tangent(double displacement) const = 0;
     virtual double potential(double displacement) const = 0;
@@ -313,6 +318,14 @@ class AnyContactLaw {
         law_.start(v, flexibility, force);
       else
         refuse_steps();
+    }
+    std::optional<FrictionConstants> friction() const override {
+      if constexpr (IsElasticFriction<Law>)
+        return FrictionConstants{law_.friction(),         law_.tangential_stiffness(),
+                                 law_.normal_stiffness(), law_.raw_normal_force(0.0),
+                                 law_.normal_rows(),      law_.tangents()};
+      else
+        return std::nullopt;
     }
     double force(double) const override { refuse_instant(); }
     double tangent(double) const override { refuse_instant(); }

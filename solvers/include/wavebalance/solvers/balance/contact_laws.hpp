@@ -71,12 +71,15 @@ class ContactLaws {
   /// slope, at rest, is not a number at one of the displacements (m), which are contact-major. Displacements
   /// that are not finite or beyond 1e9 m, where powers overflow, are left out. O(samples).
   void require_numbers(int contacts, const Eigen::VectorXd& displacement) const;
-  /// The forces (N) at displacements (m), contacts x points each. O(contacts points).
+  /// The forces (N) at displacements (m), contacts x points each; of laws over a period the points are those
+  /// of one period. O(contacts points).
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement) const;
   /// The same at velocities (m/s) that belong to them.
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& velocity) const;
 
  private:
+  Eigen::MatrixXd force_over_period(const Eigen::MatrixXd& displacement,
+                                    const Eigen::MatrixXd& velocity) const;
   void evaluate_law(int row, int points, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
                     ContactForces& forces) const;
 

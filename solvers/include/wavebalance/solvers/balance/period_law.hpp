@@ -53,6 +53,30 @@ concept AdvancesInSteps = PeriodLaw<Law> &&
   law.start(rows, rows, force);          // v, flexibility, force
 };
 
+/// The numbers of an elastic Coulomb contact, of which the stability of its motions follows. Its rows are the
+/// normal direction, where there is one, then the tangents.
+struct FrictionConstants {
+  double friction = 0.0;              ///< mu
+  double tangential_stiffness = 0.0;  ///< N/m
+  double normal_stiffness = 0.0;      ///< N/m; 0 without a normal direction
+  double normal_load = 0.0;           ///< N, at zero displacement, negative beyond a gap
+  int normal_rows = 0;                ///< 1 with a normal direction
+  int tangents = 1;
+};
+
+/// A law of elastic Coulomb friction, which says its constants. `piece` of its tangents is 0 where the
+/// contact is open, 1 where it sticks, 2 and 3 where it slips, with one tangent under a positive and a
+/// negative force.
+template <class Law>
+concept IsElasticFriction = AdvancesInSteps<Law> && requires(const Law& law) {
+  { law.friction() } -> std::convertible_to<double>;
+  { law.tangential_stiffness() } -> std::convertible_to<double>;
+  { law.normal_stiffness() } -> std::convertible_to<double>;
+  { law.raw_normal_force(0.0) } -> std::convertible_to<double>;  // N, at zero displacement
+  { law.normal_rows() } -> std::convertible_to<int>;
+  { law.tangents() } -> std::convertible_to<int>;
+};
+
 /// The derivative of the contact forces over a period by the motion of the contacts, samples contact-major.
 struct PeriodSlopes {
   Eigen::VectorXd displacement;    ///< N/m: of each force by the displacement of the same sample

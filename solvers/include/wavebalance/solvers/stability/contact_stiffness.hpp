@@ -24,7 +24,10 @@ enum class StabilityStatus {
   coupled_massless,
   too_many_states,  ///< a law that depends on the velocity, at a structure with more states than max_states
   structural_damping,  ///< it has no equation in time, so that no perturbation grows or decays by it
-  effort_limit         ///< max_evaluations were not enough
+  effort_limit,        ///< max_evaluations were not enough
+  /// friction beside a law that depends on the velocity or in a structure of more than max_states, slip along
+  /// two tangents, or another law over a period
+  unsupported_law
 };
 
 std::string_view to_string(StabilityStatus status);
@@ -46,6 +49,28 @@ struct StiffnessCut {
   double time = 0.0;
 };
 
+/// A part of the period of a contact with friction along one tangent, in fractions of the period: 0 <= begin
+/// < 1, begin < end <= begin + 1.
+struct FrictionPart {
+  enum class State { open, stick, slip };
+  State state = State::stick;
+  double begin = 0.0, end = 1.0;
+  double sign = 0.0;  ///< of the friction force in slip; of stick, in the slip before it, 0 after closing
+  double ratio =
+      0.0;  ///< of stick after closing: the tangential velocity over the normal one at that instant
+};
+
+/// A contact with friction along a motion.
+struct FrictionAlong {
+  int row = 0;  ///< the first of its contact directions
+  FrictionConstants constants;
+  /// In the order of time. A contact that sticks always has one part from 0 to 1.
+  std::vector<FrictionPart> parts;
+  bool always_sticks() const {
+    return parts.size() == 1 && parts.front().state == FrictionPart::State::stick;
+  }
+};
+
 /// The stiffness D(t) of the contacts over one period, zero outside the intervals of contact.
 struct PeriodicStiffness {
   StabilityStatus status = StabilityStatus::converged;
@@ -60,6 +85,8 @@ struct PeriodicStiffness {
   /// displacement, the force after that instant less the one before it over the velocity of the contact.
   /// Empty where no law depends on the velocity.
   std::function<double(int contact, double time)> impulse = {};
+  /// Contacts with friction, whose forces remember where they began to stick. They have no intervals.
+  std::vector<FrictionAlong> friction = {};
   bool held = false;  ///< whether springs that hold a free structure were taken back from it
 };
 

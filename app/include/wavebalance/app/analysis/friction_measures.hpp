@@ -1,0 +1,25 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/contact/coulomb_law.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::app {
+
+/// What a contact with friction does in a period of its motion.
+struct FrictionMeasures {
+  int row = 0;  ///< the first of its directions of contact, from 0
+  contact::CoulombLaw law;
+  contact::FrictionPeriod period;                                         ///< at the instants of the motion
+  double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
+  double slip = 0.0;  ///< m, the distance that the slider moves in the period
+  double wear = 0.0;  ///< m^3 per period [Archard]; 0 without a coefficient
+};
+
+/// The measures of all contacts with friction along a motion of one period, whose rows are the directions of
+/// contact. Empty without such contacts. O(directions instants).
+std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,93 @@
+#include "drawing/friction_figure.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "plot/unit_prefix.hpp"
+#include "wavebalance/app/analysis/friction_measures.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::size_t most_loops = 6;
+
+// Closed once around.
+Eigen::VectorXd closed(const Eigen::MatrixXd& rows, int row, double factor) {
+  Eigen::VectorXd values(rows.cols() + 1);
+  values << factor * rows.row(row).transpose(), factor * rows(row, 0);
+  return values;
+}
+
+struct Loop {
+  std::string label;
+  int row;
+};
+
+std::vector<Loop> loops_of(std::vector<FrictionMeasures> contacts) {
+  std::stable_sort(
+      contacts.begin(), contacts.end(),
+      [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.period.work > b.period.work; });
+  std::vector<Loop> loops;
+  for (const FrictionMeasures& one : contacts)
+    for (int i = 0; i < one.law.tangents() && loops.size() < most_loops; ++i)
+      loops.push_back({"contact " + std::to_string(one.row + 1) +
+                           (one.law.tangents() > 1 ? ", tangent " + std::to_string(i + 1) : ""),
+                       one.row + one.law.normal_rows() + i});
+  return loops;
+}
+
+void add_loops(Figure& figure, const std::vector<FrictionMeasures>& contacts, const solvers::Motion& motion) {
+  const std::vector<Loop> loops = loops_of(contacts);
+  double reach = 0.0, most = 0.0;
+  for (const Loop& loop : loops) {
+    reach = std::max(reach, motion.displacement.row(loop.row).cwiseAbs().maxCoeff());
+    most = std::max(most, motion.force.row(loop.row).cwiseAbs().maxCoeff());
+  }
+  const Scale length = axis_scale(reach), force = axis_scale(most);
+  Panel& panel = figure.add_panel();
+  panel.x.label = "Tangential displacement (" + length.prefix + "m)";
+  panel.y.label = "Friction force (" + force.prefix + "N)";
+  for (const Loop& loop : loops)
+    panel.add({loops.size() > 1 ? loop.label : "", closed(motion.displacement, loop.row, length.factor),
+               closed(motion.force, loop.row, force.factor)});
+}
+
+// Runs of one state as rectangles, a row for each contact.
+void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, int periods) {
+  constexpr double half = 0.4;
+  Panel& panel = figure.add_panel();
+  panel.x = {.label = "Time (fraction of " + std::string(periods == 1 ? "a period" : "the periods") +
+                      "; blue: stick, orange: slip, white: open)",
+             .lower = 0.0,
+             .upper = 1.0,
+             .ticks = {},
+             .tick_format = "%.1f"};
+  panel.y.label = "Contact";
+  panel.y.lower = 0.5;
+  panel.y.upper = double(contacts.size()) + 0.5;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& states = contacts[i].period.state;
+    for (std::size_t from = 0, to = 0; from < states.size(); from = to) {
+      while (to < states.size() && states[to] == states[from]) ++to;
+      if (states[from] == contact::FrictionState::open) continue;
+      const bool sticks = states[from] == contact::FrictionState::stick;
+      panel.rectangles.push_back({double(from) / double(states.size()), double(i) + 1.0 - half,
+                                  double(to) / double(states.size()), double(i) + 1.0 + half,
+                                  sticks ? Colour::sky_blue : Colour::orange, 0.8});
+    }
+  }
+  // A panel needs a curve for its axes.
+  panel.add({"", std::vector<double>{0.0, 1.0}, std::vector<double>{0.5, 0.5}});
+}
+
+}  // namespace
+
+void add_friction(Figure& figure, const Scene& scene, const Response& response) {
+  const std::vector<FrictionMeasures> contacts = friction_measures(scene, response.contacts);
+  if (contacts.empty()) return;
+  add_loops(figure, contacts, response.contacts);
+  add_states(figure, contacts, response.periods);
+}
+
+}  // namespace wavebalance::app

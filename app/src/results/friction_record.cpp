@@ -1,0 +1,81 @@
+#include "results/friction_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "files/missing.hpp"
+#include "results/quantities.hpp"
+#include "wavebalance/app/analysis/friction_measures.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::string name_of_state(contact::FrictionState state) {
+  if (state == contact::FrictionState::open) return "open";
+  return state == contact::FrictionState::stick ? "stick" : "slip";
+}
+
+Table table_of(const std::vector<FrictionMeasures>& contacts) {
+  Table table({"contact", "friction_work_J", "stick_fraction", "slip_fraction", "open_fraction", "slip_m",
+               "wear_m3", "history_dependent"});
+  for (const FrictionMeasures& one : contacts)
+    table.append_row({std::int64_t{one.row + 1}, one.period.work, one.stick_fraction, one.slip_fraction,
+                      one.open_fraction, one.slip, one.wear, one.period.history_dependent});
+  return table;
+}
+
+Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Motion& motion) {
+  Table table({"time_fraction", "contact", "tangent", "displacement_m", "friction_force_N", "normal_force_N",
+               "state"});
+  const int points = motion.points();
+  for (int l = 0; l < points; ++l)
+    for (const FrictionMeasures& one : contacts)
+      for (int i = 0; i < one.law.tangents(); ++i) {
+        const int row = one.row + one.law.normal_rows() + i;
+        const double normal =
+            one.law.normal_rows() > 0 ? motion.force(one.row, l) : one.law.raw_normal_force(0.0);
+        table.append_row({double(l) / points, std::int64_t{one.row + 1}, std::int64_t{i + 1},
+                          motion.displacement(row, l), motion.force(row, l), normal,
+                          name_of_state(one.period.state[static_cast<std::size_t>(l)])});
+      }
+  return table;
+}
+
+// The rows of the sentence "contacts 2, 5 and 7".
+void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts) {
+  std::vector<int> stuck;
+  for (const FrictionMeasures& one : contacts)
+    if (one.period.history_dependent) stuck.push_back(one.row + 1);
+  if (stuck.empty()) return;
+  record.warnings.push_back(fmt::format(
+      "Contact{} {} neither slip{} nor open{}: the force there depends on the past, and slider says from which position "
+      "on.",
+      stuck.size() == 1 ? "" : "s", fmt::join(stuck, ", "), stuck.size() == 1 ? "s" : "",
+      stuck.size() == 1 ? "s" : ""));
+}
+
+}  // namespace
+
+void append_friction(Record& record, const Scene& scene, const Response& response) {
+  if (!has_friction(scene)) return;
+  const std::vector<FrictionMeasures> contacts =
+      friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
+  double work = 0.0, wear = 0.0;
+  for (const FrictionMeasures& one : contacts) {
+    work += one.period.work;
+    wear += one.wear;
+  }
+  const bool known = !contacts.empty();
+  record.summary.emplace_back(quantities::friction_work, known ? work : missing);
+  if (wear > 0.0) record.summary.emplace_back(quantities::wear, wear);
+  record.summary.emplace_back(quantities::friction, table_of(contacts));
+  if (!known) return;
+  warn_of_history(record, contacts);
+  record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
+                          "The loops of friction force and displacement, and what each contact does"});
+}
+
+}  // namespace wavebalance::app
