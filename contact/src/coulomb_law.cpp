@@ -165,7 +165,7 @@ LawDescription CoulombLaw::description() {
       .force =
           "elastic Coulomb friction: along the tangents a spring tangential_stiffness in series with a "
           "slider of the limit friction N, N = normal_load, or max(normal_load + normal_stiffness (u - "
-          "gap), 0) of the displacement u along a normal direction",
+          "normal_gap), 0) of the displacement u along a normal direction",
       .parameters =
           {{"friction", "", "coefficient of friction", at_least_zero},
            {"tangential_stiffness", "N/m", "stiffness along the tangents while the contact sticks",
@@ -181,7 +181,8 @@ LawDescription CoulombLaw::description() {
                          "volume that wear takes over normal force and distance of slip", at_least_zero},
                         0.0),
            with_default({"tangents", "", "number of tangents", {.lower = 1.0, .upper = 2.0}}, 1.0),
-           gap_parameter},
+           with_default({"normal_gap", "m", "normal displacement at which the normal spring has no force"},
+                        0.0)},
       .beyond_gap_alone = false};
 }
 
@@ -191,7 +192,7 @@ CoulombLaw CoulombLaw::of(const LawValues& values) {
                                 static_cast<int>(number_of(values, "tangents"))};
   parameters.slider.assign(static_cast<std::size_t>(parameters.tangents), number_of(values, "slider"));
   const double stiffness = number_of(values, "normal_stiffness");
-  if (stiffness > 0.0) return CoulombLaw(parameters, LinearLaw(stiffness, number_of(values, "gap")));
+  if (stiffness > 0.0) return CoulombLaw(parameters, LinearLaw(stiffness, number_of(values, "normal_gap")));
   return CoulombLaw(parameters);
 }
 

@@ -205,6 +205,8 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
   if (best.ended() || !task.options.fallbacks) return best;
   if (guessed && task.options.stay_near_guess)
     return better(std::move(best), try_residual(task, form, first));
+  // A continuation in the load passes through sticking and slipping sample by sample.
+  if (task.laws.act_over_period()) return solve_settled(task, form, first, std::move(best), attractor_periods);
   for (const Eigen::VectorXd& tried : forms_of(task)) {
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;

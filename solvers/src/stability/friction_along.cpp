@@ -78,8 +78,10 @@ double transition(const FrictionCurve& curve, const SampleState& from, const Sam
                   double low, double high) {
   if (from.state == State::open || to.state == State::open)
     return root_between(low, high, [&](double time) { return curve.normal_force(time); });
+  // The last sample that slips may lie on either side of the reversal.
   if (from.state == State::slip)
-    return root_between(low, high, [&](double time) { return curve.slip_rate(time, from.sign); });
+    return root_between(low - (high - low), high,
+                        [&](double time) { return curve.slip_rate(time, from.sign); });
   return root_between(low, high, [&](double time) { return curve.beyond_limit(time, slider, to.sign); });
 }
 
@@ -118,7 +120,7 @@ void shift_into_period(std::vector<FrictionPart>& parts) {
 
 }  // namespace
 
-// The first part is one that does not stick, since the slider of a stick follows from its begin.
+// The first part does not follow a stick, since the slider of a stick follows from its begin.
 std::optional<FrictionAlong> friction_along(const AnyContactLaw& law, int row,
                                             const std::vector<ContactCurve>& curves) {
   FrictionAlong along{row, *law.friction(), {}};
@@ -137,9 +139,11 @@ std::optional<FrictionAlong> friction_along(const AnyContactLaw& law, int row,
                                  [](const SampleState& one) { return one.state == State::slip; });
   if (slips && along.constants.tangents > 1) return std::nullopt;
   std::size_t first = 0;
-  while (first < points &&
-         (samples[first] == samples[(first + points - 1) % points] || samples[first].state == State::stick))
+  while (first < points) {
+    const SampleState& before = samples[(first + points - 1) % points];
+    if (samples[first] != before && before.state != State::stick) break;
     ++first;
+  }
   if (first == points) {
     along.parts.push_back({samples.front().state, 0.0, 1.0, samples.front().sign, 0.0});
     return along;

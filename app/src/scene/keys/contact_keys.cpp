@@ -105,7 +105,8 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
                [=](const Scene& scene) { return default_weights(part(scene).dofs); }));
   const auto add_tangent = [&](std::vector<int> ContactPair::*dofs, std::vector<double> ContactPair::*weights,
                                std::string_view name, std::string_view weights_name, std::string_view help) {
-    pair(dofs, name, "", help, within(1, 100'000'000), named_dofs, optional);
+    pair(dofs, name, "", help, within(1, 100'000'000), named_dofs,
+         derived("none", [](const Scene&) { return std::vector<std::int64_t>(); }));
     pair(weights, weights_name, "", "their weights, one for each", within(-1e9, 1e9),
          derived("as coefficients", [=](const Scene& scene) { return default_weights(part(scene).*dofs); }));
   };
