@@ -98,7 +98,8 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
 
 /// The directions of a contact with friction fit its law.
 void check_friction_pair(const Document& document, const Scene& scene, const SceneContact& contact) {
-  const double stiffness = contact::number_of(contact.values, "normal_stiffness");
+  const contact::LawValues values = contact::complete_values(contact::law_entry(contact.law), contact.values);
+  const double stiffness = contact::number_of(values, "normal_stiffness");
   const ContactPair* pair = contact.pair ? &scene.contact.pairs[*contact.pair] : nullptr;
   const std::string section = pair ? pair_section(*contact.pair) : "contact";
   const bool has_normal = pair && !pair->tangent.empty();
@@ -110,7 +111,7 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
         document, {section + ".normal_stiffness", "contact.normal_stiffness"},
         "the contact has no tangent beside the direction dofs, which is then the tangent itself; expected 0, or "
         "[[contact.pairs]] with tangent");
-  if (!has_normal && !(contact::number_of(contact.values, "normal_load") > 0.0))
+  if (!has_normal && !(contact::number_of(values, "normal_load") > 0.0))
     fail_rule(
         document, {section + ".normal_load", "contact.normal_load"},
         "the contact has no normal direction, so that the limit is friction times normal_load; expected a number in N, > 0");

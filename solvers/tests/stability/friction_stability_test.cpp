@@ -104,13 +104,11 @@ TEST(FrictionStability, HasTheTwoLargestModuliOfTheExactMotions) {
                                   {"chain 1", chain_of_three(6.0, 1.0), 0.83426451, 0.83426451},
                                   {"chain 2", chain_of_three(3.0, 0.85), 0.78746749, 0.78746749}};
   for (const Modulus& row : rows) {
-    const Solved solved = solve(row.scene, std::getenv("FF") ? 255 : 63, std::getenv("FF") ? 4096 : 1024);
+    const Solved solved = solve(row.scene, 127, 2048);
     ASSERT_TRUE(solved.response.converged()) << row.name;
     ASSERT_EQ(solved.stiffness.status, StabilityStatus::converged);
-    EXPECT_NEAR(std::abs(solved.multipliers[0]), row.largest, 1e-3) << row.name;
-    EXPECT_NEAR(std::abs(solved.multipliers[1]), row.second, 1e-3) << row.name;
-    std::printf("%s %.2e %.2e\n", row.name, std::abs(solved.multipliers[0]) - row.largest,
-                std::abs(solved.multipliers[1]) - row.second);
+    EXPECT_NEAR(std::abs(solved.multipliers[0]), row.largest, 1e-4) << row.name;
+    EXPECT_NEAR(std::abs(solved.multipliers[1]), row.second, 1e-4) << row.name;
   }
 }
 
@@ -205,7 +203,7 @@ Eigen::VectorXd moduli_by_differences(const FrictionScene& scene, CondensedProbl
 }
 
 TEST(FrictionStability, CountsOfRandomStructuresAreThoseOfDifferencesOfThePeriodMap) {
-  const int count = campaign_seeds(40, 500);
+  const int count = campaign_seeds(15, 500);
   int compared = 0, unstable = 0, near = 0, unsolved = 0;
   double worst = 0.0;
   for (int seed = 1; seed <= count; ++seed) {
