@@ -4,6 +4,7 @@
 
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -138,6 +139,7 @@ StabilityAlong stability_along(const solvers::CurveStability& balance, const Swe
 }
 
 void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
+  if (has_friction(scene)) return;  // which has no phases
   const bool wanted = scene.analysis.stability || scene.analysis.phases;
   if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
   sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},

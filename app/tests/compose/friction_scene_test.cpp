@@ -119,7 +119,6 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
            Case{"slider.toml", "contact.normal_stiffness=5", "contact.normal_stiffness", "expected 0"},
            Case{"lift_off.toml", "contact.normal_stiffness=0", "normal_stiffness", "> 0"},
            Case{"lift_off.toml", "contact.law=linear", "contact.friction", ""},
-           Case{"slider.toml", "analysis.type=nonlinear_mode", "analysis", ""},
            Case{"slider.toml", "analysis.type=motions", "analysis.type", "forced_response"},
            Case{"slider.toml", "analysis.phases=true", "analysis.phases", "false"},
            Case{"slider.toml", "contact.form=force", "contact.form", "displacement"},
