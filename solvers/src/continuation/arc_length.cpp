@@ -64,7 +64,8 @@ detail::ResponseEquations::ResponseEquations(ContactSystem& contacts, const Curv
                                              const ArcLengthOptions& lengths)
     : system(contacts), parameter(along), options(lengths) {
   constexpr int few_samples = 512;
-  many_samples = system.problem().samples() > few_samples;
+  // The pieces of laws over a period meet nowhere that is known beforehand: there are no events to follow.
+  many_samples = system.problem().samples() > few_samples || system.laws().act_over_period();
 }
 
 double detail::ResponseEquations::evaluate(const CurvePoint& point, const LawPieces* sides) {

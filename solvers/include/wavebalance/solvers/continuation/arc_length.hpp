@@ -100,6 +100,8 @@ struct ResponseEquations {
   double squared_parameter_scale() const { return options.parameter_scale * options.parameter_scale; }
   double tolerance() const { return options.tolerance; }
   int max_corrections(bool in_piece) const;
+  /// Whether corrections must lower the residual: those of laws over a period.
+  bool lowers_residual() const { return system.laws().act_over_period(); }
 };
 
 }  // namespace detail

@@ -109,10 +109,23 @@ class CurveCorrector {
       if (!curve_.solve_bordered(plane.row, plane.parameter, curve_.residual(), miss, change_,
                                  parameter_change))
         return false;
-      point.displacement -= change_;
-      point.parameter -= parameter_change;
+      if (!take_change(pieces, parameter_change, point)) return false;
     }
     return false;
+  }
+
+  /// Takes the whole change, or of equations without known pieces a part of it that lowers the residual: such
+  /// a force changes its slopes from sample to sample, among which whole steps may cycle.
+  bool take_change(const Pieces* pieces, double parameter_change, CurvePoint& point) {
+    bool damped = false;
+    if constexpr (requires { curve_.lowers_residual(); }) damped = curve_.lowers_residual();
+    constexpr double least = 1.0 / 64.0;
+    const CurvePoint from = point;
+    for (double share = 1.0;; share *= 0.5) {
+      point.displacement = from.displacement - share * change_;
+      point.parameter = from.parameter - share * parameter_change;
+      if (!damped || share <= least || curve_.evaluate(point, pieces) < from.residual) return true;
+    }
   }
 
   /// The tangent at an evaluated point, with the orientation of the tangent of `along`.
