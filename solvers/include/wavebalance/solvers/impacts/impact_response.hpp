@@ -1,0 +1,43 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/solvers/impacts/impact_motion.hpp"
+
+namespace wavebalance::solvers {
+
+/// How a motion with impacts is integrated until it repeats.
+struct ImpactResponseOptions {
+  int max_periods = 2000;        ///< of the load
+  int longest = 16;              ///< periods of the load after which a motion may repeat
+  int max_impacts = 2000;        ///< in a period of the load
+  double near = 1e-2;            ///< relative change of the state after which Newton's method is tried
+  ImpactMotionOptions newton{};  ///< its observer is not called
+  Observer observer = {};        ///< called once per period
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// A forced response with impacts.
+struct ImpactResponse {
+  ImpactMotion motion;           ///< over load_periods periods of the load
+  int load_periods = 1;          ///< after which it repeats
+  Eigen::VectorXcd multipliers;  ///< impact_multipliers(); empty unless the motion has converged
+  int unstable = -1;             ///< unstable_count(); -1 where not known
+  int integrated = 0;            ///< periods of the load
+  double distance = missing;     ///< relative change of the integrated state over the motion's period
+};
+
+/// The motion with impacts that a structure settles to under its load, of which `problem` has one period: by
+/// flights of its modes, exact between impacts, whose ends are found without missing any, until the state
+/// nearly repeats after 1 to `longest` periods; then impact_motion() from the impacts of the last ones. It
+/// begins where the motion without contact is farthest from all obstacles, pressed away from those that it
+/// passes there. A motion that is unstable is given only where none that is stable has been found.
+///
+/// `chattering` where impacts of one contact follow each other ever faster, their velocity below 1e-6 of the
+/// largest while the contact is pressed against its obstacle; they then end at chattering_end, the sum of a
+/// geometric series. Throws as impact_motion() and for options out of range. O(cells C poles) per period.
+ImpactResponse impact_response(const ImpactsProblem& problem, const ImpactResponseOptions& options = {});
+
+}  // namespace wavebalance::solvers

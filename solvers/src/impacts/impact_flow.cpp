@@ -1,0 +1,89 @@
+#include "impacts/impact_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "impacts/impact_parts.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/index.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// The deflection of the poles by constant forces against the contacts that moves these by -`shift`.
+Eigen::VectorXcd pressed(const ImpactModel& model, const Eigen::VectorXd& shift) {
+  const Eigen::VectorXcd inverse = model.exponents().cwiseInverse();
+  const Index contacts = model.contacts();
+  const Eigen::MatrixXcd deflections = inverse.asDiagonal() * model.left().transpose();
+  const Eigen::MatrixXd compliance = -(model.outputs().topRows(contacts) * deflections).real();
+  return deflections * least_squares(compliance, shift).cast<std::complex<double>>();
+}
+
+}  // namespace
+
+ImpactFlow::ImpactFlow(const ImpactModel& model, int max_impacts)
+    : model_(model), max_impacts_(max_impacts), state_(Eigen::VectorXcd::Zero(model.poles())) {}
+
+void ImpactFlow::start(const Eigen::VectorXcd& state, double time) {
+  state_ = state;
+  time_ = time;
+}
+
+void ImpactFlow::start_clear() {
+  constexpr int instants = 64;
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd above;
+  for (int k = 0; k < instants; ++k) {
+    const Eigen::VectorXd now = model_.free_motion(double(k) / instants).displacement - model_.problem().gaps;
+    if (!(now.maxCoeff() < least)) continue;
+    least = now.maxCoeff();
+    above = now;
+    time_ = double(k) / instants;
+  }
+  state_.setZero();
+  if (least > 0.0) state_ = pressed(model_, above.cwiseMax(0.0) * (1.0 + 1e-6));
+}
+
+void ImpactFlow::forget_before(double time) {
+  std::erase_if(events_, [time](const Event& event) { return event.time < time; });
+}
+
+// The impact of a contact at its gap now. False where the motion ends here.
+bool ImpactFlow::rebound(int contact) {
+  constexpr double vanishing = 1e-6;
+  const double restitution = model_.problem().restitution;
+  const double before = model_.motion(state_, time_).velocity[contact];
+  const double impulse = (1.0 + restitution) * before / model_.inverse_mass()(contact, contact);
+  state_ -= impulse * model_.left().row(contact).transpose();
+  events_.push_back({contact, time_, impulse});
+  fastest_ = std::max(fastest_, before);
+  const double pressing = model_.motion(state_, time_).acceleration[contact];
+  const bool vanishes = before <= vanishing * fastest_;
+  if (!(pressing > 0.0) || !(restitution == 0.0 || (vanishes && restitution < 1.0))) return true;
+  end_ = restitution == 0.0 ? ImpactStatus::lasting_contact : ImpactStatus::chattering;
+  end_contact_ = contact;
+  end_time_ = time_ + 2.0 * restitution * before / ((1.0 - restitution) * pressing * model_.period());
+  return false;
+}
+
+bool ImpactFlow::advance_to(double time) {
+  for (int impacts = 0; impacts <= max_impacts_; ++impacts) {
+    const double length = std::max(0.0, time - time_) * model_.period();
+    Flight flight(model_, state_, time_, length, allowed_penetration(model_));
+    const Touch touch = flight.first_touch();
+    if (touch.kind == Touch::Kind::unresolved) {
+      end_ = ImpactStatus::grazing;
+      return false;
+    }
+    const bool free = touch.kind == Touch::Kind::none;
+    state_ = flight.state_at(free ? length : touch.time);
+    time_ = free ? time : time_ + touch.time / model_.period();
+    if (free) return state_.allFinite();
+    if (!rebound(touch.contact)) return false;
+  }
+  end_ = ImpactStatus::effort_limit;
+  return false;
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,135 @@
+#include "impacts/impact_model.hpp"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "linalg/index.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double turn = 2.0 * std::numbers::pi;
+
+// 1 - exp(z) without cancellation.
+Complex one_less_exp(Complex z) {
+  const double half = std::sin(0.5 * z.imag());
+  return {-std::expm1(z.real()) * std::cos(z.imag()) + 2.0 * half * half,
+          -std::exp(z.real()) * std::sin(z.imag())};
+}
+
+}  // namespace
+
+ImpactModel::ImpactModel(const ImpactsProblem& problem)
+    : problem_(problem), period_(1.0 / problem.frequency) {
+  const auto& poles = problem.dynamics.poles();
+  const auto count = Index(poles.size());
+  const Index contacts = problem.dynamics.contacts();
+  exponents_.resize(count);
+  difference_.resize(count);
+  shapes_.resize(contacts, count);
+  left_.resize(contacts, count);
+  for (Index l = 0; l < count; ++l) {
+    const ContactPole& pole = poles[static_cast<std::size_t>(l)];
+    exponents_[l] = pole.exponent;
+    const Complex step = pole.exponent * period_;
+    difference_[l] = step.real() > 0.0 ? -one_less_exp(-step) : one_less_exp(step);
+    shapes_.col(l) = (pole.exponent.imag() == 0.0 ? 1.0 : 2.0) * pole.residue * pole.shape;
+    left_.col(l) = pole.left;
+  }
+  outputs_.resize(3 * contacts, count);
+  outputs_.topRows(contacts) = shapes_;
+  outputs_.middleRows(contacts, contacts) = shapes_ * exponents_.asDiagonal();
+  outputs_.bottomRows(contacts) = outputs_.middleRows(contacts, contacts) * exponents_.asDiagonal();
+  third_moduli_ = (outputs_.bottomRows(contacts) * exponents_.asDiagonal()).cwiseAbs();
+  free_third_.resize(contacts);
+  for (int c = 0; c < contacts; ++c) free_third_[c] = free_magnitude(c, 3);
+  inverse_mass_ = inverse_contact_mass(problem.dynamics);
+  for (int c = 0; c < contacts; ++c) {
+    displacement_scale_ = std::max(displacement_scale_, free_magnitude(c, 0) + std::abs(problem.gaps[c]));
+    velocity_scale_ = std::max(velocity_scale_, free_magnitude(c, 1));
+  }
+  velocity_scale_ = std::max(velocity_scale_, turn * problem.frequency * displacement_scale_ * 1e-3);
+}
+
+double ImpactModel::free_magnitude(int c, int derivative) const {
+  double sum = 0.0;
+  for (Index n = 0; n < problem_.contact_free.cols(); ++n)
+    sum +=
+        std::pow(turn * double(n) * problem_.frequency, derivative) * std::abs(problem_.contact_free(c, n));
+  return sum;
+}
+
+bool ImpactModel::is_resonant() const {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  for (Index l = 0; l < poles(); ++l)
+    if (std::abs(difference_[l]) <= 64.0 * eps * (1.0 + std::abs(exponents_[l] * period_))) return true;
+  return false;
+}
+
+ContactState ImpactModel::free_motion(double time) const {
+  const Index contacts = shapes_.rows();
+  const Eigen::MatrixXcd& amplitudes = problem_.contact_free;
+  ContactState state{Eigen::VectorXd::Zero(contacts), Eigen::VectorXd::Zero(contacts),
+                     Eigen::VectorXd::Zero(contacts)};
+  for (Index n = 0; n < amplitudes.cols(); ++n) {
+    const double rate = turn * double(n) * problem_.frequency;
+    const Complex phase = std::polar(1.0, turn * double(n) * time);
+    for (Index c = 0; c < contacts; ++c) {
+      if (amplitudes(c, n) == 0.0) continue;
+      const Complex value = amplitudes(c, n) * phase;
+      state.displacement[c] += value.real();
+      state.velocity[c] -= rate * value.imag();
+      state.acceleration[c] -= rate * rate * value.real();
+    }
+  }
+  return state;
+}
+
+// exp(lambda share T) / (1 - exp(lambda T)), for growing poles without large numbers.
+Complex ImpactModel::periodic(Index pole, double share) const {
+  const Complex step = exponents_[pole] * period_;
+  return std::exp(step * (step.real() > 0.0 ? share - 1.0 : share)) / difference_[pole];
+}
+
+GreenValues ImpactModel::green(int c, int d, double share) const {
+  GreenValues sum;
+  for (Index l = 0; l < poles(); ++l) {
+    const Complex value = shapes_(c, l) * left_(d, l) * periodic(l, share), exponent = exponents_[l];
+    const Complex rate = exponent * value;
+    // The logarithmic derivative of exp(lambda share T) / (1 - exp(lambda T)) by T, over lambda.
+    const Complex by_period = share + periodic(l, 1.0);
+    sum.value += value.real();
+    sum.rate += rate.real();
+    sum.second += (exponent * rate).real();
+    sum.value_by_period += (rate * by_period).real();
+    sum.rate_by_period += (exponent * rate * by_period).real();
+    sum.magnitude += std::abs(value);
+    sum.rate_magnitude += std::abs(rate);
+  }
+  return sum;
+}
+
+Eigen::VectorXcd ImpactModel::state_after(int c, double share) const {
+  Eigen::VectorXcd state(poles());
+  for (Index l = 0; l < poles(); ++l) state[l] = -left_(c, l) * periodic(l, share);
+  return state;
+}
+
+Eigen::VectorXcd ImpactModel::growth(double seconds) const {
+  return (exponents_ * seconds).array().exp().matrix();
+}
+
+ContactState ImpactModel::motion(const Eigen::VectorXcd& state, double time) const {
+  ContactState result = free_motion(time);
+  const Index contacts = shapes_.rows();
+  const Eigen::VectorXd own = (outputs_ * state).real();
+  result.displacement += own.head(contacts);
+  result.velocity += own.segment(contacts, contacts);
+  result.acceleration += own.tail(contacts);
+  return result;
+}
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,76 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/solvers/impacts/impacts_problem.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Displacement (m), velocity (m/s) and acceleration (m/s^2) of each of C contacts.
+struct ContactState {
+  Eigen::VectorXd displacement, velocity, acceleration;
+};
+
+/// A periodic Green function between two contacts, by an impulse of 1 N s in each period, and its derivatives
+/// by time (1/s) and by the period at a fixed share of it; `magnitude` is the sum of the moduli of its terms.
+struct GreenValues {
+  double value = 0.0, rate = 0.0, second = 0.0;
+  double value_by_period = 0.0, rate_by_period = 0.0;
+  double magnitude = 0.0, rate_magnitude = 0.0;
+};
+
+/// What does not change while impacts of one period are sought: the poles of the contacts, y' = lambda y
+/// between impacts and y -> y - p left at one, with the displacements Re(shapes y) beside the motion without
+/// contact. Immutable.
+class ImpactModel {
+ public:
+  /// Keeps no reference but that to the dynamics.
+  explicit ImpactModel(const ImpactsProblem& problem);
+
+  const ImpactsProblem& problem() const { return problem_; }
+  double period() const { return period_; }  ///< s
+  int contacts() const { return static_cast<int>(shapes_.rows()); }
+  Eigen::Index poles() const { return exponents_.size(); }
+  const Eigen::VectorXcd& exponents() const { return exponents_; }  ///< 1/s, one for each pair
+  const Eigen::MatrixXcd& left() const { return left_; }            ///< C x poles
+  /// 3 C x poles: of displacements, velocities and accelerations of the contacts by the states.
+  const Eigen::MatrixXcd& outputs() const { return outputs_; }
+  /// C x poles: moduli of the third derivatives of the displacements by the states.
+  const Eigen::MatrixXd& third_moduli() const { return third_moduli_; }
+  /// C, m/s^3: a bound on the third derivative of the motion without contact.
+  const Eigen::VectorXd& free_third() const { return free_third_; }
+  const Eigen::MatrixXd& inverse_mass() const { return inverse_mass_; }  ///< C x C, 1/kg
+  double displacement_scale() const { return displacement_scale_; }      ///< m, of motion and gaps
+  double velocity_scale() const { return velocity_scale_; }              ///< m/s
+
+  /// The motion without contact at a time in periods, and the sums of moduli of its harmonics for contact c.
+  ContactState free_motion(double time) const;
+  double free_magnitude(int c, int derivative) const;
+  /// Whether the structure without contact has a motion of this period of its own.
+  bool is_resonant() const;
+
+  /// Of contact c by contact d at a share of the period after the impulse, 0 < share <= 1; at 1 the limit
+  /// from below. O(poles).
+  GreenValues green(int c, int d, double share) const;
+  /// The state of all poles a share of the period (0..1) after an impulse of 1 N s at contact c in each
+  /// period, at 0 right after it; with the sign of a force against the contact.
+  Eigen::VectorXcd state_after(int c, double share) const;
+  /// exp(lambda t) for a time in s.
+  Eigen::VectorXcd growth(double seconds) const;
+  /// The whole motion of the contacts in a state at a time in periods.
+  ContactState motion(const Eigen::VectorXcd& state, double time) const;
+
+ private:
+  std::complex<double> periodic(Eigen::Index pole, double share) const;
+
+  ImpactsProblem problem_;
+  double period_;
+  Eigen::VectorXcd exponents_, difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
+  Eigen::MatrixXcd shapes_, left_, outputs_;
+  Eigen::MatrixXd third_moduli_;
+  Eigen::VectorXd free_third_;
+  Eigen::MatrixXd inverse_mass_;
+  double displacement_scale_ = 0.0, velocity_scale_ = 0.0;
+};
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,32 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "impacts/flight.hpp"
+#include "impacts/impact_model.hpp"
+#include "wavebalance/solvers/impacts/impact_motion.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// How far a contact may pass its gap between impacts without penetrating, m.
+double allowed_penetration(const ImpactModel& model);
+
+/// Instants and impulses of impacts in ascending order, which solve the equations or are a start.
+struct ImpactUnknowns {
+  std::vector<int> contacts;
+  Eigen::VectorXd values;  ///< as of ImpactEquations
+};
+
+/// The start in ascending order from the first instant within a period on.
+ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGuess>& start);
+
+/// The motion that unknowns describe, and whether it is one of the structure; `found` has iterations and
+/// residual.
+ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnknowns& unknowns,
+                       ImpactMotion found);
+
+/// The flight from impact i (or the whole period without impacts) to the next one.
+Flight flight_after(const ImpactMotion& motion, std::size_t i);
+
+}  // namespace wavebalance::solvers::detail
