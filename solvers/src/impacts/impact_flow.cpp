@@ -67,6 +67,15 @@ bool ImpactFlow::rebound(int contact) {
   return false;
 }
 
+bool ImpactFlow::advance_period() {
+  const double begin = time_;
+  const bool whole = advance_to(begin + 1.0);
+  time_ = whole ? begin : time_ - 1.0;
+  end_time_ -= 1.0;
+  for (Event& event : events_) event.time -= 1.0;
+  return whole;
+}
+
 bool ImpactFlow::advance_to(double time) {
   for (int impacts = 0; impacts <= max_impacts_; ++impacts) {
     const double length = std::max(0.0, time - time_) * model_.period();

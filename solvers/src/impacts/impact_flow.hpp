@@ -8,7 +8,7 @@
 namespace wavebalance::solvers::detail {
 
 /// A motion with impacts in time, by exact flights of the modes from one impact to the next. Times are in
-/// periods of the model after t = 0.
+/// periods of the model; those of events are shifted with each period, so that they keep their digits.
 class ImpactFlow {
  public:
   ImpactFlow(const ImpactModel& model, int max_impacts);
@@ -23,18 +23,21 @@ class ImpactFlow {
     int contact = 0;
     double time = 0.0, impulse = 0.0;
   };
-  /// Goes on to a time. False where it ends before, by what end() says.
-  bool advance_to(double time);
+  /// Goes on for a period, after which the time is again what it was before, and those of all events are one
+  /// less. False where it ends within, by what end() says.
+  bool advance_period();
   ImpactStatus end() const { return end_; }
-  double end_time() const { return end_time_; }  ///< when chattering ends, or lasting contact begins
+  /// When chattering ends, or lasting contact begins.
+  double end_time() const { return end_time_; }
   int end_contact() const { return end_contact_; }
 
   const Eigen::VectorXcd& state() const { return state_; }
   double time() const { return time_; }
-  const std::vector<Event>& events() const { return events_; }  ///< all so far
+  const std::vector<Event>& events() const { return events_; }
   void forget_before(double time);
 
  private:
+  bool advance_to(double time);
   bool rebound(int contact);
 
   const ImpactModel& model_;

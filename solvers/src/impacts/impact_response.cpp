@@ -44,14 +44,13 @@ class ImpactSearch {
 
   ImpactResponse run() {
     flow_.start_clear();
-    begin_ = flow_.time();
     states_.push_front(flow_.state());
     for (period_ = 1; period_ <= options_.max_periods; ++period_) {
       if (!goes_on(options_.observer, progress())) return ended(ImpactStatus::cancelled);
-      if (!flow_.advance_to(begin_ + period_)) return ended(flow_.end());
+      if (!flow_.advance_period()) return ended(flow_.end());
       states_.push_front(flow_.state());
       if (states_.size() > best_.size() + 1) states_.pop_back();
-      flow_.forget_before(begin_ + period_ - options_.longest);
+      flow_.forget_before(flow_.time() - options_.longest);
       if (look_back()) return finished(std::move(found_));
     }
     return ended(ImpactStatus::not_settled);
@@ -140,7 +139,7 @@ class ImpactSearch {
     response.motion.status = status;
     const bool lasts = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
     if (lasts) {
-      response.motion.chattering_end = flow_.end_time();
+      response.motion.chattering_end = period_ + flow_.end_time();
       response.motion.chattering_contact = flow_.end_contact();
     }
     return finished(std::move(response));
@@ -155,7 +154,6 @@ class ImpactSearch {
   std::vector<NearReturn> best_;
   std::vector<double> tried_;  // the distance at which Newton's method was last tried
   ImpactResponse found_;
-  double begin_ = 0.0;
   int period_ = 0;
 };
 
