@@ -43,6 +43,8 @@ std::string phrase_of(solvers::PhasesStatus status) {
       return "a loss factor has no equation in time";
     case tolerance_missed:
       return "their error stays above 1e-6";
+    case too_many_phases:
+      return "they have too many unknowns";
     case no_motion_near:
       return "no motion of the structure is found near the balance";
     case cancelled:

@@ -165,8 +165,8 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
 std::string phases_sentence(const Recommendation& found) {
   const SolvePoint& phases = *found.phases;
   return fmt::format(
-      " Contact phases {}: {} from a balance of {} Fourier functions and {} points ({}). With that balance, "
-      "analysis.phases = true gives the instants of contact, the errors of the response and the stability of "
+      " Contact phases {}: {} from a balance of {} Fourier functions and {} points ({}). A run "
+      "with that balance gives the instants of contact, the errors of the response and the stability of "
       "the motion.",
       found.choice ? "are faster" : "reach it", duration_text(phases.seconds), phases.functions,
       phases.points, errors_of(phases));

@@ -79,6 +79,7 @@ class Search {
   Search(const PhaseModel& model, const ContactPhasesOptions& options, Index samples)
       : model_(model),
         options_(options),
+        operations_left_(options.max_operations),
         times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))),
         free_(model.free_motion(times_)),
         observer_([this](const Progress& progress) {
@@ -91,7 +92,7 @@ class Search {
     PhaseMotion result;
     const ContactMotion first = detail::reach(model_, {start, detail::periodic_slopes(start)}, start_force);
     Found found = at(first, result);
-    for (std::vector<Layout> tried; !found.agrees() && !cancelled_ && result.changes < options_.max_changes;
+    for (std::vector<Layout> tried; !found.agrees() && !stopped() && result.changes < options_.max_changes;
          ++result.changes) {
       const bool lost = found.is_lost();
       if (lost || is_among(tried, found.phases_of_motion)) {
@@ -112,11 +113,35 @@ class Search {
   }
 
  private:
-  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) const {
-    PhaseNewtonResult newton = detail::solve_phases(model_, std::move(iterate), nodes_,
-                                                    {options_.max_iterations, tolerance, observer_});
-    result.iterations += newton.iterations;
-    return {model_, std::move(newton), nodes_, times_, free_};
+  using NewtonMethod = PhaseNewtonResult (*)(const PhaseModel&, PhaseIterate, const LegendreNodes&,
+                                             const detail::NewtonLimits&);
+
+  bool stopped() const { return cancelled_ || exhausted_; }
+
+  // As many steps as the operations allow; none where they do not allow three.
+  PhaseNewtonResult newton(NewtonMethod method, PhaseIterate iterate, double tolerance, PhaseMotion& result) {
+    constexpr double least_steps = 3.0;
+    const double poles = double(model_.response.poles()),
+                 n = double(nodes_.count()) * double(iterate.layout.grid().panels.size()) +
+                     double(iterate.layout.passages.size()),
+                 of_step = n * n * (n / 1.5 + 4.0 * poles) + 1.0, steps = operations_left_ / of_step;
+    if (steps < least_steps) {
+      exhausted_ = true;
+      PhaseNewtonResult none;
+      none.residual = std::numeric_limits<double>::infinity();
+      none.iterate = std::move(iterate);
+      return none;
+    }
+    const int most = static_cast<int>(std::min<double>(options_.max_iterations, steps));
+    PhaseNewtonResult solved = method(model_, std::move(iterate), nodes_, {most, tolerance, observer_});
+    result.iterations += solved.iterations;
+    operations_left_ -= of_step * (solved.iterations + 1);
+    return solved;
+  }
+
+  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) {
+    PhaseNewtonResult found = newton(&detail::solve_phases, std::move(iterate), tolerance, result);
+    return {model_, std::move(found), nodes_, times_, free_};
   }
 
   // Stiff contact does not fit the panels at first: with the passages held they are refined until they
@@ -128,9 +153,7 @@ class Search {
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
     for (int level = 0; level < 6; ++level) {
-      PhaseNewtonResult held =
-          detail::solve_forces(model_, iterate, nodes_, {options_.max_iterations, rough, observer_});
-      result.iterations += held.iterations;
+      PhaseNewtonResult held = newton(&detail::solve_forces, iterate, rough, result);
       if (!held.converged) break;
       iterate = std::move(held.iterate);
       const Eigen::MatrixXd& coefficients = iterate.forces.coefficients();
@@ -150,7 +173,7 @@ class Search {
   // measured by the motion after it, multiplies it.
   void refine(Found& found, PhaseMotion& result) {
     constexpr double part = 0.05, rounding = 1e-14, safety = 3.0, least = 0.1;
-    bool tight = false, compared = false;
+    bool tight = false, compared = false, by_panels = false;
     for (double factor = 1.0;; tight = true) {
       detail::EstimatedError error =
           detail::error_of(found.newton, detail::rms_of(found.motion.displacement));
@@ -161,12 +184,14 @@ class Search {
       const LegendreNodes nodes = nodes_;
       const bool free = finer.forces.panels().empty();
       const bool resolved = free || (compared && error.resolution <= options_.tolerance);
-      const bool finest = resolved || !detail::make_finer(finer, nodes_, error.resolution, options_);
+      const bool finest = resolved || !make_finer(finer, error.resolution, by_panels);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
       if (!better.agrees()) {
         nodes_ = nodes;  // those of the motion that stays
-        return;
+        if (finest || by_panels) return;
+        by_panels = true;  // long panels of many nodes may lose their digits
+        continue;
       }
       if (!finest) {
         const double distance = detail::rms_of(better.motion.displacement - found.motion.displacement) /
@@ -178,11 +203,17 @@ class Search {
     }
   }
 
+  bool make_finer(PhaseIterate& iterate, double error, bool by_panels) {
+    return by_panels ? detail::divide_panels(iterate, options_)
+                     : detail::make_finer(iterate, nodes_, error, options_);
+  }
+
   PhaseMotion describe(const Found& found, PhaseMotion result) const {
     const PhaseIterate& iterate = found.newton.iterate;
     result.residual = found.newton.residual;
     result.unknowns = static_cast<int>(iterate.forces.coefficients().size()) +
                       static_cast<int>(iterate.layout.passages.size());
+    if (exhausted_) result.status = PhasesStatus::too_many_phases;
     if (cancelled_) result.status = PhasesStatus::cancelled;
     if (!found.agrees()) return result;
     if (result.estimated_error <= options_.tolerance)
@@ -195,11 +226,12 @@ class Search {
 
   const PhaseModel& model_;
   const ContactPhasesOptions& options_;
+  double operations_left_;
   Eigen::VectorXd times_;  // l / N
   ContactMotion free_;     // without contact, there
   LegendreNodes nodes_{options_.nodes};
   Observer observer_;  // that of the options, which is not called after it has returned false
-  bool cancelled_ = false;
+  bool cancelled_ = false, exhausted_ = false;
 };
 
 }  // namespace
@@ -211,6 +243,7 @@ void ContactPhasesOptions::validate() const {
   detail::require_at_least("contact_phases", "max_panels", max_panels, 1);
   detail::require_at_least("contact_phases", "max_iterations", max_iterations, 1);
   detail::require_at_least("contact_phases", "max_changes", max_changes, 0);
+  detail::require_positive("contact_phases", "max_operations", max_operations);
 }
 
 std::string_view to_string(PhasesStatus status) {
@@ -220,6 +253,7 @@ std::string_view to_string(PhasesStatus status) {
                                         {tolerance_missed, "tolerance_missed"},
                                         {rigid_contact, "rigid_contact"},
                                         {velocity_and_no_mass, "velocity_and_no_mass"},
+                                        {too_many_phases, "too_many_phases"},
                                         {resonant, "resonant"},
                                         {structural_damping, "structural_damping"},
                                         {cancelled, "cancelled"}},

@@ -57,13 +57,16 @@ bool divide(PhaseIterate& iterate, double share) {
   return cut;
 }
 
+bool divide_panels(PhaseIterate& iterate, const ContactPhasesOptions& options) {
+  return static_cast<int>(iterate.forces.panels().size()) < options.max_panels &&
+         divide(iterate, 0.1 * options.tolerance);
+}
+
 bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, double error,
                 const ContactPhasesOptions& options) {
   constexpr double margin = 0.3;
   const Index q = nodes.count();
-  if (q == options.max_nodes)
-    return static_cast<int>(iterate.forces.panels().size()) < options.max_panels &&
-           divide(iterate, 0.1 * options.tolerance);
+  if (q == options.max_nodes) return divide_panels(iterate, options);
   const double digits = std::log(error / (margin * options.tolerance)), decay = decay_of(iterate.forces);
   const double most = options.max_nodes;  // where they do not decay, or the error is no number
   const double more =

@@ -23,6 +23,10 @@ double rms_of(const Eigen::MatrixXd& values);
 /// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
 bool divide(PhaseIterate& iterate, double share);
 
+/// The panels whose last coefficients are above a tenth of the tolerance. False where none are or there are
+/// max_panels already.
+bool divide_panels(PhaseIterate& iterate, const ContactPhasesOptions& options);
+
 /// So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
 /// least a third more, or divided panels. False where neither is left.
 bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, double error,

@@ -72,6 +72,7 @@ class PoleResponse {
   PoleResponse(const ContactDynamics& dynamics, double period);
 
   int contacts() const { return static_cast<int>(constant_.rows()); }
+  Eigen::Index poles() const { return exponents_.size(); }
   /// What contact c does at once by a force of 1 N: the displacement, m, and without mass the velocity, m per
   /// period.
   double displacement_at_once(int c) const { return constant_(c, c); }

@@ -27,6 +27,7 @@ enum class PhasesStatus {
   no_motion_near,    ///< the equations have no solution near the start: it is not near a motion of the
                      ///< structure
   tolerance_missed,  ///< the error is estimated above the tolerance at the largest number of unknowns
+  too_many_phases,   ///< the first steps of Newton's method would take more than max_operations
   /// a law has no finite stiffness at a contact with mass, or at a structure that is free to move
   rigid_contact,
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
@@ -55,7 +56,10 @@ struct ContactPhasesOptions {
   int max_panels = 400;
   int max_iterations = 20;  ///< of Newton's method, each time
   int max_changes = 12;     ///< of the phases
-  Observer observer = {};   ///< called before each step of Newton's method
+  /// Floating-point operations of all Newton steps. N unknowns take about 2/3 N^3 in one step and 64 N^2
+  /// bytes of memory; phases whose first three steps would take more are not sought.
+  double max_operations = 5e11;
+  Observer observer = {};  ///< called before each step of Newton's method
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
