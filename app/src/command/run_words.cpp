@@ -109,6 +109,22 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
                                   quantity(highest, "m"), beside_gap(highest, gap)));
 }
 
+/// How far what was solved lies from the motion of the structure itself, where the record says it.
+void append_phases(std::vector<std::string>& sentences, const Summary& summary, bool curve) {
+  const std::string status = text_in(summary, quantities::phases_status);
+  const double error = number_in(summary, quantities::error_of_displacement),
+               force = number_in(summary, quantities::error_of_force);
+  if (std::isfinite(error)) {
+    sentences.push_back(
+        fmt::format("{} displacement is {} off that of the structure's own motion, by contact phases{}.",
+                    curve ? "At the peak the" : "The", percent(error),
+                    std::isfinite(force) ? ", and the contact force " + percent(force) : ""));
+  } else if (!status.empty() && status != "no_motion_near" && status != "not_computed") {
+    sentences.push_back("How far it is off the structure's own motion is not known (" + spaced(status) +
+                        ").");
+  }
+}
+
 void append_motions(std::vector<std::string>& sentences, const Summary& summary, double gap) {
   const auto* motions = value_in<Table>(summary, quantities::motions.name);
   if (motions == nullptr || motions->rows() == 0) return;
@@ -289,6 +305,7 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
   else
     append_motion(sentences, summary, gap);
   append_contact(sentences, summary, curve ? "up to " : "");
+  append_phases(sentences, summary, curve);
   return sentences;
 }
 

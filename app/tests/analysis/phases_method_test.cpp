@@ -1,6 +1,7 @@
 // time.method = "phases": the motion of the structure itself in place of a balance.
 #include <gtest/gtest.h>
 
+#include "period_oracle/rigid_reference.hpp"
 #include "support/bar_scene.hpp"
 #include "support/chain_files.hpp"
 #include "support/scene_error.hpp"
@@ -91,6 +92,24 @@ TEST(PhasesMethod, TakesARigidObstacleAtATipWithoutMass) {
   ASSERT_TRUE(phases.rigid.has_value());
   EXPECT_LT(phases.rigid->max_penetration, 1e-9 * scene.contact.gap);
   EXPECT_GT(phases.rigid->min_force, -1e-6 * phases.force().maxCoeff());
+}
+
+// One panel of many nodes loses its digits over half a period of a bar with fast modes.
+TEST(PhasesMethod, DividesThePanelsOfLongContact) {
+  for (const char* gap : {"3e-4", "1e-4", "3e-5"}) {
+    const Scene scene = load_scene(
+        WAVEBALANCE_SCENES "/jones_legrand_2014/case1_rigid.toml",
+        std::vector<std::string>{"time.method=phases", "time.tolerance=1e-12", "forcing.frequency=90",
+                                 std::string("contact.gap=") + gap},
+        std::vector<std::string>{"time.trial", "time.weight", "time.functions", "time.quadrature_points",
+                                 "time.formulation", "time.inner_products"});
+    const Response phases = phases_response(scene);
+    ASSERT_TRUE(phases.converged) << gap << ": " << phases.status;
+    const auto joined = oracle::rigid_reference(make_model(scene).structure, scene.contact.gap, 90.0,
+                                                scene.analysis.output_points);
+    ASSERT_TRUE(joined.converged) << gap;
+    EXPECT_LT(relative_rms_error(phases.displacement(), joined.displacement), 1e-7) << gap;
+  }
 }
 
 TEST(PhasesMethod, NamesWhyItDoesNotApplyAndWritesNoMotion) {

@@ -78,6 +78,44 @@ TEST(PhasesOfAResponse, AreThoseOfARigidObstacleAtATipWithoutMass) {
   EXPECT_EQ(value_of<Table>(record.summary, "phases").rows(), 1u);
 }
 
+TEST(PhasesOfAResponse, AreThereUnlessTheSceneTurnsThemOff) {
+  const Record usual = analyse(scene_of({}), Observer()),
+               without = analyse(scene_of({"analysis.phases=false"}), Observer());
+  ASSERT_TRUE(usual.converged && without.converged);
+  EXPECT_EQ(value_of<std::string>(usual.summary, "phases_status"), "converged");
+  EXPECT_EQ(value_of<std::string>(usual.summary, "stability_by"), "phases");
+  EXPECT_GT(value_of<double>(usual.summary, "error_of_displacement"), 0.0);
+  for (const char* name : {"phases_status", "phases", "error_of_displacement", "stability_by"})
+    EXPECT_EQ(find_entry(without.summary, name), nullptr) << name;
+}
+
+TEST(PhasesOfAResponse, AreNotSoughtWithoutContact) {
+  std::string text = bar_scene;
+  const std::size_t from = text.find("law ="), to = text.find("[forcing]");
+  text.replace(from, to - from, "law = \"none\"\n");
+  const Scene scene = parse_scene(text, "bar.toml");
+  const Record record = analyse(scene, Observer());
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(find_entry(record.summary, "phases_status"), nullptr);
+}
+
+TEST(PhasesOfAResponse, GiveNoVerdictWhereNoMotionOfTheStructureIsNear) {
+  const Scene scene = load_scene(WAVEBALANCE_SCENES "/extremes/found_stiff.toml", {});
+  const Record record = analyse(scene, Observer());
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "no_motion_near");
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "no_motion_near");
+  EXPECT_EQ(find_entry(record.summary, "stability_by"), nullptr);
+}
+
+TEST(PhasesOfAResponse, ThatWouldHaveTooManyUnknownsAreNotSought) {
+  const Scene scene = load_scene(WAVEBALANCE_SCENES "/matrices/cantilevers.toml", {});
+  const Record record = analyse(scene, Observer());
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "too_many_phases");
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "balance");
+}
+
 TEST(PhasesOfAResponse, AreRefusedForModes) {
   EXPECT_THROW(parse_scene(rod_scene, "rod.toml", std::vector<std::string>{"analysis.phases=true"}),
                SceneError);

@@ -207,7 +207,7 @@ TEST(Recommendation, NamesContactPhasesWhereTheyAreFasterAndKeepsThePair) {
   EXPECT_NE(
       faster.sentences.find(
           " Contact phases are faster: 100 µs from a balance of 31 Fourier functions and 64 points (error "
-          "1.0e-8 of the displacement). With that balance, analysis.phases = true gives "),
+          "1.0e-8 of the displacement). A run with that balance gives "),
       std::string::npos)
       << faster.sentences;
   for (const auto& found : {with(8e-4, 1e-8), with(1e-2, 1e-8), with(4.1e-4, 1e-5)}) {

@@ -12,10 +12,11 @@ namespace wavebalance::app {
 namespace {
 
 TEST(ResponseFigure, ShadesThePhasesOfContactInEachPanel) {
-  for (const char* phases : {"true", "false"}) {
-    const Scene scene = parse_scene(bar_scene, "bar.toml",
-                                    std::vector<std::string>{"analysis.phases=" + std::string(phases)});
-    const Response response = weighted_residual_response(scene);
+  for (const bool phases : {true, false}) {
+    const Scene scene = parse_scene(bar_scene, "bar.toml", {});
+    ResponseOptions options;
+    options.phases = phases;
+    const Response response = weighted_residual_response(scene, options);
     const Figure figure = response_figure(scene, response);
     ASSERT_EQ(figure.panels.size(), 3u);
     for (const Panel& panel : figure.panels) {
@@ -29,7 +30,7 @@ TEST(ResponseFigure, ShadesThePhasesOfContactInEachPanel) {
         for (const solvers::ContactPhase& phase : response.phases->motion.phases)
           in_contact += phase.length();
       EXPECT_NEAR(shaded, in_contact, 1e-12);
-      EXPECT_EQ(in_contact > 0.0, std::string(phases) == "true");
+      EXPECT_EQ(in_contact > 0.0, phases);
       EXPECT_EQ(panel.x.label.find("shaded") != std::string::npos, in_contact > 0.0);
     }
   }

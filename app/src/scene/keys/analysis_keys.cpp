@@ -110,6 +110,12 @@ SceneValue stability_by_default(const Scene& scene) {
   return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
 }
 
+/// Of one response they cost little beside its stability; along a curve as much as the curve, or more.
+SceneValue phases_by_default(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::forced_response && !solves_by_phases(scene) &&
+         scene.contact.law != no_law;
+}
+
 SceneValue default_motion_points(const Scene& scene) {
   const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
                      scene.analysis.type == AnalysisType::amplitude_sweep;
@@ -152,7 +158,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       "true solves for the motion of the structure itself near the response, by phases of contact: its "
       "instants of contact, the errors of the response, and the stability of the structure; of a sweep "
       "errors and stability at every point of its curves, in place of the peak and the special points alone",
-      optional,
+      derived("true of a response with contact, false of a sweep", phases_by_default),
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"}) && by_balance()));
   analysis(&Analysis::subharmonic, "subharmonic", "",
            "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "

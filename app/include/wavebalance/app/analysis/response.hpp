@@ -69,11 +69,12 @@ struct Response {
   /// not converged, and the status says `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
+  double phases_seconds = 0.0;           ///< beside it, of the phases of a balance's response
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   /// Set if converged, with ResponseOptions::stability.
   std::optional<ResponseStability> stability;
-  /// Set if converged, in scenes with analysis.phases of a structure whose modes are known, and in scenes by
+  /// Set if converged, with ResponseOptions::phases of a structure whose modes are known, and in scenes by
   /// phases where a motion was found, then without errors of a response.
   std::optional<solvers::ResponsePhases> phases;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
@@ -105,6 +106,7 @@ struct ResponseOptions {
   Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
   bool stability = false;         ///< of weighted_residual_response() and phases_response()
+  bool phases = false;            ///< of weighted_residual_response(): Response::phases
   Observer observer{};
 };
 
