@@ -92,7 +92,7 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
                 std::string("not with friction, of which there are no phases yet; expected ") + expected);
   };
   refuse(solves_by_phases(scene), "time.method", "\"balance\"");
-  refuse(scene.analysis.phases, "analysis.phases", "false");
+  refuse(scene.analysis.phases && has_friction(scene.contact.law), "analysis.phases", "false");
   refuse(scene.analysis.exact, "analysis.exact", "false");
 }
 
