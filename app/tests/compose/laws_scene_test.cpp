@@ -120,7 +120,8 @@ std::string laws_table() {
   for (const contact::LawEntry& law : contact::law_catalogue()) {
     std::string keys;
     for (const contact::LawParameter& one : law.parameters)
-      keys += (keys.empty() ? "`" : ", `") + std::string(one.name) + "`";
+      if (one.name != "tangents")  // which the directions of a contact say
+        keys += (keys.empty() ? "`" : ", `") + std::string(one.name) + "`";
     text += fmt::format("| `\"{}\"` | {} | {} |\n", law.name, law.force, keys.empty() ? "none" : keys);
   }
   return text;
