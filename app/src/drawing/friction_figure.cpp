@@ -66,6 +66,10 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, i
   panel.y.label = "Contact";
   panel.y.lower = 0.5;
   panel.y.upper = double(contacts.size()) + 0.5;
+  constexpr std::size_t most_ticks = 12;
+  for (std::size_t i = 0; i < contacts.size(); i += 1 + contacts.size() / most_ticks)
+    panel.y.ticks.push_back(double(i) + 1.0);
+  panel.y.tick_format = "%.0f";
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto& states = contacts[i].period.state;
     for (std::size_t from = 0, to = 0; from < states.size(); from = to) {
