@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/root.hpp"
+#include "linalg/root.hpp"
 #include "linalg/index.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "phases/phase_refinement.hpp"

@@ -15,12 +15,8 @@ constexpr double rounding_of_sums = 16.0 * std::numeric_limits<double>::epsilon(
 
 }  // namespace
 
-ImpactEquations::ImpactEquations(const ImpactModel& model, std::vector<int> contacts)
-    : model_(model), contacts_(std::move(contacts)) {
-  double stiffest = std::numeric_limits<double>::infinity();
-  for (const int c : contacts_) stiffest = std::min(stiffest, model.inverse_mass()(c, c));
-  impulse_scale_ = contacts_.empty() ? 1.0 : model.velocity_scale() / stiffest;
-}
+ImpactEquations::ImpactEquations(const ImpactModel& model, std::vector<int> contacts, double impulse_scale)
+    : model_(model), contacts_(std::move(contacts)), impulse_scale_(impulse_scale) {}
 
 // Between impact j before and i, in (0, 1]: the same impact is a period before.
 double ImpactEquations::share(Index i, Index j) const {
@@ -74,7 +70,7 @@ void ImpactEquations::evaluate(const Eigen::VectorXd& unknowns) {
     add_free(i);
     for (Index j = 0; j < k; ++j) add_impact(i, j);
     const double by_impulse = impulse_scale_ * model_.inverse_mass()(c, c) /
-                              ((1.0 + model_.problem().restitution) * model_.velocity_scale());
+                              ((1.0 + model_.problem().restitution[c]) * model_.velocity_scale());
     residual_[k + i] += by_impulse * unknowns_[k + i];
     rounding_[k + i] += by_impulse * std::abs(unknowns_[k + i]);
     matrix_(k + i, k + i) += by_impulse;

@@ -14,14 +14,14 @@ struct ParameterSlopes {
 
 /// The 2 K equations of K impacts in ascending order: displacement less gap over the scale of displacements,
 /// then (p J / (1 + e) - v) over that of velocities. Unknowns: instants (periods), then impulses (N s) over
-/// impulse_scale(). Between two instants the Green function is that of their order, so that the equations are
+/// impulse_scale. Between two instants the Green function is that of their order, so that the equations are
 /// smooth where impacts pass each other.
 class ImpactEquations {
  public:
-  ImpactEquations(const ImpactModel& model, std::vector<int> contacts);
+  /// `impulse_scale`, N s.
+  ImpactEquations(const ImpactModel& model, std::vector<int> contacts, double impulse_scale);
 
   Eigen::Index impacts() const { return static_cast<Eigen::Index>(contacts_.size()); }
-  double impulse_scale() const { return impulse_scale_; }
 
   /// Evaluates residual, matrix and rounding errors.
   void evaluate(const Eigen::VectorXd& unknowns);

@@ -52,7 +52,7 @@ void ImpactFlow::forget_before(double time) {
 // The impact of a contact at its gap now. False where the motion ends here.
 bool ImpactFlow::rebound(int contact) {
   constexpr double vanishing = 1e-6;
-  const double restitution = model_.problem().restitution;
+  const double restitution = model_.problem().restitution[contact];
   const double before = model_.motion(state_, time_).velocity[contact];
   const double impulse = (1.0 + restitution) * before / model_.inverse_mass()(contact, contact);
   state_ -= impulse * model_.left().row(contact).transpose();

@@ -51,8 +51,9 @@ double within_period(double time) {
 // Newton's method on the equations of impacts, which damped_newton() drives.
 class ImpactSystem {
  public:
-  ImpactSystem(const detail::ImpactModel& model, const std::vector<int>& contacts, const Observer& observer)
-      : equations_(model, contacts), observer_(observer) {}
+  ImpactSystem(const detail::ImpactModel& model, const detail::ImpactUnknowns& unknowns,
+               const Observer& observer)
+      : equations_(model, unknowns.contacts, unknowns.impulse_scale), observer_(observer) {}
 
   double evaluate(const Eigen::VectorXd& unknowns) {
     equations_.evaluate(unknowns);
@@ -159,6 +160,10 @@ bool in_order(const detail::ImpactUnknowns& unknowns) {
 
 namespace detail {
 
+double impulse_scale_of(const ImpactModel& model) {
+  return model.velocity_scale() / model.inverse_mass().diagonal().minCoeff();
+}
+
 double allowed_penetration(const ImpactModel& model) { return 1e-12 * model.displacement_scale(); }
 
 ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGuess>& start) {
@@ -167,12 +172,12 @@ ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGue
   std::ranges::stable_sort(sorted, {}, &ImpactGuess::time);
   ImpactUnknowns unknowns;
   for (const ImpactGuess& guess : sorted) unknowns.contacts.push_back(guess.contact);
-  const double scale = ImpactEquations(model, unknowns.contacts).impulse_scale();
+  unknowns.impulse_scale = impulse_scale_of(model);
   const auto count = Index(sorted.size());
   unknowns.values.resize(2 * count);
   for (Index i = 0; i < count; ++i) {
     unknowns.values[i] = sorted[static_cast<std::size_t>(i)].time;
-    unknowns.values[count + i] = sorted[static_cast<std::size_t>(i)].impulse / scale;
+    unknowns.values[count + i] = sorted[static_cast<std::size_t>(i)].impulse / unknowns.impulse_scale;
   }
   return unknowns;
 }
@@ -180,13 +185,12 @@ ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGue
 ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnknowns& unknowns,
                        ImpactMotion found) {
   const auto count = Index(unknowns.contacts.size());
-  const double scale = ImpactEquations(*model, unknowns.contacts).impulse_scale();
-  const double restitution = model->problem().restitution;
   for (Index i = 0; i < count; ++i) {
     Impact impact;
     impact.contact = unknowns.contacts[static_cast<std::size_t>(i)];
     impact.time = unknowns.values[i];
-    impact.impulse = scale * unknowns.values[count + i];
+    impact.impulse = unknowns.impulse_scale * unknowns.values[count + i];
+    const double restitution = model->problem().restitution[impact.contact];
     impact.velocity_before =
         impact.impulse * model->inverse_mass()(impact.contact, impact.contact) / (1.0 + restitution);
     impact.velocity_after = -restitution * impact.velocity_before;
@@ -243,7 +247,7 @@ ImpactMotion impact_motion(const ImpactsProblem& problem, const std::vector<Impa
     return found;
   }
   detail::ImpactUnknowns unknowns = detail::unknowns_of(*model, start);
-  ImpactSystem system(*model, unknowns.contacts, options.observer);
+  ImpactSystem system(*model, unknowns, options.observer);
   const detail::NewtonRun run =
       detail::damped_newton(system, unknowns.values, options.max_iterations, smallest_step);
   found.iterations = run.iterations;
@@ -287,6 +291,8 @@ Eigen::MatrixXd ImpactMotion::velocity(const Eigen::VectorXd& times) const {
   for (Index k = 0; k < times.size(); ++k) values.col(k) = motion_at(*this, times[k]).velocity;
   return values;
 }
+
+double ImpactMotion::frequency() const { return model_of(*this).problem().frequency; }
 
 double ImpactMotion::energy_lost() const {
   double sum = 0.0;

@@ -9,13 +9,17 @@
 
 namespace wavebalance::solvers::detail {
 
+/// N s, the size of impulses: that of the heaviest contact at velocity_scale().
+double impulse_scale_of(const ImpactModel& model);
+
 /// How far a contact may pass its gap between impacts without penetrating, m.
 double allowed_penetration(const ImpactModel& model);
 
 /// Instants and impulses of impacts in ascending order, which solve the equations or are a start.
 struct ImpactUnknowns {
   std::vector<int> contacts;
-  Eigen::VectorXd values;  ///< as of ImpactEquations
+  Eigen::VectorXd values;      ///< as of ImpactEquations
+  double impulse_scale = 1.0;  ///< N s
 };
 
 /// The start in ascending order from the first instant within a period on.

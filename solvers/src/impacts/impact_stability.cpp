@@ -35,7 +35,7 @@ ImpactSlopes slopes_of(const ImpactMotion& motion, std::size_t i) {
   const double since = impact.time - last.time + (i == 0 ? 1.0 : 0.0);
   const Eigen::VectorXcd state = model.growth(since * model.period()).cwiseProduct(motion.states.col(before));
   const double acceleration = model.motion(state, impact.time).acceleration[c];
-  const double gain = (1.0 + model.problem().restitution) / model.inverse_mass()(c, c);
+  const double gain = (1.0 + model.problem().restitution[c]) / model.inverse_mass()(c, c);
   return {gain, -gain * acceleration / impact.velocity_before, impact.impulse / impact.velocity_before};
 }
 

@@ -53,12 +53,15 @@ ImpactsProblem ImpactsProblem::over_periods(int times) const {
 void ImpactsProblem::validate() const {
   const char* who = "ImpactsProblem";
   detail::require_positive(who, "frequency", frequency);
-  if (!(restitution >= 0.0 && restitution <= 1.0)) detail::reject(who, "restitution", restitution, "in 0..1");
   const Index contacts = dynamics.contacts();
-  if (gaps.size() != contacts || contact_free.rows() != contacts || contact_free.cols() < 1)
-    throw std::invalid_argument("ImpactsProblem: there are " + std::to_string(gaps.size()) + " gaps and " +
+  if (gaps.size() != contacts || restitution.size() != contacts || contact_free.rows() != contacts ||
+      contact_free.cols() < 1)
+    throw std::invalid_argument("ImpactsProblem: there are " + std::to_string(gaps.size()) + " gaps, " +
+                                std::to_string(restitution.size()) + " restitutions and " +
                                 std::to_string(contact_free.rows()) + " motions without contact for " +
                                 std::to_string(contacts) + " contacts; there must be one each");
+  for (const double one : restitution)
+    if (!(one >= 0.0 && one <= 1.0)) detail::reject(who, "restitution", one, "in 0..1");
   if (!gaps.allFinite()) throw std::invalid_argument("ImpactsProblem: a gap is not finite; all must be");
   if (dynamics.structurally_damped())
     throw std::invalid_argument(
@@ -72,7 +75,7 @@ void ImpactsProblem::validate() const {
 }
 
 ImpactsProblem impacts_problem(const CondensedProblem& problem, const ContactDynamics& dynamics,
-                               const Eigen::VectorXd& gaps, double restitution) {
+                               const Eigen::VectorXd& gaps, const Eigen::VectorXd& restitution) {
   detail::FreeContacts free(problem.structure(), problem.load_harmonics(), dynamics.holding());
   ImpactsProblem result{dynamics, free.at(problem.frequency(), problem.load_factor()), problem.frequency(),
                         gaps, restitution};

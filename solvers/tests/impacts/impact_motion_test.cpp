@@ -227,7 +227,7 @@ TEST(ImpactMotionTest, NamesWhatIsWrongWithItsInput) {
   const ImpactsProblem good = scene.problem(dynamics);
   const auto words = [&](double restitution, double gap, double frequency, int contact) {
     const ImpactsProblem bad{dynamics, good.contact_free, frequency, Eigen::VectorXd::Constant(1, gap),
-                             restitution};
+                             Eigen::VectorXd::Constant(1, restitution)};
     return refusal([&] { impact_motion(bad, {{contact, 0.1, 1.0}}); });
   };
   EXPECT_EQ(words(1.5, 1.0, 1.0, 0), "ImpactsProblem: restitution is 1.5; it must be in 0..1");

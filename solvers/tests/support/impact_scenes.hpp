@@ -39,7 +39,7 @@ struct ImpactScene {
   }
   ImpactsProblem problem(const ContactDynamics& dynamics) const {
     ImpactsProblem result{dynamics, Eigen::MatrixXcd::Zero(contacts.rows(), 2), frequency(), gaps,
-                          restitution};
+                          Eigen::VectorXd::Constant(contacts.rows(), restitution)};
     result.contact_free.col(1) = contacts * free_amplitudes();
     return result;
   }

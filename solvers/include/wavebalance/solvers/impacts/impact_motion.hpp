@@ -78,6 +78,8 @@ class ImpactMotion {
 
   bool converged() const { return status == ImpactStatus::converged; }
   bool has_solution() const { return model != nullptr; }
+  /// Hz, 1 / its period. Throws std::invalid_argument without a solution.
+  double frequency() const;
   /// C x K displacements (m) and velocities (m/s) of the contacts at K times in periods; at an impact the
   /// velocity after it. Throw std::invalid_argument without a solution. O(K (log impacts + C poles)).
   Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;

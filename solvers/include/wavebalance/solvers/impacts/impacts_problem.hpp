@@ -8,14 +8,14 @@ namespace wavebalance::solvers {
 
 /// A structure of modes whose contacts meet rigid obstacles with Newton's law of restitution: contact c stays
 /// at or below its gap, and where it reaches it with the velocity v > 0, an impulse p along its direction
-/// leaves it with the velocity -e v. With J = S M^-1 S^T, p J_cc = (1 + e) v.
+/// leaves it with the velocity -e_c v. With J = S M^-1 S^T, p J_cc = (1 + e_c) v.
 struct ImpactsProblem {
   const ContactDynamics& dynamics;  ///< must outlive what refers to it
   /// C x (H + 1), m: the motion without contact, column n belongs to Re(a exp(2 pi i n t)), t in periods.
   Eigen::MatrixXcd contact_free;
-  double frequency = 0.0;     ///< 1 / period of the motion, Hz
-  Eigen::VectorXd gaps = {};  ///< C, m
-  double restitution = 1.0;   ///< e, 0..1
+  double frequency = 0.0;            ///< 1 / period of the motion, Hz
+  Eigen::VectorXd gaps = {};         ///< C, m
+  Eigen::VectorXd restitution = {};  ///< C, e_c, 0..1
 
   /// The same over so many of its periods.
   ImpactsProblem over_periods(int times) const;
@@ -30,6 +30,6 @@ Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics);
 /// What impacts take of a problem, at its frequency and load. Throws as ImpactsProblem::validate() does.
 /// O(n^3) for each harmonic of the load.
 ImpactsProblem impacts_problem(const CondensedProblem& problem, const ContactDynamics& dynamics,
-                               const Eigen::VectorXd& gaps, double restitution);
+                               const Eigen::VectorXd& gaps, const Eigen::VectorXd& restitution);
 
 }  // namespace wavebalance::solvers

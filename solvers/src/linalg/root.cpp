@@ -1,4 +1,4 @@
-#include "exact/root.hpp"
+#include "linalg/root.hpp"
 
 #include <gsl/gsl_roots.h>
 
